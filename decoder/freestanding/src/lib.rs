@@ -1,0 +1,66 @@
+//! The decoder as firmware would link it: no std, no allocator, its own panic handler.
+//!
+//! If anything pulls in std, the panic handler is there twice; if anything pulls in alloc, a global allocator is
+//! missing: either way this does not build. `check` then proves that no panic is reachable.
+#![no_std]
+
+use core::panic::PanicInfo;
+use subsurf_decoder::bssrdf::Model;
+use subsurf_decoder::container::Crc;
+use subsurf_decoder::{Bssrdf, ReadError};
+
+#[panic_handler]
+fn panic(_: &PanicInfo<'_>) -> ! {
+    loop {}
+}
+
+/// What a C caller hands in and gets back.
+#[repr(C)]
+pub struct Probe {
+    /// Two pixels, [column, row] each.
+    x_i: [i32; 2],
+    x_o: [i32; 2],
+    /// Distance in mm.
+    r_mm: f32,
+    /// Whether to compare CRCs.
+    check_crc: bool,
+    /// Results: Rd between the pixels, the albedo of the first, its profile at `r_mm`.
+    rd: [f32; 3],
+    albedo: [f32; 3],
+    log_profile: [f32; 3],
+    /// Sum over all planes, so that their accessors are linked.
+    sum: f32,
+}
+
+/// Parses `file` and calls every accessor; false if the file was refused.
+///
+/// # Safety
+/// `file` must point to `len` readable bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn subsurf_probe(file: *const u8, len: usize, probe: &mut Probe) -> bool {
+    // SAFETY: the caller promises `len` readable bytes at `file`.
+    let file = unsafe { core::slice::from_raw_parts(file, len) };
+    decode(file, probe).is_ok()
+}
+
+fn decode(file: &[u8], probe: &mut Probe) -> Result<(), ReadError> {
+    #[cfg(feature = "control")]
+    {
+        probe.sum = f32::from(file[probe.x_i[0] as usize]);
+    }
+    let crc = if probe.check_crc { Crc::Check } else { Crc::Skip };
+    let material = Bssrdf::parse_with(file, crc)?;
+    probe.rd = material.rd(probe.x_i, probe.x_o);
+    probe.albedo = material.albedo(probe.x_i);
+    if let Some(knot) = material.knot(probe.r_mm) {
+        probe.log_profile = material.profile(probe.x_i).at(knot);
+    }
+    probe.sum = match material.model() {
+        Model::BaseMaterials(planes) => {
+            let indices: u32 = planes.indices.iter().flatten().map(|&b| u32::from(b)).fold(0, u32::wrapping_add);
+            planes.profiles.iter().chain(planes.ratios.iter()).sum::<f32>() + indices as f32
+        }
+        Model::PerPixel(planes) => planes.profiles.iter().sum(),
+    };
+    Ok(())
+}

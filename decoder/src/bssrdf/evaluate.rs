@@ -1,0 +1,185 @@
+//! Rd, profiles and albedo of a checked file (Yatagawa et al. 2020, eq. 1-4).
+
+use super::reader::{Bssrdf, Model};
+use crate::bytes::F32Le;
+
+/// Where a distance falls between the nodes of a profile (eq. 3).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Knot {
+    /// Node h below, 0 to S − 2.
+    pub h: usize,
+    /// Weight w of node h + 1, 0 to 1.
+    pub w: f32,
+}
+
+/// The log-scale scattering profile P̂_x of one pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct LocalProfile<'a> {
+    source: Source<'a>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Source<'a> {
+    /// t P̂_{b₁} + (1 − t) P̂_{b₂}, with the first value of either profile.
+    Blend {
+        profiles: F32Le<'a>,
+        start: [usize; 2],
+        t: f32,
+    },
+    /// The pixel's own values, one in every plane of `pixels`.
+    Own {
+        profiles: F32Le<'a>,
+        pixel: usize,
+        pixels: usize,
+    },
+}
+
+impl LocalProfile<'_> {
+    /// P̂_x^h, natural log of mm⁻², of node `h` (eq. 4); zeros from S on.
+    #[must_use]
+    pub fn node(&self, h: usize) -> [f32; 3] {
+        match self.source {
+            Source::Blend { profiles, start, t } => {
+                let [p1, p2] =
+                    start.map(|start| profiles.rgb_at(start.saturating_add(h.saturating_mul(3))));
+                lerp(p2, p1, t)
+            }
+            Source::Own {
+                profiles,
+                pixel,
+                pixels,
+            } => {
+                let channel = |c: usize| {
+                    let plane = h.saturating_mul(3).saturating_add(c);
+                    let at = plane.saturating_mul(pixels).saturating_add(pixel);
+                    profiles.get(at).unwrap_or(0.0)
+                };
+                [channel(0), channel(1), channel(2)]
+            }
+        }
+    }
+
+    /// P̂_x(r) = (1 − w) P̂_x^h + w P̂_x^{h+1} (eq. 3), natural log of mm⁻².
+    #[must_use]
+    pub fn at(&self, knot: Knot) -> [f32; 3] {
+        lerp(
+            self.node(knot.h),
+            self.node(knot.h.saturating_add(1)),
+            knot.w,
+        )
+    }
+}
+
+/// (1 − w) a + w b.
+fn lerp(a: [f32; 3], b: [f32; 3], w: f32) -> [f32; 3] {
+    let [a0, a1, a2] = a;
+    let [b0, b1, b2] = b;
+    [a0 + w * (b0 - a0), a1 + w * (b1 - a1), a2 + w * (b2 - a2)]
+}
+
+impl<'a> Bssrdf<'a> {
+    /// h and w of distance `r_mm`; `None` beyond r_max, where Rd is 0, and for NaN.
+    #[must_use]
+    pub fn knot(&self, r_mm: f32) -> Option<Knot> {
+        let header = self.header();
+        if !(0.0..=header.r_max_mm).contains(&r_mm) {
+            return None;
+        }
+        let intervals = header.samples.saturating_sub(1);
+        let position = r_mm / header.r_max_mm * f32::from(intervals);
+        // `as` saturates, and the last interval takes r_max itself.
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "0 ≤ position ≤ 4095; the integer part is wanted"
+        )]
+        let h = (position as u16).min(intervals.saturating_sub(1));
+        Some(Knot {
+            h: h.into(),
+            w: position - f32::from(h),
+        })
+    }
+
+    /// Profile P̂_x of the pixel at `x` = [column, row]; outside the patch the addressing mode decides.
+    #[must_use]
+    pub fn profile(&self, x: [i32; 2]) -> LocalProfile<'a> {
+        let header = self.header();
+        let [column, row] = x;
+        let column = header.addressing.map(column, header.width) as usize;
+        let row = header.addressing.map(row, header.height) as usize;
+        let pixel = row
+            .saturating_mul(header.width as usize)
+            .saturating_add(column);
+        let source = match *self.model() {
+            Model::BaseMaterials(planes) => {
+                let stride = usize::from(header.samples).saturating_mul(3);
+                let pair = planes.indices.get(pixel).copied().unwrap_or([0; 2]);
+                Source::Blend {
+                    profiles: planes.profiles,
+                    start: pair.map(|index| usize::from(index).saturating_mul(stride)),
+                    t: planes.ratios.get(pixel).unwrap_or(0.0),
+                }
+            }
+            Model::PerPixel(planes) => Source::Own {
+                profiles: planes.profiles,
+                pixel,
+                pixels: usize::try_from(header.pixels()).unwrap_or(usize::MAX),
+            },
+        };
+        LocalProfile { source }
+    }
+
+    /// Rd = exp(½ (P̂_i + P̂_o)) in mm⁻² of two profiles at one distance (eq. 2).
+    #[must_use]
+    pub fn rd_at(&self, p_i: &LocalProfile<'_>, p_o: &LocalProfile<'_>, knot: Knot) -> [f32; 3] {
+        let [a0, a1, a2] = p_i.at(knot);
+        let [b0, b1, b2] = p_o.at(knot);
+        [a0 + b0, a1 + b1, a2 + b2].map(|sum| libm::expf(0.5 * sum))
+    }
+
+    /// Distance in mm of two pixels `dx`, `dy` apart; `None` outside the window, where Rd is 0.
+    #[must_use]
+    pub fn distance_mm(&self, dx: i32, dy: i32) -> Option<f32> {
+        let radius = u32::from(self.header().window_radius);
+        let (dx, dy) = (dx.unsigned_abs(), dy.unsigned_abs());
+        if dx > radius || dy > radius {
+            return None;
+        }
+        // Both are at most 1,023, so that the squares are exact in f32.
+        #[allow(clippy::cast_precision_loss, reason = "dx² + dy² < 2²⁴")]
+        let r2 = dx.saturating_mul(dx).saturating_add(dy.saturating_mul(dy)) as f32;
+        Some(libm::sqrtf(r2) * self.header().pitch_mm)
+    }
+
+    /// Diffuse reflectance Rd(x_i, x_o) in mm⁻², linear Rec. 709, between pixels given as [column, row] (eq. 1).
+    ///
+    /// Finite and ≥ 0; symmetric; 0 outside the window and beyond r_max. Pixels may lie outside the patch: the
+    /// addressing mode says what is there, and the distance is that of the coordinates as given.
+    #[must_use]
+    pub fn rd(&self, x_i: [i32; 2], x_o: [i32; 2]) -> [f32; 3] {
+        let [xi, yi] = x_i;
+        let [xo, yo] = x_o;
+        let r_mm = self.distance_mm(xi.saturating_sub(xo), yi.saturating_sub(yo));
+        match r_mm.and_then(|r_mm| self.knot(r_mm)) {
+            Some(knot) => self.rd_at(&self.profile(x_i), &self.profile(x_o), knot),
+            None => [0.0; 3],
+        }
+    }
+
+    /// Diffuse albedo Σ Rd(x_i, x) pitch² over the window of `x`, dimensionless, linear Rec. 709 (section 4.1).
+    #[must_use]
+    pub fn albedo(&self, x: [i32; 2]) -> [f32; 3] {
+        let radius = i32::from(self.header().window_radius);
+        let [column, row] = x;
+        let mut sum = [0.0_f32; 3];
+        for dy in radius.saturating_neg()..=radius {
+            for dx in radius.saturating_neg()..=radius {
+                let x_i = [column.saturating_add(dx), row.saturating_add(dy)];
+                for (sum, rd) in sum.iter_mut().zip(self.rd(x_i, x)) {
+                    *sum += rd;
+                }
+            }
+        }
+        sum.map(|sum| sum * self.header().pitch_mm * self.header().pitch_mm)
+    }
+}

@@ -1,0 +1,85 @@
+//! Little-endian reads from byte slices of any alignment. All offset arithmetic of the crate is here, and all of it is checked.
+
+/// Bytes `offset .. offset + N`, or `None` where they are not all there.
+pub(crate) fn array_at<const N: usize>(bytes: &[u8], offset: usize) -> Option<[u8; N]> {
+    bytes.get(offset..)?.first_chunk::<N>().copied()
+}
+
+/// Little-endian u16 at `offset`.
+pub(crate) fn u16_at(bytes: &[u8], offset: usize) -> Option<u16> {
+    array_at(bytes, offset).map(u16::from_le_bytes)
+}
+
+/// Little-endian u32 at `offset`.
+pub(crate) fn u32_at(bytes: &[u8], offset: usize) -> Option<u32> {
+    array_at(bytes, offset).map(u32::from_le_bytes)
+}
+
+/// Little-endian u64 at `offset`.
+pub(crate) fn u64_at(bytes: &[u8], offset: usize) -> Option<u64> {
+    array_at(bytes, offset).map(u64::from_le_bytes)
+}
+
+/// Little-endian f32 at `offset`.
+pub(crate) fn f32_at(bytes: &[u8], offset: usize) -> Option<f32> {
+    array_at(bytes, offset).map(f32::from_le_bytes)
+}
+
+/// `bytes[offset .. offset + length]` for numbers that came from a file; `None` where they lead outside.
+pub(crate) fn slice_at(bytes: &[u8], offset: u64, length: u64) -> Option<&[u8]> {
+    let start = usize::try_from(offset).ok()?;
+    let end = usize::try_from(offset.checked_add(length)?).ok()?;
+    bytes.get(start..end)
+}
+
+/// A borrowed run of little-endian `f32` values of any alignment.
+#[derive(Clone, Copy, Debug)]
+pub struct F32Le<'a>(&'a [[u8; 4]]);
+
+impl<'a> F32Le<'a> {
+    /// Views `bytes` as `f32`s; up to three bytes left over at the end are not part of the view.
+    #[must_use]
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Self(bytes.as_chunks().0)
+    }
+
+    /// Number of values.
+    #[must_use]
+    pub fn len(self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there are no values.
+    #[must_use]
+    pub fn is_empty(self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Value number `index`.
+    #[must_use]
+    pub fn get(self, index: usize) -> Option<f32> {
+        self.0.get(index).copied().map(f32::from_le_bytes)
+    }
+
+    /// All values in order.
+    pub fn iter(self) -> impl Iterator<Item = f32> + 'a {
+        self.0.iter().copied().map(f32::from_le_bytes)
+    }
+
+    /// The values as they stand in the file, ready for a texture upload.
+    #[must_use]
+    pub fn as_bytes(self) -> &'a [u8] {
+        self.0.as_flattened()
+    }
+
+    /// The values' bit patterns as signed integers, which compare branch-free.
+    pub(crate) fn bits(self) -> impl Iterator<Item = i32> + 'a {
+        self.0.iter().copied().map(i32::from_le_bytes)
+    }
+
+    /// Three consecutive values from `index`, zero where there are none.
+    pub(crate) fn rgb_at(self, index: usize) -> [f32; 3] {
+        let rgb = self.0.get(index..).and_then(<[[u8; 4]]>::first_chunk::<3>);
+        rgb.map_or([0.0; 3], |rgb| rgb.map(f32::from_le_bytes))
+    }
+}

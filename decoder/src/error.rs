@@ -1,0 +1,244 @@
+//! The one error of this crate.
+
+use core::fmt;
+
+/// A part of the file, to say where something is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Section {
+    /// Magic, version, size and section table.
+    FileHeader,
+    /// `BSSR`: size, pitch and model of a diffuse BSSRDF.
+    BssrdfHeader,
+    /// `PROF`: base scattering profiles.
+    BaseProfiles,
+    /// `MIXR`: mixture ratios.
+    MixtureRatios,
+    /// `BIDX`: base-material indices.
+    BaseIndices,
+    /// `LSPP`: per-pixel local scattering profiles.
+    LocalProfiles,
+    /// A kind that this version does not know.
+    Other([u8; 4]),
+}
+
+impl Section {
+    /// The section of a four-letter kind.
+    #[must_use]
+    pub const fn from_kind(kind: [u8; 4]) -> Self {
+        match &kind {
+            b"BSSR" => Self::BssrdfHeader,
+            b"PROF" => Self::BaseProfiles,
+            b"MIXR" => Self::MixtureRatios,
+            b"BIDX" => Self::BaseIndices,
+            b"LSPP" => Self::LocalProfiles,
+            _ => Self::Other(kind),
+        }
+    }
+
+    /// The four letters that stand for this section in the file; the file header has none and gives zeros.
+    #[must_use]
+    pub const fn kind(self) -> [u8; 4] {
+        match self {
+            Self::FileHeader => [0; 4],
+            Self::BssrdfHeader => *b"BSSR",
+            Self::BaseProfiles => *b"PROF",
+            Self::MixtureRatios => *b"MIXR",
+            Self::BaseIndices => *b"BIDX",
+            Self::LocalProfiles => *b"LSPP",
+            Self::Other(kind) => kind,
+        }
+    }
+}
+
+impl fmt::Display for Section {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::FileHeader => f.write_str("file header"),
+            Self::BssrdfHeader => f.write_str("BSSR (material header)"),
+            Self::BaseProfiles => f.write_str("PROF (base scattering profiles)"),
+            Self::MixtureRatios => f.write_str("MIXR (mixture ratios)"),
+            Self::BaseIndices => f.write_str("BIDX (base-material indices)"),
+            Self::LocalProfiles => f.write_str("LSPP (local scattering profiles)"),
+            Self::Other(kind) => write!(f, "{}", kind.escape_ascii()),
+        }
+    }
+}
+
+/// Why a file was refused. `offset` always counts bytes from the start of the file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The first eight bytes are not those of a `.subsurf` file.
+    NotSubsurf,
+    /// Written by a later, incompatible version of the format.
+    NewerVersion {
+        /// Major version of the file.
+        major: u16,
+        /// Minor version of the file.
+        minor: u16,
+    },
+    /// The file ends too early.
+    Truncated {
+        /// The part that is cut.
+        section: Section,
+        /// Bytes that should be there, from the start of the file.
+        need_bytes: u64,
+        /// Bytes that are there.
+        have_bytes: u64,
+    },
+    /// The number of sections is zero or above the limit.
+    SectionCount {
+        /// Number in the file.
+        count: u32,
+        /// Largest number allowed.
+        limit: u32,
+    },
+    /// A section begins before the one ahead of it ends, or before the section table ends.
+    Overlap {
+        /// The later of the two.
+        section: Section,
+        /// Where it begins.
+        offset: u64,
+        /// Where it may begin at the earliest.
+        earliest: u64,
+    },
+    /// A section is there twice.
+    Duplicate {
+        /// Which one.
+        section: Section,
+    },
+    /// A section that this content needs is not there.
+    Missing {
+        /// Which one.
+        section: Section,
+    },
+    /// A checksum does not fit: the file was damaged.
+    Checksum {
+        /// The damaged part.
+        section: Section,
+        /// CRC-32 that the file states.
+        stored: u32,
+        /// CRC-32 of the bytes that are there.
+        computed: u32,
+    },
+    /// A section's size does not follow from the header.
+    WrongSize {
+        /// Which one.
+        section: Section,
+        /// Bytes that the header asks for.
+        need_bytes: u64,
+        /// Bytes that the section has.
+        have_bytes: u64,
+    },
+    /// A code or count in a header has a value that this version does not allow.
+    BadField {
+        /// The section it stands in.
+        section: Section,
+        /// Where.
+        offset: u64,
+        /// Its value.
+        value: u32,
+    },
+    /// A number is not finite or outside its range.
+    BadNumber {
+        /// The section it stands in.
+        section: Section,
+        /// Where.
+        offset: u64,
+        /// Its value.
+        value: f32,
+        /// Smallest value allowed.
+        min: f32,
+        /// Largest value allowed.
+        max: f32,
+    },
+    /// A base-material index leads outside the table of profiles.
+    IndexOutOfRange {
+        /// The section it stands in.
+        section: Section,
+        /// Where.
+        offset: u64,
+        /// The index.
+        index: u32,
+        /// Number of base materials.
+        len: u32,
+    },
+}
+
+impl core::error::Error for ReadError {}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NotSubsurf => f.write_str("not a .subsurf file (its first 8 bytes are others)"),
+            Self::NewerVersion { major, minor } => {
+                write!(
+                    f,
+                    "format version {major}.{minor}; this reader knows version 1"
+                )
+            }
+            Self::Truncated {
+                section,
+                need_bytes,
+                have_bytes,
+            } => write!(
+                f,
+                "{section}: file is cut, needs {need_bytes} bytes, has {have_bytes}"
+            ),
+            Self::SectionCount { count, limit } => {
+                write!(f, "file header: {count} sections, allowed are 1 to {limit}")
+            }
+            Self::Overlap {
+                section,
+                offset,
+                earliest,
+            } => write!(
+                f,
+                "{section}: begins at byte {offset}, inside what ends at byte {earliest}"
+            ),
+            Self::Duplicate { section } => write!(f, "{section}: is there twice"),
+            Self::Missing { section } => write!(f, "{section}: is missing"),
+            Self::Checksum {
+                section,
+                stored,
+                computed,
+            } => write!(
+                f,
+                "{section}: is damaged, CRC-32 {computed:08x}, stored {stored:08x}"
+            ),
+            Self::WrongSize {
+                section,
+                need_bytes,
+                have_bytes,
+            } => write!(
+                f,
+                "{section}: has {have_bytes} bytes, the header asks for {need_bytes}"
+            ),
+            Self::BadField {
+                section,
+                offset,
+                value,
+            } => write!(f, "{section}: byte {offset}: value {value} is not allowed"),
+            Self::BadNumber {
+                section,
+                offset,
+                value,
+                min,
+                max,
+            } => write!(
+                f,
+                "{section}: byte {offset}: {value} is not in {min} to {max}"
+            ),
+            Self::IndexOutOfRange {
+                section,
+                offset,
+                index,
+                len,
+            } => write!(
+                f,
+                "{section}: byte {offset}: index {index}, but there are {len} base materials"
+            ),
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! The example of `FORMAT.md`, section 3, built from literals: nothing here uses the crate's own layout.
+#![allow(dead_code, reason = "every test file takes what it needs")]
+
+/// Offsets in the example file, straight from the specification.
+pub(crate) const MODEL: usize = 124;
+pub(crate) const WIDTH: usize = 128;
+pub(crate) const SAMPLES: usize = 138;
+pub(crate) const PITCH: usize = 144;
+pub(crate) const PROF: usize = 156;
+pub(crate) const MIXR: usize = 204;
+pub(crate) const BIDX: usize = 212;
+
+/// P̂_0 and P̂_1, two nodes of rgb each.
+pub(crate) const PROFILES: [f32; 12] = [
+    -1.0, -2.0, -3.0, -2.0, -4.0, -6.0, // material 0
+    -3.0, -2.0, -1.0, -5.0, -5.0, -5.0, // material 1
+];
+
+/// Bitwise CRC-32 of IEEE 802.3, to check the table-driven one against.
+pub(crate) fn crc32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0, |crc, &byte| {
+        (0..8).fold(crc ^ u32::from(byte), |crc, _| {
+            (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg())
+        })
+    })
+}
+
+/// Recomputes every CRC of a file with four sections.
+pub(crate) fn seal(file: &mut [u8]) {
+    for entry in (0..4).map(|k| 24 + 24 * k) {
+        let read = |at: usize| u64::from_le_bytes(file[at..at + 8].try_into().unwrap());
+        let offset = usize::try_from(read(entry + 8)).ok();
+        let end = read(entry + 8).checked_add(read(entry + 16));
+        let end = end.and_then(|end| usize::try_from(end).ok());
+        let bytes = offset
+            .zip(end)
+            .and_then(|(offset, end)| file.get(offset..end));
+        let crc = crc32(bytes.unwrap_or(&[]));
+        file[entry + 4..entry + 8].copy_from_slice(&crc.to_le_bytes());
+    }
+    let crc = crc32(&file[..120]);
+    file[120..124].copy_from_slice(&crc.to_le_bytes());
+}
+
+/// The 216 bytes.
+#[rustfmt::skip]
+pub(crate) fn example() -> Vec<u8> {
+    let mut file = vec![
+        0x89, 0x53, 0x53, 0x46, 0x0D, 0x0A, 0x1A, 0x0A,  // magic
+        0x01, 0x00, 0x00, 0x00,                          // version 1.0
+        0x04, 0x00, 0x00, 0x00,                          // sections
+        0xD8, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,  // file_bytes
+    ];
+    for (kind, offset, length) in [(b"BSSR", 124_u64, 32_u64), (b"PROF", 156, 48), (b"MIXR", 204, 8), (b"BIDX", 212, 4)] {
+        file.extend(kind);
+        file.extend([0; 4]);
+        file.extend(offset.to_le_bytes());
+        file.extend(length.to_le_bytes());
+    }
+    file.extend([0; 4]);                                 // header_crc
+    file.extend([
+        0x02, 0x01, 0x00, 0x00,                          // model, colour space, addressing, reserved
+        0x02, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00,  // width, height
+        0x01, 0x00, 0x02, 0x00,                          // R, S
+        0x02, 0x00, 0x00, 0x00,                          // M
+        0x00, 0x00, 0x00, 0x3F,                          // pitch 0.5
+        0x00, 0x00, 0x80, 0x3F,                          // r_max 1.0
+        0x00, 0x00, 0xC0, 0x3F,                          // eta 1.5
+    ]);
+    file.extend(PROFILES.iter().flat_map(|value| value.to_le_bytes()));
+    file.extend([
+        0x00, 0x00, 0x80, 0x3F, 0x00, 0x00, 0x80, 0x3E,  // t = 1.0, 0.25
+        0x00, 0x01, 0x01, 0x00,                          // (0, 1), (1, 0)
+    ]);
+    seal(&mut file);
+    file
+}
