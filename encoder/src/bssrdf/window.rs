@@ -1,0 +1,91 @@
+//! The pairs of a window, grouped by distance: offsets of equal length share interval, weight and importance.
+
+use subsurf_decoder::bssrdf::Addressing;
+
+use crate::capture::neighbour;
+
+/// Sampling of the profiles, and the pixels between which pairs are taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Geometry {
+    /// Pixels in x and y.
+    pub(super) size: [usize; 2],
+    /// R.
+    pub(super) radius: usize,
+    /// S.
+    pub(super) nodes: usize,
+    /// Radius of the last node in pixels.
+    pub(super) r_max_px: f64,
+    /// What lies beyond the border.
+    pub(super) addressing: Addressing,
+}
+
+impl Geometry {
+    pub(super) fn pixels(&self) -> usize {
+        self.size[0] * self.size[1]
+    }
+
+    /// Column and row of a pixel.
+    pub(super) fn position(&self, pixel: usize) -> [usize; 2] {
+        [pixel % self.size[0], pixel / self.size[0]]
+    }
+
+    pub(super) fn neighbour(&self, pixel: usize, step: [i32; 2]) -> Option<usize> {
+        neighbour(self.addressing, self.size, self.position(pixel), step)
+    }
+}
+
+/// One pixel of the window.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Offset {
+    pub(super) step: [i32; 2],
+    /// Its place in a capture's window, dx + dy D with both counted from the window's corner.
+    pub(super) place: usize,
+}
+
+/// All offsets of one length r.
+#[derive(Clone, Debug)]
+pub(super) struct Ring {
+    /// Node h below r.
+    pub(super) h: usize,
+    /// Weight w of node h + 1.
+    pub(super) w: f32,
+    /// φ(r) = 1 / (1 + r²), r in pixels (Yatagawa et al. 2020, section 3.3).
+    pub(super) phi: f32,
+    pub(super) offsets: Vec<Offset>,
+}
+
+/// The offsets of a window by rising distance; the first ring is the pixel itself.
+pub(super) fn rings(geometry: &Geometry) -> Vec<Ring> {
+    let radius = i32::try_from(geometry.radius).expect("a window radius is below 1,024");
+    let d = 2 * radius + 1;
+    let mut offsets: Vec<(i32, Offset)> = (-radius..=radius)
+        .flat_map(|dy| (-radius..=radius).map(move |dx| [dx, dy]))
+        .map(|step| {
+            let [dx, dy] = step;
+            let place = (dx + radius) + (dy + radius) * d;
+            let place = usize::try_from(place).expect("offsets start at the window's corner");
+            (dx * dx + dy * dy, Offset { step, place })
+        })
+        .collect();
+    offsets.sort_by_key(|(r2, offset)| (*r2, offset.place));
+    offsets
+        .chunk_by(|a, b| a.0 == b.0)
+        .map(|ring| {
+            let r2 = f64::from(ring[0].0);
+            let intervals = geometry.nodes - 1;
+            #[allow(clippy::cast_precision_loss, reason = "at most 4,096 nodes")]
+            let position = r2.sqrt() / geometry.r_max_px * intervals as f64;
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "the integer part of a number from 0 to 4,095"
+            )]
+            let h = (position as usize).min(intervals - 1);
+            #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "w is in 0 to 1")]
+            let w = (position - h as f64) as f32;
+            #[allow(clippy::cast_possible_truncation, reason = "φ is in 0 to 1")]
+            let phi = (1.0 / (1.0 + r2)) as f32;
+            Ring { h, w, phi, offsets: ring.iter().map(|(_, offset)| *offset).collect() }
+        })
+        .collect()
+}

@@ -1,0 +1,140 @@
+//! What a capture's array cannot say: `NAME.json` beside `NAME.npy`.
+
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use subsurf_decoder::bssrdf::{Addressing, layout};
+
+use crate::error::{Error, Result};
+
+/// Refractive index where nobody says otherwise: that of most stones, waxes and plastics.
+pub(crate) const DEFAULT_ETA: f32 = 1.5;
+
+/// The facts a capture comes with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sidecar {
+    /// Distance of neighbouring pixels in mm, > 0.
+    pub pitch_mm: f32,
+    /// What lies beyond the border.
+    pub addressing: Addressing,
+    /// Refractive index, 1 to 4.
+    pub eta: f32,
+    /// Where a simulated capture comes from; `None` for measurements.
+    pub simulated: Option<serde_json::Value>,
+}
+
+/// Facts that a caller states, whatever the sidecar says.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Overrides {
+    /// Distance of neighbouring pixels in mm.
+    pub pitch_mm: Option<f32>,
+    /// What lies beyond the border.
+    pub addressing: Option<Addressing>,
+    /// Refractive index.
+    pub eta: Option<f32>,
+}
+
+/// The sidecar as it stands in the file; keys of others are left alone.
+#[derive(Default, Deserialize, Serialize)]
+struct Fields {
+    pitch_mm: Option<f32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    addressing: Option<AddressingName>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    eta: Option<f32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    simulated: Option<serde_json::Value>,
+}
+
+#[derive(Clone, Copy, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+enum AddressingName {
+    Clamp,
+    Repeat,
+    Mirror,
+}
+
+impl From<AddressingName> for Addressing {
+    fn from(name: AddressingName) -> Self {
+        match name {
+            AddressingName::Clamp => Self::Clamp,
+            AddressingName::Repeat => Self::Repeat,
+            AddressingName::Mirror => Self::Mirror,
+        }
+    }
+}
+
+impl From<Addressing> for AddressingName {
+    fn from(addressing: Addressing) -> Self {
+        match addressing {
+            Addressing::Clamp => Self::Clamp,
+            Addressing::Repeat => Self::Repeat,
+            Addressing::Mirror => Self::Mirror,
+        }
+    }
+}
+
+const EXAMPLE: &str = r#"{"pitch_mm": 0.6}, and if need be "addressing" (clamp, repeat, mirror) and "eta""#;
+
+/// `NAME.json` for `NAME.npy`.
+#[must_use]
+pub fn sidecar_path(capture: &Path) -> PathBuf {
+    capture.with_extension("json")
+}
+
+impl Sidecar {
+    /// Reads the sidecar of `capture`; `overrides` win, and a given pitch makes a sidecar unnecessary.
+    pub(super) fn load(capture: &Path, overrides: &Overrides) -> Result<Self> {
+        let path = sidecar_path(capture);
+        let fields: Fields = match std::fs::read(&path) {
+            Ok(text) => serde_json::from_slice(&text)
+                .map_err(|error| Error::input(&path, format!("unreadable sidecar ({error})"), EXAMPLE))?,
+            Err(error) if error.kind() == ErrorKind::NotFound => Fields::default(),
+            Err(error) => return Err(Error::input(&path, error, EXAMPLE)),
+        };
+        let pitch_mm = overrides.pitch_mm.or(fields.pitch_mm).ok_or_else(|| {
+            Error::input(
+                capture,
+                format!("no pixel pitch: neither --pitch nor \"pitch_mm\" in {}", path.display()),
+                EXAMPLE,
+            )
+        })?;
+        let sidecar = Self {
+            pitch_mm,
+            addressing: overrides
+                .addressing
+                .or(fields.addressing.map(Addressing::from))
+                .unwrap_or_default(),
+            eta: overrides.eta.or(fields.eta).unwrap_or(DEFAULT_ETA),
+            simulated: fields.simulated,
+        };
+        sidecar.check(capture)?;
+        Ok(sidecar)
+    }
+
+    /// Refuses values that a file could not hold.
+    fn check(&self, capture: &Path) -> Result<()> {
+        if !(self.pitch_mm.is_normal() && self.pitch_mm > 0.0) {
+            let found = format!("pixel pitch {} mm", self.pitch_mm);
+            return Err(Error::input(capture, found, "a positive length in mm"));
+        }
+        if !(1.0..=layout::MAX_ETA).contains(&self.eta) {
+            let found = format!("refractive index {}", self.eta);
+            let expected = format!("1 to {}", layout::MAX_ETA);
+            return Err(Error::input(capture, found, expected));
+        }
+        Ok(())
+    }
+
+    /// The text of the sidecar file.
+    pub(super) fn to_json(&self) -> String {
+        let fields = Fields {
+            pitch_mm: Some(self.pitch_mm),
+            addressing: Some(self.addressing.into()),
+            eta: Some(self.eta),
+            simulated: self.simulated.clone(),
+        };
+        format!("{:#}\n", serde_json::json!(fields))
+    }
+}

@@ -1,0 +1,16 @@
+//! From captures of heterogeneous subsurface scattering to `.subsurf` files.
+//!
+//! [`capture`] reads what was measured, [`simulate`] makes captures where none were, [`bssrdf`] fits per-pixel
+//! profiles and 2-BMPP, [`metrics`] judges the result.
+
+pub mod bssrdf;
+pub mod capture;
+mod error;
+pub mod metrics;
+mod output;
+mod progress;
+pub mod simulate;
+
+pub use error::{Error, Result};
+pub use output::{write_atomically, write_bytes};
+pub use progress::Progress;

@@ -1,0 +1,7 @@
+//! How far a fitted material is from its capture.
+
+mod image;
+mod relight;
+
+pub use image::{psnr_db, ssim};
+pub use relight::{Comparison, Light, Relit, compare};

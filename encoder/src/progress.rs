@@ -1,0 +1,15 @@
+//! How long work reports that it moves on.
+
+/// Receives progress of work that takes longer than a second.
+pub trait Progress: Sync {
+    /// A stage of `total` steps begins; the one before it is over.
+    fn begin(&self, stage: &str, total: u64);
+    /// `steps` more of the current stage are done.
+    fn advance(&self, steps: u64);
+}
+
+/// Says nothing.
+impl Progress for () {
+    fn begin(&self, _: &str, _: u64) {}
+    fn advance(&self, _: u64) {}
+}

@@ -1,0 +1,14 @@
+//! Captures where nothing was measured: heterogeneous diffusion in a slab.
+
+pub mod analytic;
+pub mod fresnel;
+mod grid;
+pub mod medium;
+mod noise;
+mod scene;
+mod slab;
+mod solver;
+
+pub use medium::Medium;
+pub use scene::Scene;
+pub use slab::{MediumMap, Slab};

@@ -1,0 +1,65 @@
+//! Seeded gradient noise on a torus (Perlin 2002, *Improving noise*).
+
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+/// Noise that repeats after one unit in u and in v.
+pub(super) struct Noise {
+    permutation: [u8; 256],
+}
+
+impl Noise {
+    pub(super) fn new(seed: u64) -> Self {
+        let mut rng = Pcg64::seed_from_u64(seed);
+        let mut permutation: [u8; 256] = std::array::from_fn(|k| u8::try_from(k).expect("k < 256"));
+        // Fisher-Yates.
+        for k in (1..256).rev() {
+            permutation.swap(k, rng.random_range(0..=k));
+        }
+        Self { permutation }
+    }
+
+    /// A random number in 0 .. 1 that belongs to an integer.
+    pub(super) fn value(&self, k: i64) -> f64 {
+        f64::from(self.hash(k, 7)) / 256.0
+    }
+
+    fn hash(&self, x: i64, y: i64) -> u8 {
+        let byte = |value: i64| usize::try_from(value.rem_euclid(256)).expect("0 ≤ value < 256");
+        let row = self.permutation[byte(x)];
+        self.permutation[byte(i64::from(row) + y)]
+    }
+
+    /// One octave with `frequency` lattice cells per unit, about −0.7 to 0.7.
+    fn octave(&self, u: f64, v: f64, frequency: i64) -> f64 {
+        #[allow(clippy::cast_precision_loss, reason = "frequencies are small")]
+        let cells = frequency as f64;
+        let (x, y) = (u * cells, v * cells);
+        #[allow(clippy::cast_possible_truncation, reason = "lattice coordinates are small")]
+        let (i, j) = (x.floor() as i64, y.floor() as i64);
+        let (x, y) = (x - x.floor(), y - y.floor());
+        let corner = |di: i64, dj: i64| {
+            let hash = self.hash((i + di).rem_euclid(frequency), (j + dj).rem_euclid(frequency));
+            let angle = f64::from(hash) / 256.0 * std::f64::consts::TAU;
+            #[allow(clippy::cast_precision_loss, reason = "0 or 1")]
+            let (dx, dy) = (x - di as f64, y - dj as f64);
+            angle.cos() * dx + angle.sin() * dy
+        };
+        let fade = |t: f64| t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
+        let lerp = |a: f64, b: f64, t: f64| a + t * (b - a);
+        let top = lerp(corner(0, 0), corner(1, 0), fade(x));
+        let bottom = lerp(corner(0, 1), corner(1, 1), fade(x));
+        lerp(top, bottom, fade(y))
+    }
+
+    /// `octaves` octaves from `frequency` up, each half as strong as the one before; about −1 to 1.
+    pub(super) fn fractal(&self, u: f64, v: f64, frequency: i64, octaves: i32) -> f64 {
+        (0..octaves).map(|k| self.octave(u, v, frequency << k) * 0.5_f64.powi(k)).sum()
+    }
+
+    /// Narrow ridges along the zeros of the noise: 1 on a ridge, falling to 0 over `width`.
+    pub(super) fn ridge(&self, u: f64, v: f64, frequency: i64, octaves: i32, width: f64) -> f64 {
+        let distance = self.fractal(u, v, frequency, octaves).abs() / width;
+        (1.0 - distance).max(0.0)
+    }
+}

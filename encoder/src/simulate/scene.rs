@@ -1,0 +1,171 @@
+//! Built-in materials: mixtures of measured media in patterns made from a seed.
+
+use std::f64::consts::TAU;
+
+use subsurf_decoder::bssrdf::Addressing;
+
+use super::medium::Medium;
+use super::noise::Noise;
+use super::slab::MediumMap;
+
+/// A built-in, synthetic material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scene {
+    /// Folded layers, each a mixture of its own.
+    Onyx,
+    /// Squares of two stones with a fine grain.
+    Chessboard,
+    /// Three media that blend into each other everywhere.
+    Jade,
+    /// White marble with clouds and dark veins.
+    Marble,
+}
+
+impl Scene {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Onyx, Self::Chessboard, Self::Jade, Self::Marble];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Onyx => "onyx",
+            Self::Chessboard => "chessboard",
+            Self::Jade => "jade",
+            Self::Marble => "marble",
+        }
+    }
+
+    /// What it looks like, in a few words.
+    #[must_use]
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Onyx => "folded layers of marble, apple, potato and skin2",
+            Self::Chessboard => "squares of marble and potato with a fine grain of skin2",
+            Self::Jade => "continuous blends of apple, skimmilk and skin2",
+            Self::Marble => "marble with clouds of wholemilk and veins of skin2 and ketchup",
+        }
+    }
+
+    /// The media of a patch of `size` pixels. Patterns keep their size in pixels; a patch that repeats is tileable.
+    #[must_use]
+    pub fn map(self, size: [usize; 2], addressing: Addressing, seed: u64) -> MediumMap {
+        let noise = Noise::new(seed);
+        let pattern = Pattern::new(size, addressing);
+        let recipe = match self {
+            Self::Onyx => onyx,
+            Self::Chessboard => chessboard,
+            Self::Jade => jade,
+            Self::Marble => marble,
+        };
+        let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
+        let media = pixels.map(|(x, y)| recipe(&noise, &pattern, pattern.uv(x, y))).collect();
+        MediumMap { size, media }
+    }
+}
+
+/// Mixes measured media.
+fn mix<const N: usize>(parts: [(f64, &str); N]) -> Medium {
+    let measured = |name| Medium::measured(name).expect("scenes name measured media only");
+    Medium::mix(parts.map(|(weight, name)| (weight, measured(name))))
+}
+
+/// Pixels to pattern coordinates.
+struct Pattern {
+    /// Pixels after which the pattern repeats.
+    period: [f64; 2],
+    /// Pixels to a side of a noise cell of frequency 1.
+    noise_period: f64,
+}
+
+impl Pattern {
+    fn new(size: [usize; 2], addressing: Addressing) -> Self {
+        #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
+        let [width, height] = size.map(|n| n as f64);
+        // A patch that does not repeat is cut from a larger pattern.
+        let period = match addressing {
+            Addressing::Repeat => [width, height],
+            Addressing::Clamp | Addressing::Mirror => [width.max(height).max(64.0); 2],
+        };
+        Self { period, noise_period: period[0].max(period[1]) }
+    }
+
+    /// Pixel centre in periods.
+    fn uv(&self, x: usize, y: usize) -> [f64; 2] {
+        #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
+        let [x, y] = [x, y].map(|n| n as f64 + 0.5);
+        [x / self.period[0], y / self.period[1]]
+    }
+
+    /// Lattice cells per period for features of about `pixels`.
+    fn frequency(&self, pixels: f64) -> i64 {
+        #[allow(clippy::cast_possible_truncation, reason = "saturates, and sides are below 65,536")]
+        let cells = (self.noise_period / pixels).round() as i64;
+        cells.max(1)
+    }
+}
+
+/// 0 below `from`, 1 above `to`, smooth between.
+fn smoothstep(from: f64, to: f64, x: f64) -> f64 {
+    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+fn onyx(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
+    let layers = pattern.frequency(7.0);
+    // Layers run down the patch and are folded by a wave and by noise.
+    let fold = 0.6 * (TAU * v).sin() + 2.2 * noise.fractal(u, v, pattern.frequency(50.0), 4);
+    #[allow(clippy::cast_precision_loss, reason = "few layers")]
+    let position = u * layers as f64 + fold;
+    #[allow(clippy::cast_possible_truncation, reason = "few layers")]
+    let layer = position.floor() as i64;
+    // Each layer's mixture: one strong part, the others weak; borders blend over a part of a layer.
+    let mixture = |layer: i64| -> [f64; 4] {
+        let layer = layer.rem_euclid(layers);
+        let parts: [f64; 4] = std::array::from_fn(|k| {
+            let k = i64::try_from(k).expect("k < 4");
+            noise.value(layer * 4 + k).powi(3) + 0.02
+        });
+        let sum: f64 = parts.iter().sum();
+        parts.map(|part| part / sum)
+    };
+    let blend = smoothstep(0.65, 1.0, position - position.floor());
+    let (here, next) = (mixture(layer), mixture(layer + 1));
+    let weight = |k: usize| here[k] + blend * (next[k] - here[k]);
+    mix([(weight(0), "marble"), (weight(1), "apple"), (weight(2), "potato"), (weight(3), "skin2")])
+}
+
+fn chessboard(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
+    // An even number of squares, so that the board can repeat.
+    #[allow(clippy::cast_possible_truncation, reason = "few squares")]
+    let square = |t: f64, period: f64| (t * (period / 20.0).round().max(1.0) * 2.0).floor() as i64;
+    let (i, j) = (square(u, pattern.period[0]), square(v, pattern.period[1]));
+    let white = f64::from(u8::from((i + j).rem_euclid(2) == 0));
+    // Every square is a piece of its own, and every piece has a grain.
+    let piece = noise.value(i * 31 + j);
+    let grain = 0.5 + 0.5 * noise.fractal(u, v, pattern.frequency(6.0), 3);
+    let stain = (0.04 + 0.08 * piece + 0.06 * grain).clamp(0.0, 1.0);
+    mix([(white * (1.0 - stain), "marble"), ((1.0 - white) * (1.0 - stain), "potato"), (stain, "skin2")])
+}
+
+fn jade(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
+    let clouds = noise.fractal(u, v, pattern.frequency(32.0), 4);
+    let streaks = noise.fractal(v + 0.3, u, pattern.frequency(20.0), 3);
+    let a = smoothstep(-0.5, 0.5, clouds);
+    let b = smoothstep(-0.6, 0.8, streaks) * 0.6;
+    mix([(a * (1.0 - b), "apple"), ((1.0 - a) * (1.0 - b), "skimmilk"), (b, "skin2")])
+}
+
+fn marble(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
+    let vein = noise.ridge(u, v, pattern.frequency(40.0), 5, 0.07).powi(2);
+    let fine = noise.ridge(v, u, pattern.frequency(18.0), 3, 0.05).powi(2) * 0.4;
+    let dark = (vein + fine).min(1.0) * 0.8;
+    let cloud = smoothstep(-0.5, 0.5, noise.fractal(u + 0.5, v, pattern.frequency(30.0), 4));
+    let bright = 1.0 - dark;
+    mix([
+        (bright * (1.0 - cloud), "marble"),
+        (bright * cloud, "wholemilk"),
+        (dark * 0.85, "skin2"),
+        (dark * 0.15, "ketchup"),
+    ])
+}
