@@ -51,6 +51,12 @@ impl Field {
         self.values[at..].first_chunk().expect("windows end at the border")
     }
 
+    /// The value `delta` values away.
+    #[inline]
+    pub(super) fn value(&self, start: usize, delta: isize) -> &Lanes {
+        &self.values[start.wrapping_add_signed(delta)]
+    }
+
     /// [`Field::pair`]'s `start` for node h of a pixel.
     pub(super) fn node(&self, pixel: usize, h: usize) -> usize {
         self.start(pixel) + h

@@ -63,6 +63,9 @@ pub(super) struct Normal {
     pub(super) mean: Vec<Lanes>,
     /// Σ_e φ y_e² relative to the mean profile.
     y2: f64,
+    /// Mean of the light that a pixel sends out and that it gets from others, Σ_e Rd_e over all measured entries that
+    /// begin or end at it, halved; in mm⁻².
+    pub(super) exchange: Vec<[f64; 3]>,
     /// Entries inside the material, and those of them that were measured; three channels make three entries.
     pub(super) entries: [u64; 2],
 }
@@ -72,6 +75,8 @@ struct Block {
     /// First row of `b`, which reaches R rows beyond the block.
     first: usize,
     b: Vec<[f64; 3]>,
+    /// Likewise.
+    exchange: Vec<[f64; 3]>,
     y2: f64,
     /// Channels that were measured, three bits per pixel of the block and place in the window; `None` if all inside the
     /// material were.
@@ -84,6 +89,7 @@ impl Normal {
     pub(super) fn of(capture: &Capture, geometry: Geometry, progress: &dyn Progress) -> Result<Self> {
         let rings = rings(&geometry);
         let mut b = vec![[0.0; 3]; geometry.pixels() * geometry.nodes];
+        let mut exchange = vec![[0.0; 3]; geometry.pixels()];
         let mut y2 = 0.0;
         let mut entries = [0; 2];
         let mut measured: Vec<Option<Vec<u8>>> = Vec::new();
@@ -96,7 +102,7 @@ impl Normal {
                 .map(|&first| Block::read(capture, &geometry, &rings, first, progress))
                 .collect();
             for block in blocks {
-                block.add_to(&geometry, &mut b);
+                block.add_to(&geometry, &mut b, &mut exchange);
                 y2 += block.y2;
                 entries[0] += block.entries[0];
                 entries[1] += block.entries[1];
@@ -121,6 +127,7 @@ impl Normal {
             counts,
             b: Vec::new(),
             mean: Vec::new(),
+            exchange,
             y2,
             entries,
         };
@@ -249,6 +256,32 @@ impl Normal {
         }
     }
 
+    /// Σ_j n_ij f_j of every ring, f a table with one node per ring.
+    pub(super) fn ring_sums(&self, table: &Field, deltas: &[isize], pixel: usize, out: &mut [Lanes]) {
+        out.fill(ZERO);
+        let window = deltas.len();
+        let counts = self.counts.as_ref().map(|counts| &counts[pixel * window..][..window]);
+        let mut next = 0;
+        for (k, ring) in self.rings.iter().enumerate() {
+            let range = next..next + ring.offsets.len();
+            next = range.end;
+            let start = table.node(pixel, k);
+            let sum = &mut out[k];
+            if let Some(counts) = counts {
+                for (delta, count) in deltas[range.clone()].iter().zip(&counts[range]) {
+                    lanes::add_product(sum, &COUNTS[usize::from(*count)], table.value(start, *delta));
+                }
+            } else {
+                for delta in &deltas[range] {
+                    lanes::add(sum, table.value(start, *delta));
+                }
+                for c in 0..4 {
+                    sum[c] *= 2.0;
+                }
+            }
+        }
+    }
+
     /// Offsets in ring order as distances in a field's memory.
     pub(super) fn deltas(&self, field: &Field) -> Vec<isize> {
         self.rings.iter().flat_map(|ring| ring.offsets.iter().map(|offset| field.delta(offset.step))).collect()
@@ -298,10 +331,12 @@ impl Block {
         let window_len = capture.window_len();
         let places = window_len / 3;
         let mut window = vec![0.0; window_len];
-        // b of all rows that a window of the block can reach: it goes on beyond the border and is folded back later.
+        let reach = (rows + 2 * geometry.radius) * (width + 2 * geometry.radius);
+        // Sums of all rows that a window of the block can reach: it goes on beyond the border and is folded back later.
         let mut block = Self {
             first,
-            b: vec![[0.0; 3]; (rows + 2 * geometry.radius) * (width + 2 * geometry.radius) * geometry.nodes],
+            b: vec![[0.0; 3]; reach * geometry.nodes],
+            exchange: vec![[0.0; 3]; reach],
             y2: 0.0,
             measured: None,
             entries: [0; 2],
@@ -329,6 +364,7 @@ impl Block {
                             let y = 2.0 * f64::from(rd.ln());
                             block.y2 += phi * y * y;
                             for at in [here, there] {
+                                block.exchange[at / geometry.nodes][c] += 0.5 * f64::from(rd);
                                 block.b[at + ring.h][c] += phi * (1.0 - w) * y;
                                 block.b[at + ring.h + 1][c] += phi * w * y;
                             }
@@ -357,7 +393,7 @@ impl Block {
     }
 
     /// Adds the block's sums to those of all pixels; what lies beyond the border goes where the addressing says.
-    fn add_to(&self, geometry: &Geometry, b: &mut [[f64; 3]]) {
+    fn add_to(&self, geometry: &Geometry, b: &mut [[f64; 3]], exchange: &mut [[f64; 3]]) {
         let radius = i32::try_from(geometry.radius).expect("a window radius is below 1,024");
         let stride = geometry.size[0] + 2 * geometry.radius;
         let first = i32::try_from(self.first).expect("a side is below 65,536");
@@ -370,6 +406,9 @@ impl Block {
                 for c in 0..3 {
                     sum[c] += b[c];
                 }
+            }
+            for c in 0..3 {
+                exchange[pixel][c] += self.exchange[k][c];
             }
         }
     }

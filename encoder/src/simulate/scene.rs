@@ -40,9 +40,9 @@ impl Scene {
     #[must_use]
     pub fn description(self) -> &'static str {
         match self {
-            Self::Onyx => "folded layers of marble, apple, potato and skin2",
-            Self::Chessboard => "squares of marble and potato with a fine grain of skin2",
-            Self::Jade => "continuous blends of apple, skimmilk and skin2",
+            Self::Onyx => "folded, cloudy layers of marble, apple, wholemilk and skin2, some stained with ketchup",
+            Self::Chessboard => "squares of marble, half of them dyed with ketchup, with a grain of apple",
+            Self::Jade => "continuous blends of apple, marble and skin2",
             Self::Marble => "marble with clouds of wholemilk and veins of skin2 and ketchup",
         }
     }
@@ -112,7 +112,7 @@ fn smoothstep(from: f64, to: f64, x: f64) -> f64 {
 }
 
 fn onyx(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
-    let layers = pattern.frequency(7.0);
+    let layers = pattern.frequency(5.0);
     // Layers run down the patch and are folded by a wave and by noise.
     let fold = 0.6 * (TAU * v).sin() + 2.2 * noise.fractal(u, v, pattern.frequency(50.0), 4);
     #[allow(clippy::cast_precision_loss, reason = "few layers")]
@@ -131,8 +131,24 @@ fn onyx(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
     };
     let blend = smoothstep(0.65, 1.0, position - position.floor());
     let (here, next) = (mixture(layer), mixture(layer + 1));
-    let weight = |k: usize| here[k] + blend * (next[k] - here[k]);
-    mix([(weight(0), "marble"), (weight(1), "apple"), (weight(2), "potato"), (weight(3), "skin2")])
+    // Layers are cloudy inside.
+    let cloud = 0.5 + 0.5 * noise.fractal(v, u + 0.2, pattern.frequency(16.0), 3);
+    let cloud = cloud.clamp(0.0, 1.0) * 0.35;
+    let weight = |k: usize| {
+        let layer = here[k] + blend * (next[k] - here[k]);
+        layer * (1.0 - cloud) + if k == 3 { cloud } else { 0.0 }
+    };
+    // Every third layer or so is stained.
+    let stain = |layer: i64| 0.08 * smoothstep(0.5, 1.0, noise.value(1000 + layer.rem_euclid(layers)));
+    let stain = stain(layer) + blend * (stain(layer + 1) - stain(layer));
+    let pure = 1.0 - stain;
+    mix([
+        (pure * weight(0), "marble"),
+        (pure * weight(1), "apple"),
+        (pure * weight(2), "wholemilk"),
+        (pure * weight(3), "skin2"),
+        (stain, "ketchup"),
+    ])
 }
 
 fn chessboard(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
@@ -141,11 +157,12 @@ fn chessboard(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
     let square = |t: f64, period: f64| (t * (period / 20.0).round().max(1.0) * 2.0).floor() as i64;
     let (i, j) = (square(u, pattern.period[0]), square(v, pattern.period[1]));
     let white = f64::from(u8::from((i + j).rem_euclid(2) == 0));
-    // Every square is a piece of its own, and every piece has a grain.
+    // Every square is a piece of its own, and every piece has a grain; dark squares are dyed.
     let piece = noise.value(i * 31 + j);
-    let grain = 0.5 + 0.5 * noise.fractal(u, v, pattern.frequency(6.0), 3);
-    let stain = (0.04 + 0.08 * piece + 0.06 * grain).clamp(0.0, 1.0);
-    mix([(white * (1.0 - stain), "marble"), ((1.0 - white) * (1.0 - stain), "potato"), (stain, "skin2")])
+    let grain = (0.5 + 0.5 * noise.fractal(u, v, pattern.frequency(6.0), 3)).clamp(0.0, 1.0);
+    let dye = (1.0 - white) * (0.05 + 0.05 * piece + 0.05 * grain);
+    let cloud = 0.1 * piece + 0.2 * grain;
+    mix([((1.0 - dye) * (1.0 - cloud), "marble"), ((1.0 - dye) * cloud, "apple"), (dye, "ketchup")])
 }
 
 fn jade(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
@@ -153,7 +170,7 @@ fn jade(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
     let streaks = noise.fractal(v + 0.3, u, pattern.frequency(20.0), 3);
     let a = smoothstep(-0.5, 0.5, clouds);
     let b = smoothstep(-0.6, 0.8, streaks) * 0.6;
-    mix([(a * (1.0 - b), "apple"), ((1.0 - a) * (1.0 - b), "skimmilk"), (b, "skin2")])
+    mix([(a * (1.0 - b), "apple"), ((1.0 - a) * (1.0 - b), "marble"), (b, "skin2")])
 }
 
 fn marble(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {

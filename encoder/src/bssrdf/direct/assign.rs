@@ -8,6 +8,7 @@ use super::super::banded::Banded;
 use super::super::field::Field;
 use super::super::lanes::{Lanes, ZERO};
 use super::super::normal::Normal;
+use super::albedo::{Albedo, Constraint};
 use super::{Mixture, Model};
 
 /// Pixels this far apart in x and in y change together: φ is small between them, and threads have work.
@@ -15,8 +16,13 @@ const COLOURS: usize = 4;
 /// A matrix that this many pixels share is worth a table of its own.
 const SHARED: u32 = 4;
 
-/// Improves every pixel once, Gauss-Seidel fashion: each sees the latest profiles of all but its own colour.
-pub(super) fn search(normal: &Normal, model: &mut Model, field: &mut Field) {
+/// Weight of the squared relative albedo error of a pixel against its cost in eq. 5. Large enough that the albedo
+/// decides among mixtures of about the same cost; ten times more or less changes little.
+const ALBEDO_WEIGHT: f32 = 1e4;
+
+/// Improves every pixel once, Gauss-Seidel fashion: each sees the latest profiles of all but its own colour. With
+/// `albedo` the error of the pixel's albedo counts too.
+pub(super) fn search(normal: &Normal, model: &mut Model, field: &mut Field, mut albedo: Option<&mut Albedo>) {
     let deltas = normal.deltas(field);
     let mut users = vec![0; normal.matrices.len()];
     for &matrix in &normal.matrix_of {
@@ -36,23 +42,32 @@ pub(super) fn search(normal: &Normal, model: &mut Model, field: &mut Field) {
             .step_by(COLOURS)
             .flat_map(|y| (x0..width).step_by(COLOURS).map(move |x| x + y * width))
             .collect();
-        let best: Vec<Mixture> = pixels
-            .par_iter()
-            .map(|&pixel| {
-                let matrix = normal.matrix_of[pixel] as usize;
-                let curvatures = match &tables[matrix] {
-                    Some(table) => Cow::Borrowed(table),
-                    None => Cow::Owned(Curvatures::new(&normal.matrices[matrix].curvature(), model)),
-                };
-                curvatures.best(&slopes(normal, model, field, &deltas, pixel))
-            })
-            .collect();
+        let best = |&pixel: &usize| {
+            let matrix = normal.matrix_of[pixel] as usize;
+            let curvatures = match &tables[matrix] {
+                Some(table) => Cow::Borrowed(table),
+                None => Cow::Owned(Curvatures::new(&normal.matrices[matrix].curvature(), model)),
+            };
+            let u = slopes(normal, model, field, &deltas, pixel);
+            let tilt = albedo.as_deref().map(|albedo| {
+                let constraint = albedo.constraint(normal, field.at(pixel), pixel);
+                Tilt::new(&constraint, model)
+            });
+            curvatures.best(&u, tilt.as_ref())
+        };
+        let best: Vec<Mixture> = pixels.par_iter().map(best).collect();
         for (&pixel, &mixture) in pixels.iter().zip(&best) {
             model.mixtures[pixel] = mixture;
             let profile = model.profile(pixel);
             field.set(pixel, &profile);
+            if let Some(albedo) = &mut albedo {
+                albedo.set(normal, pixel, &profile);
+            }
         }
         field.fill_border();
+        if let Some(albedo) = &mut albedo {
+            albedo.fill_border();
+        }
     }
 }
 
@@ -117,28 +132,76 @@ impl Curvatures {
     }
 
     /// The best pair and ratio for slopes `u`; of equals the first.
-    fn best(&self, u: &[f32]) -> Mixture {
-        let cost: Vec<f32> = self.pure.iter().zip(u).map(|(pure, u)| pure - 2.0 * u).collect();
-        let mut best = (f32::INFINITY, [0, 0]);
+    fn best(&self, u: &[f32], tilt: Option<&Tilt>) -> Mixture {
+        let mut cost: Vec<f32> = self.pure.iter().zip(u).map(|(pure, u)| pure - 2.0 * u).collect();
+        if let Some(tilt) = tilt {
+            for (cost, tilt) in cost.iter_mut().zip(&tilt.pure) {
+                *cost += tilt;
+            }
+        }
+        let mut best = Mixture { base: [0, 0], t: 1.0 };
+        let mut lowest = f32::INFINITY;
         let mut rows = &self.e[..];
+        let mut tilted = Vec::with_capacity(cost.len());
         for (b, &at_b) in cost.iter().enumerate() {
-            if at_b < best.0 {
-                best = (at_b, [b, b]);
+            if at_b < lowest {
+                lowest = at_b;
+                best = Mixture { base: [b, b], t: 1.0 };
             }
             let (row, rest) = rows.split_at(b);
             rows = rest;
-            let lowest = lowest_of_row(&cost[..b], at_b, row);
-            if lowest < best.0 {
-                let other = (0..b).find(|&other| minimum(cost[other], at_b, row[other]).0 == lowest);
-                best = (lowest, [b, other.unwrap_or(b)]);
+            let row = match tilt {
+                Some(tilt) => {
+                    tilt.add_to(b, row, &mut tilted);
+                    &tilted
+                }
+                None => row,
+            };
+            let lowest_here = lowest_of_row(&cost[..b], at_b, row);
+            if lowest_here < lowest {
+                lowest = lowest_here;
+                let found = (0..b).map(|other| (other, minimum(cost[other], at_b, row[other])));
+                if let Some((other, (_, t))) = found.into_iter().find(|(_, found)| found.0 == lowest) {
+                    best = Mixture { base: [b, other], t };
+                }
             }
         }
-        let [b, other] = best.1;
-        if b == other {
-            return Mixture { base: [b, b], t: 1.0 };
+        best
+    }
+}
+
+/// What a pixel's albedo adds to its costs: w Σ_c (k·p − τ)², with the part that does not depend on p left out.
+struct Tilt {
+    /// √w k·P̂_b of every base, by channel.
+    kappa: [Vec<f32>; 3],
+    /// w Σ_c ((k·P̂_b)² − 2 τ k·P̂_b).
+    pure: Vec<f32>,
+}
+
+impl Tilt {
+    fn new(constraint: &Constraint, model: &Model) -> Self {
+        let root = ALBEDO_WEIGHT.sqrt();
+        let kappa = [0, 1, 2].map(|c| {
+            let along = |base: &[Lanes]| base.iter().zip(&constraint.k).map(|(p, k)| p[c] * k[c]).sum::<f32>();
+            model.bases.chunks(model.nodes).map(|base| root * along(base)).collect::<Vec<f32>>()
+        });
+        let pure = (0..kappa[0].len()).map(|b| {
+            let term = |c: usize| kappa[c][b] * (kappa[c][b] - 2.0 * root * constraint.tau[c]);
+            term(0) + term(1) + term(2)
+        });
+        Self { pure: pure.collect(), kappa }
+    }
+
+    /// e of base `b` with all before it, tilt included: w Σ_c (k·(P̂_b − P̂_b'))² more.
+    fn add_to(&self, b: usize, row: &[f32], out: &mut Vec<f32>) {
+        out.clear();
+        out.extend_from_slice(row);
+        for kappa in &self.kappa {
+            let (before, at_b) = (&kappa[..b], kappa[b]);
+            for (e, kappa) in out.iter_mut().zip(before) {
+                *e += (at_b - kappa) * (at_b - kappa);
+            }
         }
-        let e = self.e[b * (b - 1) / 2 + other];
-        Mixture { base: [b, other], t: minimum(cost[other], cost[b], e).1 }
     }
 }
 

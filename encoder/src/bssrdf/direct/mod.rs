@@ -5,6 +5,7 @@
 //! pairs is the vertex of a parabola ([`assign`]). With indices and ratios fixed, the cost is a quadratic in all base
 //! profiles together ([`profiles`]).
 
+mod albedo;
 mod assign;
 mod profiles;
 
@@ -15,11 +16,15 @@ use super::field::Field;
 use super::lanes::{Lanes, ZERO};
 use super::normal::Normal;
 use crate::progress::Progress;
+use albedo::Albedo;
 
 /// Rounds of both steps, at most.
 const ROUNDS: u64 = 12;
 /// The cost has settled when a round lowers it by less than this share.
 const SETTLED: f64 = 2e-3;
+
+/// Sweeps of the search that weigh albedos.
+const POLISH: u64 = 2;
 
 /// One pixel: t of the first base material, 1 − t of the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,22 +80,26 @@ impl Model {
     }
 }
 
-/// Alternates both steps from `model` until the cost settles.
+/// Alternates both steps from `model` until the cost settles, then lets the search weigh albedos.
 pub(super) fn refine(normal: &Normal, model: &mut Model, progress: &dyn Progress) {
     let mut field = model.field(normal);
     let mut cost = normal.cost(&field);
-    progress.begin("fitting base materials", ROUNDS);
+    progress.begin("fitting base materials", ROUNDS + POLISH);
     for round in 0..ROUNDS {
-        assign::search(normal, model, &mut field);
+        assign::search(normal, model, &mut field, None);
         profiles::solve(normal, model, &mut field);
         let next = normal.cost(&field);
-        if std::env::var_os("DBG").is_some() { eprintln!("round {round} cost {next}"); }
         let settled = next > cost * (1.0 - SETTLED);
         cost = next;
         if settled {
             progress.advance(ROUNDS - round);
             break;
         }
+        progress.advance(1);
+    }
+    let mut albedo = Albedo::new(normal, &field);
+    for _ in 0..POLISH {
+        assign::search(normal, model, &mut field, Some(&mut albedo));
         progress.advance(1);
     }
 }
