@@ -199,14 +199,19 @@ impl Normal {
         &self.matrices[self.matrix_of[pixel] as usize]
     }
 
-    /// The mean of A_i over all pixels.
-    pub(super) fn mean_matrix(&self) -> Banded {
-        let mut users = vec![0_u32; self.matrices.len()];
+    /// How many pixels have each of the matrices.
+    pub(super) fn matrix_users(&self) -> Vec<u32> {
+        let mut users = vec![0; self.matrices.len()];
         for &matrix in &self.matrix_of {
             users[matrix as usize] += 1;
         }
+        users
+    }
+
+    /// The mean of A_i over all pixels.
+    pub(super) fn mean_matrix(&self) -> Banded {
         let mut mean = Banded::new(self.geometry.nodes);
-        for (matrix, users) in self.matrices.iter().zip(users) {
+        for (matrix, users) in self.matrices.iter().zip(self.matrix_users()) {
             #[allow(clippy::cast_precision_loss, reason = "a weight")]
             mean.add_scaled(users as f32 / self.geometry.pixels() as f32, &matrix.all);
         }

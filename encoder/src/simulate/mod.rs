@@ -3,12 +3,15 @@
 pub mod analytic;
 pub mod fresnel;
 mod grid;
+pub mod maps;
 pub mod medium;
 mod noise;
 mod scene;
+mod sensor;
 mod slab;
 mod solver;
 
 pub use medium::Medium;
 pub use scene::Scene;
+pub use sensor::Sensor;
 pub use slab::{MediumMap, Slab};

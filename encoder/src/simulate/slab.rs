@@ -6,6 +6,7 @@ use subsurf_decoder::bssrdf::Addressing;
 use super::fresnel::boundary_a;
 use super::grid::{Grid, Scales};
 use super::medium::Medium;
+use super::sensor::Sensor;
 use super::solver::{Rgb, System};
 use crate::progress::Progress;
 
@@ -47,16 +48,20 @@ const TOLERANCE: f64 = 1e-5;
 const MARGIN: f64 = 1.5;
 
 impl Slab<'_> {
-    /// Measures the windows of all pixels, `chunk` rows at a time, and hands them on in order:
+    /// Measures the windows of all pixels, some rows at a time, and hands them on in order:
     /// [y][x][dy][dx][rgb] in mm⁻². Entries beyond the border of a patch that clamps are NaN: not measured.
+    ///
+    /// Returns the share of the light leaving the upper face that leaves within the window, mean over pixels and
+    /// channels.
     ///
     /// # Errors
     /// Whatever `sink` returns.
     pub fn measure<E>(
         &self,
+        sensor: Option<&Sensor>,
         progress: &dyn Progress,
-        mut sink: impl FnMut(&mut [f32]) -> Result<(), E>,
-    ) -> Result<(), E> {
+        mut sink: impl FnMut(&[f32]) -> Result<(), E>,
+    ) -> Result<f64, E> {
         let [width, height] = self.map.size;
         let grid = self.grid();
         let d = 2 * self.radius + 1;
@@ -64,15 +69,22 @@ impl Slab<'_> {
         // Enough rows to keep all threads busy, few enough to stay small.
         let rows_at_once = rayon::current_num_threads() * 2;
         let mut rows = vec![0.0; row_len * rows_at_once];
+        let mut share = 0.0;
+        progress.begin("simulating", (width * height) as u64);
         for first in (0..height).step_by(rows_at_once) {
             let count = rows_at_once.min(height - first);
             let rows = &mut rows[..count * row_len];
-            rows.par_chunks_mut(row_len).enumerate().for_each(|(k, row)| {
-                self.measure_row(&grid, first + k, row, progress);
-            });
+            let shares: Vec<f64> = rows
+                .par_chunks_mut(row_len)
+                .enumerate()
+                .map(|(k, row)| self.measure_row(&grid, first + k, sensor, row, progress))
+                .collect();
+            share += shares.iter().sum::<f64>();
             sink(rows)?;
         }
-        Ok(())
+        #[allow(clippy::cast_precision_loss, reason = "pixels fit in 2⁵³")]
+        let pixels = (width * height) as f64;
+        Ok(share / pixels)
     }
 
     /// Number of voxels that each pixel takes.
@@ -92,18 +104,31 @@ impl Slab<'_> {
         Grid::new(self.pitch_mm, self.radius, self.thickness_mm, margin_mm, shortest, self.refine)
     }
 
-    /// The windows of one row. A solution is the first guess for the pixel beside it, whose surroundings differ little.
-    fn measure_row(&self, grid: &Grid, y: usize, out: &mut [f32], progress: &dyn Progress) {
+    /// The windows of one row; returns the sum of their shares. A solution is the first guess for the pixel beside it,
+    /// whose surroundings differ little.
+    fn measure_row(
+        &self,
+        grid: &Grid,
+        y: usize,
+        sensor: Option<&Sensor>,
+        out: &mut [f32],
+        progress: &dyn Progress,
+    ) -> f64 {
         let lateral = grid.lateral.cells();
         let mut system = System::new([grid.depth.cells(), lateral, lateral]);
         let window_len = out.len() / self.map.size[0];
+        let mut share = 0.0;
         for (x, window) in out.chunks_mut(window_len).enumerate() {
             let media = self.media_below(grid, x, y);
             self.assemble(grid, &media, &mut system);
             system.solve(TOLERANCE);
-            self.read_surface(grid, &media, &system, [x, y], window);
+            share += self.read_surface(grid, &media, &system, [x, y], window);
+            if let Some(sensor) = sensor {
+                sensor.expose(x + y * self.map.size[0], self.pitch_mm, window);
+            }
             progress.advance(1);
         }
+        share
     }
 
     /// The medium below every lateral cell, [y][x].
@@ -176,8 +201,15 @@ impl Slab<'_> {
         }
     }
 
-    /// Mean exitance φ/(2 A) over each pixel of the window.
-    fn read_surface(&self, grid: &Grid, media: &[Medium], system: &System, from: [usize; 2], window: &mut [f32]) {
+    /// Mean exitance φ/(2 A) over each pixel of the window; returns the window's share of all light that leaves.
+    fn read_surface(
+        &self,
+        grid: &Grid,
+        media: &[Medium],
+        system: &System,
+        from: [usize; 2],
+        window: &mut [f32],
+    ) -> f64 {
         let lateral = &grid.lateral;
         let n = lateral.cells();
         let radius = i32::try_from(self.radius).expect("a window radius is below 1,024");
@@ -185,21 +217,27 @@ impl Slab<'_> {
         let boundary = 2.0 * boundary_a(self.eta);
         let half_cell = 0.5 * grid.depth.width(0);
         let mut sums = vec![[0.0_f64; 3]; d * d];
+        let mut outside = 0.0;
         for y in 0..n {
             for x in 0..n {
+                let area = lateral.width(x) * lateral.width(y);
+                let phi = system.phi[system.index(0, x, y)];
+                let power = [0, 1, 2].map(|c| {
+                    let diffusion = media[x + y * n].mean_free_path_mm(c) / 3.0;
+                    phi[c] * area / (boundary + half_cell / diffusion)
+                });
                 let step = [lateral.pixel[x], lateral.pixel[y]];
                 if step.iter().any(|step| step.abs() > radius) {
+                    outside += power.iter().sum::<f64>();
                     continue;
                 }
                 let [dx, dy] = step.map(|step| usize::try_from(step + radius).expect("step ≥ −radius"));
-                let area = lateral.width(x) * lateral.width(y);
-                let phi = system.phi[system.index(0, x, y)];
                 for c in 0..3 {
-                    let diffusion = media[x + y * n].mean_free_path_mm(c) / 3.0;
-                    sums[dx + dy * d][c] += phi[c] * area / (boundary + half_cell / diffusion);
+                    sums[dx + dy * d][c] += power[c];
                 }
             }
         }
+        let within: f64 = sums.iter().flatten().sum();
         let pixel_area = self.pitch_mm * self.pitch_mm;
         for (k, sum) in sums.iter().enumerate() {
             let step = [k % d, k / d].map(|k| i32::try_from(k).expect("k < D") - radius);
@@ -210,5 +248,6 @@ impl Slab<'_> {
                 window[k * 3 + c] = if inside { rd } else { f32::NAN };
             }
         }
+        within / (within + outside)
     }
 }

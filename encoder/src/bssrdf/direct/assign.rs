@@ -24,14 +24,10 @@ const ALBEDO_WEIGHT: f32 = 1e4;
 /// `albedo` the error of the pixel's albedo counts too.
 pub(super) fn search(normal: &Normal, model: &mut Model, field: &mut Field, mut albedo: Option<&mut Albedo>) {
     let deltas = normal.deltas(field);
-    let mut users = vec![0; normal.matrices.len()];
-    for &matrix in &normal.matrix_of {
-        users[matrix as usize] += 1;
-    }
     let tables: Vec<Option<Curvatures>> = normal
         .matrices
         .par_iter()
-        .zip(users)
+        .zip(normal.matrix_users())
         .map(|(matrix, users)| (users >= SHARED).then(|| Curvatures::new(&matrix.curvature(), model)))
         .collect();
 
