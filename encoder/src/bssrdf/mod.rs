@@ -21,7 +21,7 @@ use direct::Model;
 use field::Field;
 use normal::Normal;
 use window::Geometry;
-pub use write::header_bytes;
+pub use write::write_file;
 
 /// How to fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,7 +97,7 @@ pub fn encode(capture: &Capture, options: &Options, progress: &dyn Progress) -> 
     };
     let header = header(capture, &geometry, bases);
     Ok(Encoded {
-        bytes: write::file(&header, &sections),
+        bytes: write_file(&header, &sections),
         entries: normal.entries[0],
         measured: normal.entries[1],
         cost,

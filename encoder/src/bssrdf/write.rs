@@ -2,11 +2,15 @@
 
 use subsurf_decoder::Section;
 use subsurf_decoder::bssrdf::Header;
-use subsurf_decoder::bssrdf::layout::{HEADER_BYTES, MAX_LOG};
+use subsurf_decoder::bssrdf::layout::MAX_LOG;
 use subsurf_decoder::container::{ENTRY_BYTES, Entry, FILE_HEADER_BYTES, crc32, file_header};
 
 /// A file of one material: container, header, and the sections of its model in file order.
-pub(super) fn file(header: &Header, sections: &[(Section, Vec<u8>)]) -> Vec<u8> {
+///
+/// # Panics
+/// Never for the handful of sections that there are.
+#[must_use]
+pub fn write_file(header: &Header, sections: &[(Section, Vec<u8>)]) -> Vec<u8> {
     let header_section = (Section::BssrdfHeader, header.to_bytes().to_vec());
     let all: Vec<&(Section, Vec<u8>)> = std::iter::once(&header_section).chain(sections).collect();
 
@@ -35,12 +39,6 @@ pub(super) fn file(header: &Header, sections: &[(Section, Vec<u8>)]) -> Vec<u8> 
     out.extend(crc32(&out).to_le_bytes());
     out.extend(body);
     out
-}
-
-/// Bytes of the `BSSR` section and of a container with as many sections.
-#[must_use]
-pub fn header_bytes(sections: usize) -> usize {
-    FILE_HEADER_BYTES + (sections + 1) * ENTRY_BYTES + 4 + HEADER_BYTES
 }
 
 /// Little-endian bytes of log-scale profile values, clamped to what the format allows.

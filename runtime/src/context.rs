@@ -1,0 +1,148 @@
+//! A device to draw with.
+
+use std::fmt;
+
+use pollster::block_on;
+use wgpu::{
+    Adapter, AdapterInfo, Backends, Device, DeviceDescriptor, DeviceType, ErrorFilter, ExperimentalFeatures, Features,
+    GlDebugFns, Instance, InstanceDescriptor, InstanceFlags, Limits, MemoryHints, Queue, Trace,
+};
+
+use crate::error::{Error, Result};
+use crate::ledger::Ledger;
+
+/// A graphics API.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Backend {
+    /// Vulkan.
+    Vulkan,
+    /// OpenGL ES 3.0 and up, or OpenGL where that is what the driver opens.
+    Gl,
+}
+
+impl fmt::Display for Backend {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Vulkan => "Vulkan",
+            Self::Gl => "OpenGL ES",
+        })
+    }
+}
+
+impl Backend {
+    /// Both of them.
+    pub const ALL: [Self; 2] = [Self::Vulkan, Self::Gl];
+
+    fn flag(self) -> Backends {
+        match self {
+            Self::Vulkan => Backends::VULKAN,
+            Self::Gl => Backends::GL,
+        }
+    }
+}
+
+/// A device and its queue, opened with the limits of WebGL2 and the ledger of what lives on it.
+#[derive(Debug)]
+pub struct Gpu {
+    pub(crate) device: Device,
+    pub(crate) queue: Queue,
+    info: AdapterInfo,
+    ledger: Ledger,
+}
+
+fn instance(backend: Backend) -> Instance {
+    let mut descriptor = InstanceDescriptor {
+        backends: backend.flag(),
+        flags: InstanceFlags::empty(),
+        ..InstanceDescriptor::new_without_display_handle()
+    };
+    // Debug groups crash drivers of Mali and Adreno.
+    descriptor.backend_options.gl.debug_fns = GlDebugFns::Disabled;
+    Instance::new(descriptor)
+}
+
+/// Devices before software renderers, large before small.
+fn rank(info: &AdapterInfo) -> u8 {
+    match info.device_type {
+        DeviceType::DiscreteGpu => 0,
+        DeviceType::IntegratedGpu => 1,
+        DeviceType::VirtualGpu => 2,
+        DeviceType::Other => 3,
+        DeviceType::Cpu => 4,
+    }
+}
+
+fn adapters(backend: Backend) -> Vec<Adapter> {
+    let mut adapters = block_on(instance(backend).enumerate_adapters(backend.flag()));
+    adapters.sort_by_key(|adapter| rank(&adapter.get_info()));
+    adapters
+}
+
+/// What there is to draw with on this machine, the best first.
+#[must_use]
+pub fn devices(backend: Backend) -> Vec<AdapterInfo> {
+    adapters(backend).iter().map(Adapter::get_info).collect()
+}
+
+impl Gpu {
+    /// Opens the best device of a backend, without a window, within `Limits::downlevel_webgl2_defaults()` but for the
+    /// size of textures.
+    ///
+    /// # Errors
+    /// [`Error::NoDevice`].
+    pub fn open(backend: Backend) -> Result<Self> {
+        let none = |reason: String| Error::NoDevice { backend, reason };
+        let adapter = adapters(backend).into_iter().next();
+        let adapter = adapter.ok_or_else(|| none("the driver lists none".to_owned()))?;
+        let request = adapter.request_device(&DeviceDescriptor {
+            label: Some("subsurf"),
+            required_features: Features::empty(),
+            required_limits: Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits()),
+            experimental_features: ExperimentalFeatures::disabled(),
+            memory_hints: MemoryHints::MemoryUsage,
+            trace: Trace::Off,
+        });
+        let (device, queue) = block_on(request).map_err(|error| none(error.to_string()))?;
+        Ok(Self { device, queue, info: adapter.get_info(), ledger: Ledger::default() })
+    }
+
+    /// What the driver says of itself.
+    #[must_use]
+    pub fn info(&self) -> &AdapterInfo {
+        &self.info
+    }
+
+    /// Bytes on the device.
+    #[must_use]
+    pub fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    /// Runs `work` and turns what the device complains about into an error.
+    pub(crate) fn checked<T>(&self, work: impl FnOnce() -> T) -> Result<T> {
+        // Shader errors of GLES come as internal ones.
+        let filters = [ErrorFilter::Validation, ErrorFilter::Internal, ErrorFilter::OutOfMemory];
+        let scopes = filters.map(|filter| self.device.push_error_scope(filter));
+        let result = work();
+        let mut failed = None;
+        for scope in scopes.into_iter().rev() {
+            failed = failed.or(block_on(scope.pop()));
+        }
+        failed.map_or(Ok(result), |error| Err(Error::Device(error.to_string())))
+    }
+
+    /// Waits until the device has done all that was submitted.
+    ///
+    /// # Errors
+    /// [`Error::Device`] if the device is lost.
+    pub fn wait(&self) -> Result<()> {
+        loop {
+            // The GL backend gives up after two seconds of waiting, however long it was asked to wait.
+            match self.device.poll(wgpu::PollType::wait_indefinitely()) {
+                Ok(_) => return Ok(()),
+                Err(wgpu::PollError::Timeout) => {}
+                Err(error) => return Err(Error::Device(error.to_string())),
+            }
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! What can go wrong, sorted by whose fault it is.
+
+use subsurf_decoder::ReadError;
+
+use crate::context::Backend;
+
+/// Result of this crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Why something could not be drawn.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The file is broken.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The mesh is broken or empty.
+    #[error("mesh: {0}")]
+    Mesh(String),
+    /// There is no device of that kind.
+    #[error("no {backend} device on this machine ({reason})")]
+    NoDevice {
+        /// What was asked for.
+        backend: Backend,
+        /// What the driver said.
+        reason: String,
+    },
+    /// The device cannot hold or do something.
+    #[error("the device takes {what} up to {have}; this needs {need}")]
+    Unsupported {
+        /// What it is about.
+        what: &'static str,
+        /// What is needed.
+        need: u64,
+        /// What the device has.
+        have: u64,
+    },
+    /// The device or its driver failed.
+    #[error("the device failed: {0}")]
+    Device(String),
+}

@@ -1,0 +1,20 @@
+//! Draws `.subsurf` materials with wgpu, on Vulkan and on OpenGL ES 3.0.
+//!
+//! Everything keeps within `Limits::downlevel_webgl2_defaults()`: no compute, no storage buffers, tables in textures.
+
+mod context;
+mod error;
+mod ledger;
+mod material;
+mod mesh_renderer;
+mod pass;
+mod patch;
+mod resource;
+pub mod scene;
+
+pub use context::{Backend, Gpu, devices};
+pub use error::{Error, Result};
+pub use ledger::Ledger;
+pub use material::{Material, Storage};
+pub use mesh_renderer::{BACKGROUND, GpuMesh, MeshExitance, MeshLight, MeshRenderer, View};
+pub use patch::{Exitance, PatchLight, PatchRenderer, Region};

@@ -1,0 +1,130 @@
+//! Pipelines: one shader, its bind groups, one target.
+
+use wgpu::{
+    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindingResource,
+    ColorTargetState, ColorWrites, CommandEncoderDescriptor, FragmentState, LoadOp, MultisampleState, Operations,
+    PipelineLayoutDescriptor, PrimitiveState, RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline,
+    RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp, TextureFormat, TextureView, VertexState,
+};
+
+use crate::context::Gpu;
+use crate::error::Result;
+use crate::resource::{Slot, layout_entries};
+
+/// A pass that covers its whole target with one triangle.
+#[derive(Debug)]
+pub(crate) struct CoverPass {
+    pipeline: RenderPipeline,
+    groups: Vec<BindGroupLayout>,
+}
+
+impl CoverPass {
+    /// Builds the pipeline of a shader with the entry points `cover` and `fragment`, and bind groups of these slots.
+    pub(crate) fn new(gpu: &Gpu, shader: &str, fragment: &str, groups: &[&[Slot]], target: TextureFormat) -> Result<Self> {
+        gpu.checked(|| {
+            let groups = bind_group_layouts(gpu, groups);
+            let module = gpu.device.create_shader_module(ShaderModuleDescriptor {
+                label: Some(fragment),
+                source: ShaderSource::Wgsl(shader.into()),
+            });
+            let bind_group_layouts: Vec<Option<&BindGroupLayout>> = groups.iter().map(Some).collect();
+            let layout = gpu.device.create_pipeline_layout(&PipelineLayoutDescriptor {
+                label: Some(fragment),
+                bind_group_layouts: &bind_group_layouts,
+                immediate_size: 0,
+            });
+            let pipeline = gpu.device.create_render_pipeline(&RenderPipelineDescriptor {
+                label: Some(fragment),
+                layout: Some(&layout),
+                vertex: VertexState {
+                    module: &module,
+                    entry_point: Some("cover"),
+                    compilation_options: Default::default(),
+                    buffers: &[],
+                },
+                primitive: PrimitiveState::default(),
+                depth_stencil: None,
+                multisample: MultisampleState::default(),
+                fragment: Some(FragmentState {
+                    module: &module,
+                    entry_point: Some(fragment),
+                    compilation_options: Default::default(),
+                    targets: &[Some(ColorTargetState { format: target, blend: None, write_mask: ColorWrites::ALL })],
+                }),
+                multiview_mask: None,
+                cache: None,
+            });
+            Self { pipeline, groups }
+        })
+    }
+
+    /// Binds resources, in order, to bind group number `group`.
+    pub(crate) fn bind(&self, gpu: &Gpu, group: usize, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
+        bind(gpu, &self.groups[group], resources)
+    }
+
+    /// Draws `rows` rows of the target from `first` on, and hands them to the device.
+    pub(crate) fn draw(&self, gpu: &Gpu, target: &TextureView, groups: &[&BindGroup], rows: Rows) -> Result<()> {
+        gpu.checked(|| {
+            let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+            let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+                label: None,
+                color_attachments: &[Some(RenderPassColorAttachment {
+                    view: target,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: Operations { load: LoadOp::Load, store: StoreOp::Store },
+                })],
+                depth_stencil_attachment: None,
+                timestamp_writes: None,
+                occlusion_query_set: None,
+                multiview_mask: None,
+            });
+            pass.set_pipeline(&self.pipeline);
+            for (index, group) in groups.iter().enumerate() {
+                pass.set_bind_group(u32::try_from(index).unwrap_or(0), *group, &[]);
+            }
+            pass.set_scissor_rect(0, rows.first, rows.width, rows.count);
+            pass.draw(0..3, 0..1);
+            drop(pass);
+            gpu.queue.submit([encoder.finish()]);
+        })
+    }
+}
+
+/// Rows of a target.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rows {
+    pub(crate) width: u32,
+    pub(crate) first: u32,
+    pub(crate) count: u32,
+}
+
+impl Rows {
+    /// All of a target of `size`, in bands of at most `work_per_row` · rows ≈ 2²⁸ steps of a loop each: one submission
+    /// that runs for seconds trips a driver's watchdog.
+    pub(crate) fn bands(size: [u32; 2], work_per_row: u64) -> impl Iterator<Item = Self> {
+        let rows = ((1_u64 << 28) / work_per_row.max(1)).clamp(1, u64::from(size[1].max(1)));
+        let rows = u32::try_from(rows).unwrap_or(1);
+        (0..size[1]).step_by(rows as usize).map(move |first| Self {
+            width: size[0],
+            first,
+            count: rows.min(size[1] - first),
+        })
+    }
+}
+
+pub(crate) fn bind_group_layouts(gpu: &Gpu, groups: &[&[Slot]]) -> Vec<BindGroupLayout> {
+    let layout = |slots: &&[Slot]| {
+        let entries = layout_entries(slots);
+        gpu.device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: None, entries: &entries })
+    };
+    groups.iter().map(layout).collect()
+}
+
+pub(crate) fn bind(gpu: &Gpu, layout: &BindGroupLayout, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
+    let entries = resources.iter().zip(0..);
+    let entries: Vec<BindGroupEntry<'_>> =
+        entries.map(|(resource, binding)| BindGroupEntry { binding, resource: resource.clone() }).collect();
+    gpu.checked(|| gpu.device.create_bind_group(&BindGroupDescriptor { label: None, layout, entries: &entries }))
+}

@@ -1,0 +1,222 @@
+//! Textures and buffers, entered into the ledger, filled and read back.
+
+use bytemuck::Pod;
+use half::f16;
+use wgpu::util::DeviceExt;
+use wgpu::{
+    BindGroupLayoutEntry, BindingType, Buffer, BufferBindingType, BufferUsages, CommandEncoderDescriptor, Extent3d,
+    ShaderStages, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture, TextureDescriptor, TextureDimension,
+    TextureFormat, TextureSampleType, TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
+};
+
+use crate::context::Gpu;
+use crate::error::{Error, Result};
+use crate::ledger::Tracked;
+
+/// Texels to a row of textures that hold plain arrays; every GLES 3.0 device has as many.
+pub(crate) const ROW: u32 = 2_048;
+
+/// What a texture is to hold.
+pub(crate) struct TextureSpec {
+    pub(crate) label: &'static str,
+    pub(crate) size: [u32; 2],
+    /// More than one makes an array.
+    pub(crate) layers: u32,
+    pub(crate) format: TextureFormat,
+    pub(crate) usage: TextureUsages,
+}
+
+impl TextureSpec {
+    /// A texture that is written from the CPU and read by shaders.
+    pub(crate) fn table(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
+        Self { label, size, layers: 1, format, usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST }
+    }
+
+    /// A texture that shaders write and read, and that can be read back.
+    pub(crate) fn target(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
+        Self { label, size, layers: 1, format, usage }
+    }
+
+    /// Layers of a table, at least as many as asked for.
+    ///
+    /// The GL backend makes a plain texture of one layer and a cube of six square ones (or a multiple of six), whatever
+    /// the shader wants to see: such numbers get a layer more, which stays empty.
+    pub(crate) fn layered(label: &'static str, size: [u32; 2], layers: u32, format: TextureFormat) -> Self {
+        let cube = size[0] == size[1] && layers.is_multiple_of(6);
+        let layers = if layers == 1 || cube { layers + 1 } else { layers };
+        Self { layers, ..Self::table(label, size, format) }
+    }
+
+    /// Room for an array of `len` entries, [`ROW`] to a row.
+    pub(crate) fn array(label: &'static str, len: usize, format: TextureFormat) -> Self {
+        Self::table(label, array_size(len), format)
+    }
+
+    fn bytes(&self) -> u64 {
+        let texel = u64::from(self.format.block_copy_size(None).unwrap_or(4));
+        u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(self.layers) * texel
+    }
+}
+
+/// Width and height of a texture for an array of `len` entries.
+pub(crate) fn array_size(len: usize) -> [u32; 2] {
+    let len = u32::try_from(len).unwrap_or(u32::MAX);
+    [ROW, len.div_ceil(ROW).max(1)]
+}
+
+/// A texture and the view of all of it.
+#[derive(Debug)]
+pub(crate) struct Surface2d {
+    pub(crate) texture: Tracked<Texture>,
+    pub(crate) view: TextureView,
+}
+
+impl Gpu {
+    /// Creates a texture, if the device takes its size.
+    pub(crate) fn texture(&self, spec: &TextureSpec) -> Result<Surface2d> {
+        let limits = self.device.limits();
+        let unsupported = |what, need: u32, have: u32| Error::Unsupported { what, need: need.into(), have: have.into() };
+        let side = spec.size[0].max(spec.size[1]);
+        if side > limits.max_texture_dimension_2d {
+            return Err(unsupported("texture sides", side, limits.max_texture_dimension_2d));
+        }
+        if spec.layers > limits.max_texture_array_layers {
+            return Err(unsupported("texture layers", spec.layers, limits.max_texture_array_layers));
+        }
+        let texture = self.checked(|| {
+            self.device.create_texture(&TextureDescriptor {
+                label: Some(spec.label),
+                size: extent(spec.size, spec.layers),
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: TextureDimension::D2,
+                format: spec.format,
+                usage: spec.usage,
+                view_formats: &[],
+            })
+        })?;
+        let view = texture.create_view(&TextureViewDescriptor::default());
+        Ok(Surface2d { texture: self.ledger().enter(texture, spec.bytes()), view })
+    }
+
+    /// Fills whole rows of one layer from `bytes`; what is missing of the last row is left alone.
+    pub(crate) fn fill(&self, texture: &Texture, layer: u32, bytes: &[u8]) {
+        let texel = texture.format().block_copy_size(None).unwrap_or(4);
+        let row = (texture.width() * texel) as usize;
+        let (whole, part) = bytes.split_at(bytes.len() / row * row);
+        let rows = u32::try_from(whole.len() / row).unwrap_or(u32::MAX);
+        let rest = u32::try_from(part.len()).unwrap_or(0) / texel;
+        for (bytes, y, width, height) in [(whole, 0, texture.width(), rows), (part, rows, rest, 1)] {
+            if width > 0 && height > 0 {
+                let mut to = texture.as_image_copy();
+                to.origin = wgpu::Origin3d { x: 0, y, z: layer };
+                let layout = TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(width * texel),
+                    rows_per_image: Some(height),
+                };
+                self.queue.write_texture(to, bytes, layout, extent([width, height], 1));
+            }
+        }
+    }
+
+    /// A texture of one layer with its contents.
+    pub(crate) fn filled(&self, spec: &TextureSpec, bytes: &[u8]) -> Result<Surface2d> {
+        let surface = self.texture(spec)?;
+        self.checked(|| self.fill(&surface.texture, 0, bytes))?;
+        Ok(surface)
+    }
+
+    /// A buffer with its contents.
+    pub(crate) fn buffer(&self, label: &'static str, contents: &[u8], usage: BufferUsages) -> Tracked<Buffer> {
+        let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage };
+        let buffer = self.device.create_buffer_init(&descriptor);
+        let bytes = buffer.size();
+        self.ledger().enter(buffer, bytes)
+    }
+
+    /// A uniform block.
+    pub(crate) fn uniform<T: Pod>(&self, label: &'static str, block: &T) -> Tracked<Buffer> {
+        self.buffer(label, bytemuck::bytes_of(block), BufferUsages::UNIFORM | BufferUsages::COPY_DST)
+    }
+
+    /// The texels of a texture of one layer, row by row.
+    pub(crate) fn read<T: Pod>(&self, texture: &Texture) -> Result<Vec<T>> {
+        let texel = texture.format().block_copy_size(None).unwrap_or(4);
+        let (width, height) = (texture.width(), texture.height());
+        let row = (width * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("read back"),
+            size: u64::from(row) * u64::from(height),
+            usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let buffer = self.ledger().enter(buffer, u64::from(row) * u64::from(height));
+        self.checked(|| {
+            let mut encoder = self.device.create_command_encoder(&CommandEncoderDescriptor::default());
+            let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
+            let to = TexelCopyBufferInfo { buffer: &buffer, layout };
+            encoder.copy_texture_to_buffer(texture.as_image_copy(), to, extent([width, height], 1));
+            self.queue.submit([encoder.finish()]);
+        })?;
+        let (sender, receiver) = std::sync::mpsc::channel();
+        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+            // The receiver waits below; if it is gone, nobody wants the answer.
+            let _ = sender.send(result);
+        });
+        self.wait()?;
+        let mapped = receiver.recv().map_err(|_| Error::Device("the device never answered".to_owned()))?;
+        mapped.map_err(|error| Error::Device(error.to_string()))?;
+        let bytes = buffer.get_mapped_range(..).map_err(|error| Error::Device(error.to_string()))?;
+        let rows = bytes.chunks(row as usize).map(|bytes| &bytes[..(width * texel) as usize]);
+        Ok(rows.flat_map(bytemuck::pod_collect_to_vec::<u8, T>).collect())
+    }
+
+    /// The first three channels of a half-float texture.
+    pub(crate) fn read_rgb(&self, texture: &Texture) -> Result<Vec<[f32; 3]>> {
+        let texels: Vec<[u16; 4]> = self.read(texture)?;
+        Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b].map(|bits| f16::from_bits(bits).to_f32())).collect())
+    }
+}
+
+fn extent(size: [u32; 2], layers: u32) -> Extent3d {
+    Extent3d { width: size[0], height: size[1], depth_or_array_layers: layers }
+}
+
+/// How a shader sees a binding.
+#[derive(Clone, Copy)]
+pub(crate) enum Slot {
+    /// A uniform block.
+    Uniform,
+    /// A float texture, loaded and never filtered.
+    Float,
+    /// Layers of one.
+    FloatLayers,
+    /// An unsigned integer texture.
+    Uint,
+}
+
+/// Layout entries of a bind group whose bindings are `slots`, seen by both stages.
+pub(crate) fn layout_entries(slots: &[Slot]) -> Vec<BindGroupLayoutEntry> {
+    let texture = |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };
+    let unfiltered = TextureSampleType::Float { filterable: false };
+    let bindings = slots.iter().zip(0..);
+    bindings
+        .map(|(slot, binding)| BindGroupLayoutEntry {
+            binding,
+            visibility: ShaderStages::VERTEX_FRAGMENT,
+            ty: match slot {
+                Slot::Uniform => BindingType::Buffer {
+                    ty: BufferBindingType::Uniform,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                Slot::Float => texture(unfiltered, TextureViewDimension::D2),
+                Slot::FloatLayers => texture(unfiltered, TextureViewDimension::D2Array),
+                Slot::Uint => texture(TextureSampleType::Uint, TextureViewDimension::D2),
+            },
+            count: None,
+        })
+        .collect()
+}

@@ -1,0 +1,165 @@
+//! The vertices of a mesh as points that exchange light: area, pixel of the material, and a grid to find neighbours.
+
+use glam::{UVec3, Vec2, Vec3, Vec4};
+use subsurf_decoder::bssrdf::{Addressing, Header};
+use subsurf_shaders::cpu::Points;
+use subsurf_shaders::uniform;
+
+use super::mesh::Mesh;
+
+/// Where on a surface which pixel of the patch lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mapping {
+    /// Texture coordinates: the unit square shows the patch this many times in u and in v.
+    Uv([f32; 2]),
+    /// In its own size, from the side that each normal faces most (box mapping).
+    Box,
+}
+
+/// Points of a surface, sorted into the cells of a grid.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    pub(crate) grid: uniform::Surface,
+    pub(crate) positions: Vec<Vec4>,
+    pub(crate) normals: Vec<Vec4>,
+    pub(crate) pixels: Vec<[u16; 2]>,
+    pub(crate) cell_starts: Vec<u32>,
+    /// The point of every vertex.
+    pub(crate) point_of: Vec<u32>,
+}
+
+/// Cells to a side, at most: the grid stays small however large the mesh is.
+const MAX_CELLS: f32 = 96.0;
+
+impl Surface {
+    /// Spreads a material over a mesh. `visibility` says of every vertex how much of the light reaches it, 0 to 1.
+    ///
+    /// Each vertex stands for a third of the triangles around it. A patch that clamps is mirrored where the mesh is
+    /// larger than the patch: its border would be drawn out otherwise.
+    ///
+    /// # Panics
+    /// If `visibility` is shorter than the mesh.
+    #[must_use]
+    pub fn new(mesh: &Mesh, mapping: Mapping, header: &Header, visibility: &[f32]) -> Self {
+        let [low, high] = mesh.bounds();
+        let extent = (high - low).max_element();
+        // Half the radius of scattering: a row of cells has few points that are too far away.
+        let cell_mm = (0.5 * header.r_max_mm).max(extent / MAX_CELLS);
+        let cells = ((high - low) / cell_mm).floor().as_uvec3() + 1;
+        let cell_of = |position: Vec3| {
+            let cell = ((position - low) / cell_mm).floor().as_uvec3().min(cells - 1);
+            (cell.z * cells.y + cell.y) * cells.x + cell.x
+        };
+
+        // Points by cell, and within a cell in the order of the mesh.
+        let vertices = u32::try_from(mesh.positions.len()).expect("meshes have fewer than 2³² vertices");
+        let mut order: Vec<u32> = (0..vertices).collect();
+        order.sort_by_key(|&vertex| cell_of(mesh.positions[vertex as usize]));
+        let mut cell_starts = vec![0_u32; (cells.x * cells.y * cells.z) as usize + 1];
+        for position in &mesh.positions {
+            cell_starts[cell_of(*position) as usize + 1] += 1;
+        }
+        for cell in 1..cell_starts.len() {
+            cell_starts[cell] += cell_starts[cell - 1];
+        }
+        let mut point_of = vec![0; mesh.positions.len()];
+        for (&vertex, point) in order.iter().zip(0..) {
+            point_of[vertex as usize] = point;
+        }
+
+        let areas = vertex_areas(mesh);
+        let by_point = || order.iter().map(|&vertex| vertex as usize);
+        Self {
+            grid: uniform::Surface { origin_mm: low.into(), cell_mm, cells: cells.into(), points: vertices },
+            positions: by_point().map(|v| mesh.positions[v].extend(areas[v])).collect(),
+            normals: by_point().map(|v| mesh.normals[v].extend(visibility[v])).collect(),
+            pixels: by_point().map(|v| pixel_of(mesh, v, mapping, header)).collect(),
+            cell_starts,
+            point_of,
+        }
+    }
+
+    /// Number of points.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// Unit normals of the points, and in the fourth place how much of the light reaches each.
+    #[must_use]
+    pub fn normals(&self) -> &[Vec4] {
+        &self.normals
+    }
+
+    /// The point of every vertex of the mesh.
+    #[must_use]
+    pub fn point_of(&self) -> &[u32] {
+        &self.point_of
+    }
+
+    /// The points as the CPU twin of the pass takes them.
+    #[must_use]
+    pub fn points(&self) -> Points<'_> {
+        Points {
+            surface: self.grid,
+            positions: &self.positions,
+            pixels: &self.pixels,
+            cell_starts: &self.cell_starts,
+        }
+    }
+
+    /// Cells of the grid in x, y and z.
+    #[must_use]
+    pub fn cells(&self) -> UVec3 {
+        self.grid.cells.into()
+    }
+}
+
+fn vertex_areas(mesh: &Mesh) -> Vec<f32> {
+    let mut areas = vec![0.0; mesh.positions.len()];
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|k| mesh.positions[k as usize]);
+        let third = (b - a).cross(c - a).length() / 6.0;
+        for &k in triangle {
+            areas[k as usize] += third;
+        }
+    }
+    areas
+}
+
+fn pixel_of(mesh: &Mesh, vertex: usize, mapping: Mapping, header: &Header) -> [u16; 2] {
+    #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
+    let size = Vec2::new(header.width as f32, header.height as f32);
+    // Pixels, y down.
+    let at = match (mapping, &mesh.uvs) {
+        (Mapping::Uv(times), Some(uvs)) => {
+            let uv = uvs[vertex] * Vec2::from(times);
+            Vec2::new(uv.x, 1.0 - uv.y) * size
+        }
+        _ => {
+            let (position, normal) = (mesh.positions[vertex], mesh.normals[vertex]);
+            let side = normal.abs();
+            let on_side = if side.x >= side.y && side.x >= side.z {
+                Vec2::new(-position.z * normal.x.signum(), -position.y)
+            } else if side.y >= side.z {
+                Vec2::new(position.x, position.z * normal.y.signum())
+            } else {
+                Vec2::new(position.x * normal.z.signum(), -position.y)
+            };
+            on_side / header.pitch_mm + 0.5 * size
+        }
+    };
+    let addressing = match header.addressing {
+        Addressing::Clamp => Addressing::Mirror,
+        other => other,
+    };
+    #[allow(clippy::cast_possible_truncation, reason = "saturates; meshes are not billions of pixels large")]
+    let pixel = [(at.x.floor() as i32, header.width), (at.y.floor() as i32, header.height)];
+    pixel.map(|(x, n)| u16::try_from(addressing.map(x, n)).unwrap_or(0))
+}

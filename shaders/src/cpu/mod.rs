@@ -1,0 +1,22 @@
+//! The passes on the CPU: the reference for the GPU's numbers, and a renderer where there is no GPU.
+//!
+//! Colours are linear Rec. 709. Where the GPU stores a result in a half-float texture, the twin keeps f32.
+
+mod fresnel;
+mod gather;
+mod irradiance;
+mod present;
+mod shade;
+mod surface_gather;
+mod tone;
+
+pub use fresnel::{diffuse_transmittance, fresnel_transmittance};
+pub use gather::{Reflectance, gather};
+pub use irradiance::irradiance;
+pub use present::present;
+pub use shade::{Triangles, shade};
+pub use surface_gather::{Points, surface_gather};
+pub use tone::{display, neutral, srgb};
+
+/// Linear red, green and blue.
+pub type Rgb = [f32; 3];

@@ -1,0 +1,97 @@
+//! Twin of `shade.wgsl`, with the rasteriser that the GPU has built in.
+
+use glam::{Mat4, Vec2, Vec3, Vec4, Vec4Swizzles};
+
+use super::{Rgb, display, fresnel_transmittance, neutral, srgb};
+use crate::uniform::Camera;
+
+/// A mesh to draw.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangles<'a> {
+    /// Positions of the vertices in mm.
+    pub positions: &'a [Vec3],
+    /// Unit normals of the vertices.
+    pub normals: &'a [Vec3],
+    /// Exitance of the vertices.
+    pub exitances: &'a [Rgb],
+    /// Vertices of the triangles.
+    pub triangles: &'a [[u32; 3]],
+}
+
+/// Draws a mesh in front of a `background` of display values, `size` pixels, row by row from the top.
+///
+/// # Panics
+/// If an index leads outside the vertices.
+#[must_use]
+pub fn shade(mesh: &Triangles<'_>, camera: &Camera, size: [u32; 2], background: [u8; 3]) -> Vec<[u8; 3]> {
+    let [width, height] = size.map(|n| n as usize);
+    let mut picture = vec![background; width * height];
+    let mut depth = vec![1.0_f32; width * height];
+    let clip_from_world = Mat4::from_cols_array_2d(&camera.clip_from_world);
+    let clip: Vec<Vec4> = mesh.positions.iter().map(|p| clip_from_world * p.extend(1.0)).collect();
+    #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
+    let half = Vec2::new(width as f32, height as f32) * 0.5;
+    // Pixels, y down.
+    let screen = |v: Vec4| (v.xy() / v.w * Vec2::new(1.0, -1.0) + 1.0) * half;
+
+    for triangle in mesh.triangles {
+        let corners = triangle.map(|k| k as usize);
+        let clip = corners.map(|k| clip[k]);
+        // Cameras stand outside what they look at: a triangle that reaches behind the eye is not drawn.
+        if clip.iter().any(|v| v.w <= 0.0) {
+            continue;
+        }
+        let [a, b, c] = clip.map(screen);
+        let area = (b - a).perp_dot(c - a);
+        if area == 0.0 {
+            continue;
+        }
+        let low = a.min(b).min(c).max(Vec2::ZERO);
+        let high = a.max(b).max(c).min(2.0 * half - 1.0);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the picture")]
+        let range = |low: f32, high: f32| low.floor() as usize..=high.ceil().max(0.0) as usize;
+        for y in range(low.y, high.y) {
+            for x in range(low.x, high.x) {
+                if x >= width || y >= height {
+                    continue;
+                }
+                #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
+                let centre = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+                let weights = [
+                    (c - b).perp_dot(centre - b) / area,
+                    (a - c).perp_dot(centre - c) / area,
+                    (b - a).perp_dot(centre - a) / area,
+                ];
+                if weights.iter().any(|w| *w < 0.0) {
+                    continue;
+                }
+                // Depth is linear on the screen, everything else after division by w.
+                let z: f32 = weights.iter().zip(clip).map(|(w, v)| w * v.z / v.w).sum();
+                let at = y * width + x;
+                if !(0.0..depth[at]).contains(&z) {
+                    continue;
+                }
+                depth[at] = z;
+                let mut perspective = [0, 1, 2].map(|k| weights[k] / clip[k].w);
+                let sum: f32 = perspective.iter().sum();
+                perspective = perspective.map(|w| w / sum);
+                let blend = |values: &[Vec3]| -> Vec3 {
+                    (0..3).map(|k| values[corners[k]] * perspective[k]).fold(Vec3::ZERO, |sum, v| sum + v)
+                };
+                let exitance: Vec3 =
+                    (0..3).map(|k| Vec3::from(mesh.exitances[corners[k]]) * perspective[k]).fold(Vec3::ZERO, |sum, v| sum + v);
+                picture[at] = radiance(camera, blend(mesh.positions), blend(mesh.normals), exitance);
+            }
+        }
+    }
+    picture
+}
+
+/// Lambert's law with Fresnel transmission on the way out, normalised: L = M F_t / (π (1 − F_dr)).
+fn radiance(camera: &Camera, position_mm: Vec3, normal: Vec3, exitance: Vec3) -> [u8; 3] {
+    let to_eye = (Vec3::from(camera.eye_mm) - position_mm).normalize();
+    let cosine = normal.normalize().dot(to_eye).abs().clamp(0.0, 1.0);
+    let transmittance = fresnel_transmittance(cosine, camera.eta) * camera.exit_scale;
+    let radiance = exitance * transmittance / std::f32::consts::PI;
+    display(srgb(neutral((radiance * camera.exposure).into())))
+}

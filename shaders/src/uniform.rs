@@ -1,0 +1,132 @@
+//! Uniform blocks, laid out as in WGSL; `tests/layout.rs` holds them to it.
+
+use bytemuck::{Pod, Zeroable};
+use subsurf_decoder::bssrdf::Header;
+
+/// `Material` of `material.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Material {
+    /// Pixels of the patch.
+    pub size: [u32; 2],
+    /// 0 clamp, 1 repeat, 2 mirror.
+    pub addressing: u32,
+    /// R in pixels.
+    pub window_radius: u32,
+    /// S.
+    pub samples: u32,
+    /// M; 0 for per-pixel profiles.
+    pub base_materials: u32,
+    /// Distance of neighbouring pixels.
+    pub pitch_mm: f32,
+    /// Radius of the last node.
+    pub r_max_mm: f32,
+    /// (S − 1) / r_max, in nodes per mm.
+    pub nodes_per_mm: f32,
+    /// Refractive index against air.
+    pub eta: f32,
+    /// Texels to a row of textures that hold plain arrays.
+    pub row: u32,
+    /// Rows to a layer of one that has layers.
+    pub rows: u32,
+}
+
+impl Material {
+    /// The block for a file's header; plain arrays have layers of `layer` texels.
+    #[must_use]
+    pub fn new(header: &Header, layer: [u32; 2]) -> Self {
+        Self {
+            size: [header.width, header.height],
+            addressing: header.addressing.code().into(),
+            window_radius: header.window_radius.into(),
+            samples: header.samples.into(),
+            base_materials: header.base_materials,
+            pitch_mm: header.pitch_mm,
+            r_max_mm: header.r_max_mm,
+            nodes_per_mm: f32::from(header.samples.saturating_sub(1)) / header.r_max_mm,
+            eta: header.eta,
+            row: layer[0],
+            rows: layer[1],
+        }
+    }
+}
+
+/// `View` of `gather.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct View {
+    /// Pixel of the patch that the target's first texel shows.
+    pub origin: [u32; 2],
+    #[doc(hidden)]
+    pub pad: [u32; 2],
+}
+
+/// `Surface` of `surface_gather.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Surface {
+    /// Lowest corner of the grid.
+    pub origin_mm: [f32; 3],
+    /// Edge of a cell.
+    pub cell_mm: f32,
+    /// Cells in x, y and z.
+    pub cells: [u32; 3],
+    /// Number of points.
+    pub points: u32,
+}
+
+/// `Light` of `irradiance.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Light {
+    /// Unit vector towards the light.
+    pub direction: [f32; 3],
+    #[doc(hidden)]
+    pub pad_0: f32,
+    /// Irradiance on a plane that faces the light, linear Rec. 709.
+    pub irradiance: [f32; 3],
+    #[doc(hidden)]
+    pub pad_1: f32,
+    /// Irradiance from all around, linear Rec. 709.
+    pub sky: [f32; 3],
+    /// 1 − F_dr from outside: what of the sky's light enters.
+    pub sky_transmittance: f32,
+    /// Refractive index of the material against air.
+    pub eta: f32,
+    #[doc(hidden)]
+    pub pad_2: [f32; 3],
+}
+
+/// `Camera` of `shade.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Camera {
+    /// Column-major; depth 0 to 1.
+    pub clip_from_world: [[f32; 4]; 4],
+    /// Position of the eye.
+    pub eye_mm: [f32; 3],
+    /// Multiplies radiance before tone mapping.
+    pub exposure: f32,
+    /// 1 / (1 − F_dr) from outside.
+    pub exit_scale: f32,
+    /// Refractive index of the material against air.
+    pub eta: f32,
+    /// Texels to a row of the exitance texture.
+    pub row: u32,
+    #[doc(hidden)]
+    pub pad: u32,
+}
+
+/// `Frame` of `present.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Frame {
+    /// Pixels of the picture.
+    pub size: [u32; 2],
+    /// Texels of the patch.
+    pub texels: [u32; 2],
+    /// Multiplies exitance before tone mapping.
+    pub exposure: f32,
+    #[doc(hidden)]
+    pub pad: [f32; 3],
+}

@@ -1,0 +1,43 @@
+// 2-BMPP: two base materials per pixel (Yatagawa et al. 2020, eq. 1-4).
+
+// 3 S x M, log-scale base scattering profiles [material][node, rgb].
+@group(0) @binding(1) var profiles: texture_2d<f32>;
+// Mixture ratio t of the first base material.
+@group(0) @binding(2) var ratios: texture_2d<f32>;
+// Base-material indices.
+@group(0) @binding(3) var indices: texture_2d<u32>;
+
+struct Pixel {
+    base: vec2<u32>,
+    t: f32,
+}
+
+fn load_pixel(texel: vec2<u32>) -> Pixel {
+    let base = textureLoad(indices, texel, 0).xy;
+    let t = textureLoad(ratios, texel, 0).x;
+    return Pixel(min(base, vec2<u32>(material.base_materials - 1u)), t);
+}
+
+fn base_node(base: u32, h: u32) -> vec3<f32> {
+    let x = 3u * h;
+    return vec3<f32>(
+        textureLoad(profiles, vec2<u32>(x, base), 0).x,
+        textureLoad(profiles, vec2<u32>(x + 1u, base), 0).x,
+        textureLoad(profiles, vec2<u32>(x + 2u, base), 0).x,
+    );
+}
+
+fn base_profile(base: u32, knot: Knot) -> vec3<f32> {
+    return mix(base_node(base, knot.h), base_node(base, knot.h + 1u), knot.w);
+}
+
+// P_x = t P_b1 + (1 - t) P_b2, all in log scale.
+fn log_profile(pixel: Pixel, knot: Knot) -> vec3<f32> {
+    return mix(base_profile(pixel.base.y, knot), base_profile(pixel.base.x, knot), pixel.t);
+}
+
+// Rd in mm^-2 from pixel i to pixel o at distance r; step = x_i - x_o in pixels.
+fn reflectance(i: Pixel, o: Pixel, step: vec2<i32>, r_mm: f32) -> vec3<f32> {
+    let knot = knot_at(r_mm);
+    return exp(0.5 * (log_profile(i, knot) + log_profile(o, knot)));
+}

@@ -1,0 +1,8 @@
+// Share of unpolarised light that passes from air into a dielectric of index eta at an angle of incidence.
+fn fresnel_transmittance(cos_i: f32, eta: f32) -> f32 {
+    let sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
+    let cos_t = sqrt(1.0 - sin2_t);
+    let parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    let perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    return 1.0 - 0.5 * (parallel * parallel + perpendicular * perpendicular);
+}

@@ -1,0 +1,223 @@
+//! Every pass on Vulkan and on OpenGL ES 3.0 against its CPU twin.
+//!
+//! The GL backend must really be GLES 3.0: `.cargo/config.toml` sets Mesa's overrides for `cargo test`.
+
+use glam::Vec3;
+use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::Addressing;
+use subsurf_runtime::scene::{Mapping, Mesh, Surface, sphere, torus};
+use subsurf_runtime::{
+    BACKGROUND, Backend, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchRenderer, Region, Storage, View,
+};
+use subsurf_shaders::cpu;
+use subsurf_tests::{bmpp, per_pixel, unit};
+
+/// Targets are half floats: software drivers truncate to 11 bits, so that every target on the way costs up to 2⁻¹⁰.
+const HALF_ULP: f32 = 1.0 / 1024.0;
+/// What sums of some hundred f32 terms with another `exp` differ by.
+const SUM_TOLERANCE: f32 = 2e-5;
+/// Display values: one step of 255, for rounding.
+const DISPLAY_TOLERANCE: u8 = 1;
+/// Share of a picture's pixels that may differ more: drivers snap vertices to a grid of subpixels, and a pixel on an
+/// edge goes to one triangle or the other.
+const EDGE_PIXELS: f64 = 0.004;
+
+fn open(backend: Backend) -> Gpu {
+    let gpu = Gpu::open(backend).unwrap_or_else(|error| panic!("{error}: run `make test`, which installs one"));
+    let info = gpu.info();
+    println!("{backend}: {}, {} {}", info.name, info.driver, info.driver_info);
+    if backend == Backend::Gl {
+        assert!(info.driver_info.starts_with("OpenGL ES"), "not GLES: {}", info.driver_info);
+        if info.driver_info.contains("Mesa") {
+            assert!(info.driver_info.starts_with("OpenGL ES 3.0"), "not forced to 3.0: {}", info.driver_info);
+        }
+    }
+    gpu
+}
+
+/// Asserts that results differ by no more than `targets` half-float targets in a row may.
+fn assert_close(found: &[[f32; 3]], expected: &[[f32; 3]], targets: f32, what: &str) {
+    let tolerance = targets * HALF_ULP + SUM_TOLERANCE;
+    assert_eq!(found.len(), expected.len(), "{what}");
+    let mut worst = 0.0_f32;
+    for (at, (found, expected)) in found.iter().zip(expected).enumerate() {
+        for c in 0..3 {
+            let error = (found[c] - expected[c]).abs() / expected[c].abs().max(1e-4);
+            assert!(error <= tolerance, "{what}: {found:?} is not {expected:?} at {at}");
+            worst = worst.max(error);
+        }
+    }
+    println!("{what}: largest relative difference {worst:.2e}");
+}
+
+/// Bright here, dark there, coloured.
+fn patterned_light(size: [u32; 2]) -> Vec<[f32; 3]> {
+    (0..size[0] * size[1]).map(|pixel| [0, 1, 2].map(|c| 2.0 * unit(7 * pixel + c).powi(2))).collect()
+}
+
+fn patch(backend: Backend) {
+    let gpu = open(backend);
+    let size = [23, 17];
+    let irradiance = patterned_light(size);
+    for storage in [Storage::Bmpp, Storage::PerPixel] {
+        let renderer = PatchRenderer::new(&gpu, storage).unwrap();
+        for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
+            // The second window is wider than the patch: it wraps more than once.
+            for radius in [4, 20] {
+                let file = if storage == Storage::Bmpp { bmpp } else { per_pixel }(size, radius, addressing);
+                let material = Bssrdf::parse(&file).unwrap();
+                let what = format!("{backend}, {storage:?}, {addressing:?}, radius {radius}");
+                let uploaded = Material::upload(&gpu, &material).unwrap();
+                let light = renderer.light(&gpu, &uploaded, &irradiance).unwrap();
+                let region = Region { origin: [2, 1], size: [21, 16] };
+                let exitance = renderer.gather(&gpu, &uploaded, &light, region).unwrap();
+                let expected = cpu::gather(&material, &irradiance, region.origin, region.size);
+                let found = exitance.read(&gpu).unwrap();
+                assert_close(&found, &expected, 1.0, &what);
+
+                let pixels = [64, 40];
+                let picture = renderer.picture(&gpu, &exitance, pixels, 3.0).unwrap();
+                let expected = cpu::present(&found, region.size, pixels, 3.0);
+                let worst = picture.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| a.abs_diff(*b)).max();
+                assert!(worst <= Some(DISPLAY_TOLERANCE), "{what}: pictures differ by {worst:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn patch_on_vulkan() {
+    patch(Backend::Vulkan);
+}
+
+#[test]
+fn patch_on_gles_3_0() {
+    patch(Backend::Gl);
+}
+
+fn capture_patch(backend: Backend) {
+    // A capture as the gather of its own model: the entries are Rd of a 2-BMPP file, clamp mode left out.
+    let gpu = open(backend);
+    let size = [12, 9];
+    let radius = 3;
+    let file = bmpp(size, radius, Addressing::Repeat);
+    let material = Bssrdf::parse(&file).unwrap();
+    let reach = -i32::from(radius)..=i32::from(radius);
+    let mut entries = Vec::new();
+    for y in 0..size[1].cast_signed() {
+        for x in 0..size[0].cast_signed() {
+            for dy in reach.clone() {
+                for dx in reach.clone() {
+                    let rd = material.rd([x, y], [x + dx, y + dy]);
+                    entries.extend(rd.iter().flat_map(|rd| rd.to_le_bytes()));
+                }
+            }
+        }
+    }
+    let irradiance = patterned_light(size);
+    let renderer = PatchRenderer::new(&gpu, Storage::Capture).unwrap();
+    let uploaded = Material::upload_capture(&gpu, material.header(), &entries).unwrap();
+    let light = renderer.light(&gpu, &uploaded, &irradiance).unwrap();
+    let region = Region { origin: [0, 0], size };
+    let found = renderer.gather(&gpu, &uploaded, &light, region).unwrap().read(&gpu).unwrap();
+    let expected = cpu::gather(&material, &irradiance, region.origin, size);
+    assert_close(&found, &expected, 1.0, &format!("{backend}, capture"));
+}
+
+#[test]
+fn capture_on_vulkan() {
+    capture_patch(Backend::Vulkan);
+}
+
+#[test]
+fn capture_on_gles_3_0() {
+    capture_patch(Backend::Gl);
+}
+
+fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, storage: Storage, what: &str) {
+    let gpu = open(backend);
+    let file = if storage == Storage::Bmpp { bmpp } else { per_pixel }([31, 31], 6, Addressing::Clamp);
+    let material = Bssrdf::parse(&file).unwrap();
+    let what = format!("{backend}, {what}, {storage:?}");
+    // A shadow over half of it, with a soft edge.
+    let visibility: Vec<f32> = mesh.positions.iter().map(|p| (0.5 + 0.2 * p.x).clamp(0.0, 1.0)).collect();
+    let surface = Surface::new(mesh, mapping, material.header(), &visibility);
+    let light = MeshLight { direction: Vec3::new(0.5, 1.0, 0.8), irradiance: [3.0, 2.8, 2.5], sky: [0.2, 0.3, 0.4] };
+
+    let renderer = MeshRenderer::new(&gpu, storage).unwrap();
+    let uploaded = Material::upload(&gpu, &material).unwrap();
+    let on_gpu = GpuMesh::upload(&gpu, mesh, &surface).unwrap();
+    let exitance = renderer.exitance(&gpu, &uploaded, &on_gpu, &light).unwrap();
+    let found = exitance.read(&gpu).unwrap();
+
+    let irradiance = cpu::irradiance(surface.normals(), &light.block(material.header().eta));
+    let expected = cpu::surface_gather(&material, &surface.points(), &irradiance);
+    // Irradiance and exitance.
+    assert_close(&found, &expected, 2.0, &what);
+
+    let size = [160, 120];
+    let view = View { eye_mm: Vec3::new(10.0, 12.0, 25.0), target_mm: Vec3::ZERO, angle: 0.6, exposure: 1.2 };
+    let camera = view.block(size, material.header().eta);
+    let picture = renderer.picture(&gpu, &on_gpu, &exitance, &camera, size).unwrap();
+    let of_vertices: Vec<[f32; 3]> = surface.point_of().iter().map(|&point| found[point as usize]).collect();
+    let triangles = cpu::Triangles {
+        positions: &mesh.positions,
+        normals: &mesh.normals,
+        exitances: &of_vertices,
+        triangles: &mesh.triangles,
+    };
+    let expected = cpu::shade(&triangles, &camera, size, [BACKGROUND; 3]);
+    let differs = |(a, b): (&[u8; 3], &[u8; 3])| (0..3).any(|c| a[c].abs_diff(b[c]) > DISPLAY_TOLERANCE);
+    let different = picture.iter().zip(&expected).filter(|pair| differs(*pair)).count();
+    let covered = expected.iter().filter(|pixel| **pixel != [BACKGROUND; 3]).count();
+    println!("{what}: {different} of {} pixels differ, {covered} are covered", picture.len());
+    assert!(covered * 10 > picture.len(), "{what}: the mesh is in the picture");
+    assert!(different as f64 <= EDGE_PIXELS * picture.len() as f64, "{what}: {different} pixels differ");
+}
+
+fn meshes(backend: Backend) {
+    let ball = sphere(5.0, 24);
+    mesh_scene(backend, &ball, Mapping::Box, Storage::Bmpp, "sphere, box mapping");
+    mesh_scene(backend, &ball, Mapping::Uv([2.0, 1.0]), Storage::PerPixel, "sphere, texture coordinates");
+    mesh_scene(backend, &torus(5.0, 2.0, 20), Mapping::Uv([4.0, 2.0]), Storage::Bmpp, "torus");
+}
+
+#[test]
+fn meshes_on_vulkan() {
+    meshes(Backend::Vulkan);
+}
+
+#[test]
+fn meshes_on_gles_3_0() {
+    meshes(Backend::Gl);
+}
+
+fn ledger(backend: Backend) {
+    let gpu = open(backend);
+    let file = bmpp([40, 30], 5, Addressing::Clamp);
+    let material = Bssrdf::parse(&file).unwrap();
+    assert_eq!(gpu.ledger().bytes(), 0);
+    let uploaded = Material::upload(&gpu, &material).unwrap();
+    // Planes as they stand in the file, and 48 bytes of uniforms.
+    let planes = 12 * 7 * 7 + 6 * 40 * 30;
+    assert_eq!(uploaded.gpu_bytes(), planes + 48);
+    assert_eq!(gpu.ledger().bytes(), planes + 48);
+    drop(uploaded);
+    assert_eq!(gpu.ledger().bytes(), 0);
+
+    let other = PatchRenderer::new(&gpu, Storage::PerPixel).unwrap();
+    let uploaded = Material::upload(&gpu, &material).unwrap();
+    let light = other.light(&gpu, &uploaded, &patterned_light([40, 30])).unwrap();
+    let region = Region { origin: [0, 0], size: [4, 4] };
+    assert!(other.gather(&gpu, &uploaded, &light, region).is_err(), "a renderer for another storage");
+}
+
+#[test]
+fn ledger_on_vulkan() {
+    ledger(Backend::Vulkan);
+}
+
+#[test]
+fn ledger_on_gles_3_0() {
+    ledger(Backend::Gl);
+}
