@@ -10,6 +10,7 @@ pub mod metrics;
 mod output;
 mod progress;
 pub mod simulate;
+pub mod synthetic;
 
 pub use error::{Error, Result};
 pub use output::{write_atomically, write_bytes};

@@ -23,7 +23,9 @@ pub fn write_atomically(
     };
     let mut file = NamedTempFile::with_prefix_in(".subsurf-", folder).map_err(output)?;
     let mut buffered = BufWriter::new(file.as_file_mut());
-    write(&mut buffered).and_then(|()| buffered.flush()).map_err(output)?;
+    write(&mut buffered)
+        .and_then(|()| buffered.flush())
+        .map_err(output)?;
     drop(buffered);
     make_readable(file.as_file()).map_err(output)?;
     file.as_file().sync_data().map_err(output)?;

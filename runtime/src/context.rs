@@ -4,8 +4,9 @@ use std::fmt;
 
 use pollster::block_on;
 use wgpu::{
-    Adapter, AdapterInfo, Backends, Device, DeviceDescriptor, DeviceType, ErrorFilter, ExperimentalFeatures, Features,
-    GlDebugFns, Instance, InstanceDescriptor, InstanceFlags, Limits, MemoryHints, Queue, Trace,
+    Adapter, AdapterInfo, Backends, Device, DeviceDescriptor, DeviceType, ErrorFilter,
+    ExperimentalFeatures, Features, GlDebugFns, Instance, InstanceDescriptor, InstanceFlags,
+    Limits, MemoryHints, Queue, Trace,
 };
 
 use crate::error::{Error, Result};
@@ -22,7 +23,7 @@ pub enum Backend {
 
 impl fmt::Display for Backend {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+        f.pad(match self {
             Self::Vulkan => "Vulkan",
             Self::Gl => "OpenGL ES",
         })
@@ -103,7 +104,12 @@ impl Gpu {
             trace: Trace::Off,
         });
         let (device, queue) = block_on(request).map_err(|error| none(error.to_string()))?;
-        Ok(Self { device, queue, info: adapter.get_info(), ledger: Ledger::default() })
+        Ok(Self {
+            device,
+            queue,
+            info: adapter.get_info(),
+            ledger: Ledger::default(),
+        })
     }
 
     /// What the driver says of itself.
@@ -121,7 +127,11 @@ impl Gpu {
     /// Runs `work` and turns what the device complains about into an error.
     pub(crate) fn checked<T>(&self, work: impl FnOnce() -> T) -> Result<T> {
         // Shader errors of GLES come as internal ones.
-        let filters = [ErrorFilter::Validation, ErrorFilter::Internal, ErrorFilter::OutOfMemory];
+        let filters = [
+            ErrorFilter::Validation,
+            ErrorFilter::Internal,
+            ErrorFilter::OutOfMemory,
+        ];
         let scopes = filters.map(|filter| self.device.push_error_scope(filter));
         let result = work();
         let mut failed = None;
@@ -131,11 +141,12 @@ impl Gpu {
         failed.map_or(Ok(result), |error| Err(Error::Device(error.to_string())))
     }
 
-    /// Waits until the device has done all that was submitted.
+    /// Hands over what is still waiting to be uploaded, and waits until the device has done everything.
     ///
     /// # Errors
     /// [`Error::Device`] if the device is lost.
-    pub fn wait(&self) -> Result<()> {
+    pub fn finish(&self) -> Result<()> {
+        self.queue.submit([]);
         loop {
             // The GL backend gives up after two seconds of waiting, however long it was asked to wait.
             match self.device.poll(wgpu::PollType::wait_indefinitely()) {

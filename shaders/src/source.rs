@@ -37,16 +37,25 @@ pub const SURFACE_GATHER_PER_PIXEL: &str =
     with_model!("per_pixel.wgsl", "cover.wgsl", "surface_gather.wgsl");
 
 /// Irradiance at the points of a surface; entry points `cover` and `irradiance`.
-pub const IRRADIANCE: &str =
-    concat!(include_str!("../wgsl/fresnel.wgsl"), include_str!("../wgsl/cover.wgsl"), include_str!("../wgsl/irradiance.wgsl"));
+pub const IRRADIANCE: &str = concat!(
+    include_str!("../wgsl/fresnel.wgsl"),
+    include_str!("../wgsl/cover.wgsl"),
+    include_str!("../wgsl/irradiance.wgsl")
+);
 
 /// Picture of a mesh; entry points `project` and `shade`.
-pub const SHADE: &str =
-    concat!(include_str!("../wgsl/fresnel.wgsl"), include_str!("../wgsl/tone.wgsl"), include_str!("../wgsl/shade.wgsl"));
+pub const SHADE: &str = concat!(
+    include_str!("../wgsl/fresnel.wgsl"),
+    include_str!("../wgsl/tone.wgsl"),
+    include_str!("../wgsl/shade.wgsl")
+);
 
 /// Picture of a flat patch; entry points `cover` and `present`.
-pub const PRESENT: &str =
-    concat!(include_str!("../wgsl/cover.wgsl"), include_str!("../wgsl/tone.wgsl"), include_str!("../wgsl/present.wgsl"));
+pub const PRESENT: &str = concat!(
+    include_str!("../wgsl/cover.wgsl"),
+    include_str!("../wgsl/tone.wgsl"),
+    include_str!("../wgsl/present.wgsl")
+);
 
 /// Every pass in every variant, by name.
 pub const ALL: [(&str, &str); 8] = [
@@ -54,7 +63,10 @@ pub const ALL: [(&str, &str); 8] = [
     ("gather, per-pixel profiles", GATHER.per_pixel),
     ("gather, capture", GATHER.capture),
     ("surface gather, 2-BMPP", SURFACE_GATHER_BMPP),
-    ("surface gather, per-pixel profiles", SURFACE_GATHER_PER_PIXEL),
+    (
+        "surface gather, per-pixel profiles",
+        SURFACE_GATHER_PER_PIXEL,
+    ),
     ("irradiance", IRRADIANCE),
     ("shade", SHADE),
     ("present", PRESENT),

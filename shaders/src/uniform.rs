@@ -114,7 +114,11 @@ pub struct Camera {
     /// Texels to a row of the exitance texture.
     pub row: u32,
     #[doc(hidden)]
-    pub pad: u32,
+    pub pad_0: u32,
+    /// Radiance from all around, which the surface reflects, linear Rec. 709.
+    pub sky: [f32; 3],
+    #[doc(hidden)]
+    pub pad_1: u32,
 }
 
 /// `Frame` of `present.wgsl`.

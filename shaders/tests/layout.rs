@@ -10,14 +10,24 @@ fn assert_layout(name: &str, size: usize, members: &[(&str, usize)]) {
     let mut found = 0;
     for (pass, text) in source::ALL {
         let module = naga::front::wgsl::parse_str(text).unwrap();
-        let structs = module.types.iter().filter(|(_, ty)| ty.name.as_deref() == Some(name));
+        let structs = module
+            .types
+            .iter()
+            .filter(|(_, ty)| ty.name.as_deref() == Some(name));
         for (_, ty) in structs {
-            let TypeInner::Struct { members: wgsl, span } = &ty.inner else {
+            let TypeInner::Struct {
+                members: wgsl,
+                span,
+            } = &ty.inner
+            else {
                 panic!("{pass}: {name} is no struct");
             };
             // Padding has no meaning; what has one must be in both.
-            let wgsl = wgsl.iter().map(|member| (member.name.as_deref().unwrap(), member.offset as usize));
-            let wgsl: Vec<(&str, usize)> = wgsl.filter(|(name, _)| !name.starts_with("pad")).collect();
+            let wgsl = wgsl
+                .iter()
+                .map(|member| (member.name.as_deref().unwrap(), member.offset as usize));
+            let wgsl: Vec<(&str, usize)> =
+                wgsl.filter(|(name, _)| !name.starts_with("pad")).collect();
             assert_eq!(wgsl, members, "{pass}: {name}");
             assert_eq!(*span as usize, size, "{pass}: size of {name}");
             found += 1;
@@ -42,7 +52,7 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(View: origin);
     assert_layout_of!(Surface: origin_mm, cell_mm, cells, points);
     assert_layout_of!(Light: direction, irradiance, sky, sky_transmittance, eta);
-    assert_layout_of!(Camera: clip_from_world, eye_mm, exposure, exit_scale, eta, row);
+    assert_layout_of!(Camera: clip_from_world, eye_mm, exposure, exit_scale, eta, row, sky);
     assert_layout_of!(Frame: size, texels, exposure);
 }
 
@@ -53,5 +63,8 @@ fn addressing_codes_are_those_of_the_format() {
     let codes = [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror].map(Addressing::code);
     assert_eq!(codes, [0, 1, 2]);
     let text = source::GATHER.bmpp;
-    assert!(text.contains("material.addressing == 0u") && text.contains("material.addressing == 2u"), "clamp and mirror");
+    assert!(
+        text.contains("material.addressing == 0u") && text.contains("material.addressing == 2u"),
+        "clamp and mirror"
+    );
 }

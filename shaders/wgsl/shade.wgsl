@@ -12,7 +12,10 @@ struct Camera {
     eta: f32,
     // Texels to a row of the exitance texture.
     row: u32,
-    pad: u32,
+    pad_0: u32,
+    // Radiance from all around, which the surface reflects.
+    sky: vec3<f32>,
+    pad_1: u32,
 }
 
 @group(0) @binding(0) var<uniform> camera: Camera;
@@ -39,10 +42,12 @@ fn project(
 
 @fragment
 fn shade(in: Varying) -> @location(0) vec4<f32> {
-    // Lambert's law with Fresnel transmission on the way out, normalised: L = M F_t / (pi (1 - F_dr)).
+    // What scattered, by Lambert's law with Fresnel transmission on the way out, normalised, and what is reflected:
+    // L = M F_t / (pi (1 - F_dr)) + (1 - F_t) L_sky.
     let to_eye = normalize(camera.eye_mm - in.position_mm);
     let cosine = clamp(abs(dot(normalize(in.normal), to_eye)), 0.0, 1.0);
-    let transmittance = fresnel_transmittance(cosine, camera.eta) * camera.exit_scale;
-    let radiance = in.exitance * transmittance / 3.14159265;
+    let transmittance = fresnel_transmittance(cosine, camera.eta);
+    let scattered = in.exitance * transmittance * camera.exit_scale / 3.14159265;
+    let radiance = scattered + (1.0 - transmittance) * camera.sky;
     return vec4<f32>(srgb(neutral(radiance * camera.exposure)), 1.0);
 }

@@ -5,12 +5,14 @@
 use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
+use subsurf_encoder::synthetic::{Shape, capture_row, unit};
 use subsurf_runtime::scene::{Mapping, Mesh, Surface, sphere, torus};
 use subsurf_runtime::{
-    BACKGROUND, Backend, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchRenderer, Region, Storage, View,
+    BACKGROUND, Backend, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchRenderer, Region,
+    Storage, View,
 };
 use subsurf_shaders::cpu;
-use subsurf_tests::{bmpp, per_pixel, unit};
+use subsurf_tests::shape;
 
 /// Targets are half floats: software drivers truncate to 11 bits, so that every target on the way costs up to 2⁻¹⁰.
 const HALF_ULP: f32 = 1.0 / 1024.0;
@@ -23,13 +25,25 @@ const DISPLAY_TOLERANCE: u8 = 1;
 const EDGE_PIXELS: f64 = 0.004;
 
 fn open(backend: Backend) -> Gpu {
-    let gpu = Gpu::open(backend).unwrap_or_else(|error| panic!("{error}: run `make test`, which installs one"));
+    let gpu = Gpu::open(backend)
+        .unwrap_or_else(|error| panic!("{error}: run `make test`, which installs one"));
     let info = gpu.info();
-    println!("{backend}: {}, {} {}", info.name, info.driver, info.driver_info);
+    println!(
+        "{backend}: {}, {} {}",
+        info.name, info.driver, info.driver_info
+    );
     if backend == Backend::Gl {
-        assert!(info.driver_info.starts_with("OpenGL ES"), "not GLES: {}", info.driver_info);
+        assert!(
+            info.driver_info.starts_with("OpenGL ES"),
+            "not GLES: {}",
+            info.driver_info
+        );
         if info.driver_info.contains("Mesa") {
-            assert!(info.driver_info.starts_with("OpenGL ES 3.0"), "not forced to 3.0: {}", info.driver_info);
+            assert!(
+                info.driver_info.starts_with("OpenGL ES 3.0"),
+                "not forced to 3.0: {}",
+                info.driver_info
+            );
         }
     }
     gpu
@@ -43,16 +57,29 @@ fn assert_close(found: &[[f32; 3]], expected: &[[f32; 3]], targets: f32, what: &
     for (at, (found, expected)) in found.iter().zip(expected).enumerate() {
         for c in 0..3 {
             let error = (found[c] - expected[c]).abs() / expected[c].abs().max(1e-4);
-            assert!(error <= tolerance, "{what}: {found:?} is not {expected:?} at {at}");
+            assert!(
+                error <= tolerance,
+                "{what}: {found:?} is not {expected:?} at {at}"
+            );
             worst = worst.max(error);
         }
     }
     println!("{what}: largest relative difference {worst:.2e}");
 }
 
+fn file(storage: Storage, shape: &Shape) -> Vec<u8> {
+    if storage == Storage::Bmpp {
+        shape.bmpp()
+    } else {
+        shape.per_pixel()
+    }
+}
+
 /// Bright here, dark there, coloured.
 fn patterned_light(size: [u32; 2]) -> Vec<[f32; 3]> {
-    (0..size[0] * size[1]).map(|pixel| [0, 1, 2].map(|c| 2.0 * unit(7 * pixel + c).powi(2))).collect()
+    (0..size[0] * size[1])
+        .map(|pixel| [0, 1, 2].map(|c| 2.0 * unit(7 * pixel + c).powi(2)))
+        .collect()
 }
 
 fn patch(backend: Backend) {
@@ -64,12 +91,15 @@ fn patch(backend: Backend) {
         for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
             // The second window is wider than the patch: it wraps more than once.
             for radius in [4, 20] {
-                let file = if storage == Storage::Bmpp { bmpp } else { per_pixel }(size, radius, addressing);
+                let file = file(storage, &shape(size, radius, addressing));
                 let material = Bssrdf::parse(&file).unwrap();
                 let what = format!("{backend}, {storage:?}, {addressing:?}, radius {radius}");
                 let uploaded = Material::upload(&gpu, &material).unwrap();
                 let light = renderer.light(&gpu, &uploaded, &irradiance).unwrap();
-                let region = Region { origin: [2, 1], size: [21, 16] };
+                let region = Region {
+                    origin: [2, 1],
+                    size: [21, 16],
+                };
                 let exitance = renderer.gather(&gpu, &uploaded, &light, region).unwrap();
                 let expected = cpu::gather(&material, &irradiance, region.origin, region.size);
                 let found = exitance.read(&gpu).unwrap();
@@ -78,8 +108,16 @@ fn patch(backend: Backend) {
                 let pixels = [64, 40];
                 let picture = renderer.picture(&gpu, &exitance, pixels, 3.0).unwrap();
                 let expected = cpu::present(&found, region.size, pixels, 3.0);
-                let worst = picture.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| a.abs_diff(*b)).max();
-                assert!(worst <= Some(DISPLAY_TOLERANCE), "{what}: pictures differ by {worst:?}");
+                let worst = picture
+                    .iter()
+                    .flatten()
+                    .zip(expected.iter().flatten())
+                    .map(|(a, b)| a.abs_diff(*b))
+                    .max();
+                assert!(
+                    worst <= Some(DISPLAY_TOLERANCE),
+                    "{what}: pictures differ by {worst:?}"
+                );
             }
         }
     }
@@ -96,30 +134,26 @@ fn patch_on_gles_3_0() {
 }
 
 fn capture_patch(backend: Backend) {
-    // A capture as the gather of its own model: the entries are Rd of a 2-BMPP file, clamp mode left out.
+    // The entries that a 2-BMPP file stands for: drawing them must give what drawing the file gives.
     let gpu = open(backend);
     let size = [12, 9];
-    let radius = 3;
-    let file = bmpp(size, radius, Addressing::Repeat);
+    let file = shape(size, 3, Addressing::Repeat).bmpp();
     let material = Bssrdf::parse(&file).unwrap();
-    let reach = -i32::from(radius)..=i32::from(radius);
-    let mut entries = Vec::new();
-    for y in 0..size[1].cast_signed() {
-        for x in 0..size[0].cast_signed() {
-            for dy in reach.clone() {
-                for dx in reach.clone() {
-                    let rd = material.rd([x, y], [x + dx, y + dy]);
-                    entries.extend(rd.iter().flat_map(|rd| rd.to_le_bytes()));
-                }
-            }
-        }
-    }
+    let entries = (0..size[1]).flat_map(|y| capture_row(&material, y));
+    let entries: Vec<u8> = entries.flat_map(f32::to_le_bytes).collect();
     let irradiance = patterned_light(size);
     let renderer = PatchRenderer::new(&gpu, Storage::Capture).unwrap();
     let uploaded = Material::upload_capture(&gpu, material.header(), &entries).unwrap();
     let light = renderer.light(&gpu, &uploaded, &irradiance).unwrap();
-    let region = Region { origin: [0, 0], size };
-    let found = renderer.gather(&gpu, &uploaded, &light, region).unwrap().read(&gpu).unwrap();
+    let region = Region {
+        origin: [0, 0],
+        size,
+    };
+    let found = renderer
+        .gather(&gpu, &uploaded, &light, region)
+        .unwrap()
+        .read(&gpu)
+        .unwrap();
     let expected = cpu::gather(&material, &irradiance, region.origin, size);
     assert_close(&found, &expected, 1.0, &format!("{backend}, capture"));
 }
@@ -136,13 +170,21 @@ fn capture_on_gles_3_0() {
 
 fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, storage: Storage, what: &str) {
     let gpu = open(backend);
-    let file = if storage == Storage::Bmpp { bmpp } else { per_pixel }([31, 31], 6, Addressing::Clamp);
+    let file = file(storage, &shape([31, 31], 6, Addressing::Clamp));
     let material = Bssrdf::parse(&file).unwrap();
     let what = format!("{backend}, {what}, {storage:?}");
     // A shadow over half of it, with a soft edge.
-    let visibility: Vec<f32> = mesh.positions.iter().map(|p| (0.5 + 0.2 * p.x).clamp(0.0, 1.0)).collect();
+    let visibility: Vec<f32> = mesh
+        .positions
+        .iter()
+        .map(|p| (0.5 + 0.2 * p.x).clamp(0.0, 1.0))
+        .collect();
     let surface = Surface::new(mesh, mapping, material.header(), &visibility);
-    let light = MeshLight { direction: Vec3::new(0.5, 1.0, 0.8), irradiance: [3.0, 2.8, 2.5], sky: [0.2, 0.3, 0.4] };
+    let light = MeshLight {
+        direction: Vec3::new(0.5, 1.0, 0.8),
+        irradiance: [3.0, 2.8, 2.5],
+        sky: [0.2, 0.3, 0.4],
+    };
 
     let renderer = MeshRenderer::new(&gpu, storage).unwrap();
     let uploaded = Material::upload(&gpu, &material).unwrap();
@@ -156,10 +198,22 @@ fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, storage: Storage,
     assert_close(&found, &expected, 2.0, &what);
 
     let size = [160, 120];
-    let view = View { eye_mm: Vec3::new(10.0, 12.0, 25.0), target_mm: Vec3::ZERO, angle: 0.6, exposure: 1.2 };
+    let view = View {
+        eye_mm: Vec3::new(10.0, 12.0, 25.0),
+        target_mm: Vec3::ZERO,
+        angle: 0.6,
+        exposure: 1.2,
+        sky: light.sky,
+    };
     let camera = view.block(size, material.header().eta);
-    let picture = renderer.picture(&gpu, &on_gpu, &exitance, &camera, size).unwrap();
-    let of_vertices: Vec<[f32; 3]> = surface.point_of().iter().map(|&point| found[point as usize]).collect();
+    let picture = renderer
+        .picture(&gpu, &on_gpu, &exitance, &camera, size)
+        .unwrap();
+    let of_vertices: Vec<[f32; 3]> = surface
+        .point_of()
+        .iter()
+        .map(|&point| found[point as usize])
+        .collect();
     let triangles = cpu::Triangles {
         positions: &mesh.positions,
         normals: &mesh.normals,
@@ -167,19 +221,54 @@ fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, storage: Storage,
         triangles: &mesh.triangles,
     };
     let expected = cpu::shade(&triangles, &camera, size, [BACKGROUND; 3]);
-    let differs = |(a, b): (&[u8; 3], &[u8; 3])| (0..3).any(|c| a[c].abs_diff(b[c]) > DISPLAY_TOLERANCE);
-    let different = picture.iter().zip(&expected).filter(|pair| differs(*pair)).count();
-    let covered = expected.iter().filter(|pixel| **pixel != [BACKGROUND; 3]).count();
-    println!("{what}: {different} of {} pixels differ, {covered} are covered", picture.len());
-    assert!(covered * 10 > picture.len(), "{what}: the mesh is in the picture");
-    assert!(different as f64 <= EDGE_PIXELS * picture.len() as f64, "{what}: {different} pixels differ");
+    let differs =
+        |(a, b): (&[u8; 3], &[u8; 3])| (0..3).any(|c| a[c].abs_diff(b[c]) > DISPLAY_TOLERANCE);
+    let different = picture
+        .iter()
+        .zip(&expected)
+        .filter(|pair| differs(*pair))
+        .count();
+    let covered = expected
+        .iter()
+        .filter(|pixel| **pixel != [BACKGROUND; 3])
+        .count();
+    println!(
+        "{what}: {different} of {} pixels differ, {covered} are covered",
+        picture.len()
+    );
+    assert!(
+        covered * 10 > picture.len(),
+        "{what}: the mesh is in the picture"
+    );
+    assert!(
+        different as f64 <= EDGE_PIXELS * picture.len() as f64,
+        "{what}: {different} pixels differ"
+    );
 }
 
 fn meshes(backend: Backend) {
     let ball = sphere(5.0, 24);
-    mesh_scene(backend, &ball, Mapping::Box, Storage::Bmpp, "sphere, box mapping");
-    mesh_scene(backend, &ball, Mapping::Uv([2.0, 1.0]), Storage::PerPixel, "sphere, texture coordinates");
-    mesh_scene(backend, &torus(5.0, 2.0, 20), Mapping::Uv([4.0, 2.0]), Storage::Bmpp, "torus");
+    mesh_scene(
+        backend,
+        &ball,
+        Mapping::Box,
+        Storage::Bmpp,
+        "sphere, box mapping",
+    );
+    mesh_scene(
+        backend,
+        &ball,
+        Mapping::Uv([2.0, 1.0]),
+        Storage::PerPixel,
+        "sphere, texture coordinates",
+    );
+    mesh_scene(
+        backend,
+        &torus(5.0, 2.0, 20),
+        Mapping::Uv([4.0, 2.0]),
+        Storage::Bmpp,
+        "torus",
+    );
 }
 
 #[test]
@@ -194,22 +283,30 @@ fn meshes_on_gles_3_0() {
 
 fn ledger(backend: Backend) {
     let gpu = open(backend);
-    let file = bmpp([40, 30], 5, Addressing::Clamp);
+    let file = shape([40, 30], 5, Addressing::Clamp).bmpp();
     let material = Bssrdf::parse(&file).unwrap();
-    assert_eq!(gpu.ledger().bytes(), 0);
+    assert_eq!(gpu.ledger().bytes(), 0, "nothing yet");
     let uploaded = Material::upload(&gpu, &material).unwrap();
     // Planes as they stand in the file, and 48 bytes of uniforms.
     let planes = 12 * 7 * 7 + 6 * 40 * 30;
-    assert_eq!(uploaded.gpu_bytes(), planes + 48);
-    assert_eq!(gpu.ledger().bytes(), planes + 48);
+    assert_eq!(uploaded.gpu_bytes(), planes + 48, "of the material");
+    assert_eq!(gpu.ledger().bytes(), planes + 48, "of everything");
     drop(uploaded);
-    assert_eq!(gpu.ledger().bytes(), 0);
+    assert_eq!(gpu.ledger().bytes(), 0, "all gone");
 
     let other = PatchRenderer::new(&gpu, Storage::PerPixel).unwrap();
     let uploaded = Material::upload(&gpu, &material).unwrap();
-    let light = other.light(&gpu, &uploaded, &patterned_light([40, 30])).unwrap();
-    let region = Region { origin: [0, 0], size: [4, 4] };
-    assert!(other.gather(&gpu, &uploaded, &light, region).is_err(), "a renderer for another storage");
+    let light = other
+        .light(&gpu, &uploaded, &patterned_light([40, 30]))
+        .unwrap();
+    let region = Region {
+        origin: [0, 0],
+        size: [4, 4],
+    };
+    assert!(
+        other.gather(&gpu, &uploaded, &light, region).is_err(),
+        "a renderer for another storage"
+    );
 }
 
 #[test]

@@ -122,7 +122,12 @@ impl Capture {
     /// beyond the border, else the patch goes on as the addressing says.
     #[must_use]
     pub fn neighbour(&self, x: usize, y: usize, dx: i32, dy: i32) -> Option<usize> {
-        neighbour(self.addressing(), [self.width(), self.height()], [x, y], [dx, dy])
+        neighbour(
+            self.addressing(),
+            [self.width(), self.height()],
+            [x, y],
+            [dx, dy],
+        )
     }
 }
 

@@ -40,8 +40,7 @@ pub(super) struct Array {
     start: usize,
 }
 
-const EXPECTED: &str =
-    "a C-order little-endian f4 or f2 array of shape (H, W, D, D, 3), D odd, as numpy.save writes it";
+const EXPECTED: &str = "a C-order little-endian f4 or f2 array of shape (H, W, D, D, 3), D odd, as numpy.save writes it";
 
 pub(super) fn parse(path: &Path, file: &[u8]) -> Result<Array> {
     let wrong = |found: String| Error::input(path, found, EXPECTED);

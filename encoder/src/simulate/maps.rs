@@ -46,13 +46,18 @@ pub fn mixture(parts: &[(String, Weight)], size: [usize; 2], stretch: bool) -> R
     for (name, weight) in parts {
         let medium = Medium::measured(name).ok_or_else(|| {
             let known: Vec<&str> = MEASURED.iter().map(|(name, _)| *name).collect();
-            Error::Request(format!("no measured material \"{name}\"; there are {}", known.join(", ")))
+            Error::Request(format!(
+                "no measured material \"{name}\"; there are {}",
+                known.join(", ")
+            ))
         })?;
         let plane = match weight {
             Weight::Image(path) => grey(path, size, stretch)?,
             Weight::Constant(value) => vec![*value; size[0] * size[1]],
             Weight::Rest if rest.is_some() => {
-                return Err(Error::Request("two materials ask for the rest; only one can have it".to_owned()));
+                return Err(Error::Request(
+                    "two materials ask for the rest; only one can have it".to_owned(),
+                ));
             }
             Weight::Rest => {
                 rest = Some(planes.len());
@@ -62,7 +67,9 @@ pub fn mixture(parts: &[(String, Weight)], size: [usize; 2], stretch: bool) -> R
         planes.push((medium, plane));
     }
     let mix = |pixel: usize| {
-        let weights = planes.iter().map(|(_, plane)| plane.get(pixel).copied().unwrap_or(0.0).max(0.0));
+        let weights = planes
+            .iter()
+            .map(|(_, plane)| plane.get(pixel).copied().unwrap_or(0.0).max(0.0));
         let mut weights: Vec<f64> = weights.collect();
         let given: f64 = weights.iter().sum();
         if let Some(rest) = rest {
@@ -71,10 +78,17 @@ pub fn mixture(parts: &[(String, Weight)], size: [usize; 2], stretch: bool) -> R
         let sum: f64 = weights.iter().sum();
         if sum <= 0.0 {
             let [x, y] = [pixel % size[0], pixel / size[0]];
-            let message = format!("no material at pixel ({x}, {y}): all weights are 0; give one the value \"rest\"");
+            let message = format!(
+                "no material at pixel ({x}, {y}): all weights are 0; give one the value \"rest\""
+            );
             return Err(Error::Request(message));
         }
-        Ok(Medium::mix(planes.iter().zip(&weights).map(|((medium, _), weight)| (weight / sum, *medium))))
+        Ok(Medium::mix(
+            planes
+                .iter()
+                .zip(&weights)
+                .map(|((medium, _), weight)| (weight / sum, *medium)),
+        ))
     };
     let media = (0..size[0] * size[1]).map(mix).collect::<Result<_>>()?;
     Ok(MediumMap { size, media })
@@ -84,7 +98,12 @@ pub fn mixture(parts: &[(String, Weight)], size: [usize; 2], stretch: bool) -> R
 ///
 /// # Errors
 /// For unreadable images and lengths that are not positive.
-pub fn albedo(image: &Path, mean_free_path: &MeanFreePath, size: [usize; 2], eta: f64) -> Result<MediumMap> {
+pub fn albedo(
+    image: &Path,
+    mean_free_path: &MeanFreePath,
+    size: [usize; 2],
+    eta: f64,
+) -> Result<MediumMap> {
     let albedo = linear(image, size)?;
     let lengths: Vec<[f64; 3]> = match mean_free_path {
         MeanFreePath::Constant(lengths) => vec![*lengths; size[0] * size[1]],
@@ -94,11 +113,23 @@ pub fn albedo(image: &Path, mean_free_path: &MeanFreePath, size: [usize; 2], eta
             stored.pixels().map(|rgb| rgb.0.map(length)).collect()
         }
     };
-    if let Some(length) = lengths.iter().flatten().find(|length| !(length.is_finite() && **length > 0.0)) {
-        return Err(Error::Request(format!("a mean free path of {length} mm; it must be positive")));
+    if let Some(length) = lengths
+        .iter()
+        .flatten()
+        .find(|length| !(length.is_finite() && **length > 0.0))
+    {
+        return Err(Error::Request(format!(
+            "a mean free path of {length} mm; it must be positive"
+        )));
     }
-    let media = albedo.iter().zip(lengths).map(|(albedo, length)| Medium::from_albedo(*albedo, length, eta));
-    Ok(MediumMap { size, media: media.collect() })
+    let media = albedo
+        .iter()
+        .zip(lengths)
+        .map(|(albedo, length)| Medium::from_albedo(*albedo, length, eta));
+    Ok(MediumMap {
+        size,
+        media: media.collect(),
+    })
 }
 
 /// Size in pixels of an image, from its header.
@@ -107,9 +138,16 @@ pub fn albedo(image: &Path, mean_free_path: &MeanFreePath, size: [usize; 2], eta
 /// For files that are no image, or one too large for a capture.
 pub fn image_size(path: &Path) -> Result<[usize; 2]> {
     let reader = ImageReader::open(path).map_err(|error| unreadable(path, error))?;
-    let reader = reader.with_guessed_format().map_err(|error| unreadable(path, error))?;
-    let (width, height) = reader.into_dimensions().map_err(|error| unreadable(path, error))?;
-    Ok([check_side(path, "width", width.into())?, check_side(path, "height", height.into())?])
+    let reader = reader
+        .with_guessed_format()
+        .map_err(|error| unreadable(path, error))?;
+    let (width, height) = reader
+        .into_dimensions()
+        .map_err(|error| unreadable(path, error))?;
+    Ok([
+        check_side(path, "width", width.into())?,
+        check_side(path, "height", height.into())?,
+    ])
 }
 
 fn unreadable(path: &Path, error: impl std::fmt::Display) -> Error {
@@ -119,8 +157,13 @@ fn unreadable(path: &Path, error: impl std::fmt::Display) -> Error {
 /// An image's values as they are stored, 8-bit ones divided by 255, resampled to `size`.
 fn load(path: &Path, size: [usize; 2]) -> Result<Rgb32FImage> {
     let reader = ImageReader::open(path).map_err(|error| unreadable(path, error))?;
-    let reader = reader.with_guessed_format().map_err(|error| unreadable(path, error))?;
-    let image = reader.decode().map_err(|error| unreadable(path, error))?.into_rgb32f();
+    let reader = reader
+        .with_guessed_format()
+        .map_err(|error| unreadable(path, error))?;
+    let image = reader
+        .decode()
+        .map_err(|error| unreadable(path, error))?
+        .into_rgb32f();
     let [width, height] = size.map(|n| u32::try_from(n).expect("a side is below 65,536"));
     // A triangle as wide as a target pixel: averages when it shrinks, interpolates when it enlarges.
     Ok(resize(&image, width, height, FilterType::Triangle))
@@ -129,7 +172,10 @@ fn load(path: &Path, size: [usize; 2]) -> Result<Rgb32FImage> {
 /// Linear Rec. 709 values: 8- and 16-bit images are sRGB.
 fn linear(path: &Path, size: [usize; 2]) -> Result<Vec<[f64; 3]>> {
     let format = ImageReader::open(path).map_err(|error| unreadable(path, error))?;
-    let format = format.with_guessed_format().map_err(|error| unreadable(path, error))?.format();
+    let format = format
+        .with_guessed_format()
+        .map_err(|error| unreadable(path, error))?
+        .format();
     let stored = load(path, size)?;
     let decode = |value: f32| {
         let value = f64::from(value);
@@ -145,7 +191,10 @@ fn linear(path: &Path, size: [usize; 2]) -> Result<Vec<[f64; 3]>> {
 /// Mean of the three channels as they are stored.
 fn grey(path: &Path, size: [usize; 2], stretch: bool) -> Result<Vec<f64>> {
     let stored = load(path, size)?;
-    let mut values: Vec<f64> = stored.pixels().map(|rgb| rgb.0.iter().map(|&v| f64::from(v)).sum::<f64>() / 3.0).collect();
+    let mut values: Vec<f64> = stored
+        .pixels()
+        .map(|rgb| rgb.0.iter().map(|&v| f64::from(v)).sum::<f64>() / 3.0)
+        .collect();
     if stretch {
         let mut sorted = values.clone();
         sorted.sort_by(f64::total_cmp);
@@ -160,7 +209,11 @@ fn grey(path: &Path, size: [usize; 2], stretch: bool) -> Result<Vec<f64>> {
             sorted[at]
         });
         for value in &mut values {
-            *value = if high > low { (*value - low) / (high - low) } else { 0.0 };
+            *value = if high > low {
+                (*value - low) / (high - low)
+            } else {
+                0.0
+            };
         }
     }
     for value in &mut values {

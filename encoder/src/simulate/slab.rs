@@ -94,14 +94,28 @@ impl Slab<'_> {
     }
 
     fn grid(&self) -> Grid {
-        let channels = self.map.media.iter().flat_map(|medium| [0, 1, 2].map(|c| (medium, c)));
-        let infinite = Scales { mean_free_path: f64::INFINITY, decay: f64::INFINITY };
+        let channels = self
+            .map
+            .media
+            .iter()
+            .flat_map(|medium| [0, 1, 2].map(|c| (medium, c)));
+        let infinite = Scales {
+            mean_free_path: f64::INFINITY,
+            decay: f64::INFINITY,
+        };
         let shortest = channels.fold(infinite, |shortest, (medium, c)| Scales {
             mean_free_path: shortest.mean_free_path.min(medium.mean_free_path_mm(c)),
             decay: shortest.decay.min(medium.decay_length_mm(c)),
         });
         let margin_mm = MARGIN * self.thickness_mm;
-        Grid::new(self.pitch_mm, self.radius, self.thickness_mm, margin_mm, shortest, self.refine)
+        Grid::new(
+            self.pitch_mm,
+            self.radius,
+            self.thickness_mm,
+            margin_mm,
+            shortest,
+            self.refine,
+        )
     }
 
     /// The windows of one row; returns the sum of their shares. A solution is the first guess for the pixel beside it,
@@ -135,7 +149,10 @@ impl Slab<'_> {
     fn media_below(&self, grid: &Grid, x: usize, y: usize) -> Vec<Medium> {
         let at = |from: usize, step: i32, n: usize| {
             let (from, n) = (i32::try_from(from), u32::try_from(n));
-            let (from, n) = (from.expect("a side is below 65,536"), n.expect("a side is below 65,536"));
+            let (from, n) = (
+                from.expect("a side is below 65,536"),
+                n.expect("a side is below 65,536"),
+            );
             self.addressing.map(from.saturating_add(step), n) as usize
         };
         let [width, height] = self.map.size;
@@ -143,7 +160,11 @@ impl Slab<'_> {
         let mut media = Vec::with_capacity(pixels.len() * pixels.len());
         for &py in pixels {
             let row = at(y, py, height) * width;
-            media.extend(pixels.iter().map(|&px| self.map.media[row + at(x, px, width)]));
+            media.extend(
+                pixels
+                    .iter()
+                    .map(|&px| self.map.media[row + at(x, px, width)]),
+            );
         }
         media
     }
@@ -169,8 +190,16 @@ impl Slab<'_> {
                 let series = |wide: f64, w: f64, next: usize, w_next: f64| {
                     [0, 1, 2].map(|c| wide / (0.5 * w / d[c] + 0.5 * w_next / diffusion[next][c]))
                 };
-                let to_x = if x + 1 < n { series(wy, wx, column + 1, lateral.width(x + 1)) } else { [0.0; 3] };
-                let to_y = if y + 1 < n { series(wx, wy, column + n, lateral.width(y + 1)) } else { [0.0; 3] };
+                let to_x = if x + 1 < n {
+                    series(wy, wx, column + 1, lateral.width(x + 1))
+                } else {
+                    [0.0; 3]
+                };
+                let to_y = if y + 1 < n {
+                    series(wx, wy, column + n, lateral.width(y + 1))
+                } else {
+                    [0.0; 3]
+                };
                 let lit = lateral.pixel[x] == 0 && lateral.pixel[y] == 0;
                 let medium = &media[column];
                 for z in 0..=bottom {
@@ -191,7 +220,8 @@ impl Slab<'_> {
                             // ∫ σ_s' exp(−σ_t' z) dz over the cell, of a beam of one watt over the pixel.
                             let sigma_t = medium.sigma_s[c] + medium.sigma_a[c];
                             let beam = |z: usize| (-sigma_t * depth.edges[z]).exp();
-                            medium.sigma_s[c] / sigma_t * (beam(z) - beam(z + 1)) * area / pixel_area
+                            medium.sigma_s[c] / sigma_t * (beam(z) - beam(z + 1)) * area
+                                / pixel_area
                         } else {
                             0.0
                         };
@@ -231,7 +261,8 @@ impl Slab<'_> {
                     outside += power.iter().sum::<f64>();
                     continue;
                 }
-                let [dx, dy] = step.map(|step| usize::try_from(step + radius).expect("step ≥ −radius"));
+                let [dx, dy] =
+                    step.map(|step| usize::try_from(step + radius).expect("step ≥ −radius"));
                 for c in 0..3 {
                     sums[dx + dy * d][c] += power[c];
                 }
@@ -241,7 +272,8 @@ impl Slab<'_> {
         let pixel_area = self.pitch_mm * self.pitch_mm;
         for (k, sum) in sums.iter().enumerate() {
             let step = [k % d, k / d].map(|k| i32::try_from(k).expect("k < D") - radius);
-            let inside = crate::capture::neighbour(self.addressing, self.map.size, from, step).is_some();
+            let inside =
+                crate::capture::neighbour(self.addressing, self.map.size, from, step).is_some();
             for c in 0..3 {
                 #[allow(clippy::cast_possible_truncation, reason = "captures are f32")]
                 let rd = (sum[c] / pixel_area) as f32;

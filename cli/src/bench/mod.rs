@@ -1,0 +1,22 @@
+//! `subsurf bench`: how long things take on this machine.
+
+mod load;
+mod load_one;
+mod timing;
+
+pub(crate) use load::{Case, markdown, measure};
+
+/// Measure this machine.
+#[derive(clap::Subcommand)]
+pub(crate) enum Command {
+    Load(load::Args),
+    #[command(hide = true)]
+    LoadOne(load_one::Args),
+}
+
+pub(crate) fn run(command: &Command) -> anyhow::Result<()> {
+    match command {
+        Command::Load(args) => load::run(args),
+        Command::LoadOne(args) => load_one::run(args),
+    }
+}

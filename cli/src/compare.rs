@@ -1,0 +1,147 @@
+//! `subsurf compare`: how far a file is from its capture.
+
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+use subsurf_decoder::Bssrdf;
+use subsurf_encoder::Progress;
+use subsurf_encoder::capture::Capture;
+use subsurf_encoder::metrics::{self, Comparison, Light, psnr_db, ssim};
+
+use crate::failure::bad_request;
+use crate::info::{parse, read_file};
+use crate::memory::human;
+use crate::options::CaptureArgs;
+use crate::picture::{montage, triptych, write_png};
+use crate::progress::Bars;
+
+/// Judge a file against the capture it was made from.
+///
+/// Mean relative error of the diffuse albedo, and PSNR and SSIM of the patch lit uniformly, by a disc and by a line
+/// (Yatagawa et al. 2020, section 4; Wang et al. 2004). Only measured entries count, on both sides.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The capture, .npy
+    capture: PathBuf,
+    /// The .subsurf file
+    file: PathBuf,
+    #[command(flatten)]
+    facts: CaptureArgs,
+    /// Report as JSON
+    #[arg(long)]
+    json: bool,
+    /// Write pictures into this folder: original, file, and ten times their difference
+    #[arg(long, value_name = "DIR")]
+    images: Option<PathBuf>,
+}
+
+/// The numbers of a comparison.
+pub(crate) struct Judgement {
+    pub(crate) comparison: Comparison,
+    pub(crate) relative_error_mean: f64,
+    /// By light, in the order of [`Light::ALL`].
+    pub(crate) psnr_db: [f64; 3],
+    /// `None` for patches smaller than the window of the index.
+    pub(crate) ssim: [Option<f64>; 3],
+    pub(crate) bytes: u64,
+    pub(crate) capture_bytes: u64,
+}
+
+/// Evaluates all measured pairs.
+pub(crate) fn judge(
+    capture: &Capture,
+    material: &Bssrdf<'_>,
+    bytes: u64,
+    progress: &dyn Progress,
+) -> anyhow::Result<Judgement> {
+    let comparison = metrics::compare(capture, material, progress)?;
+    let errors = comparison.albedo.relative_errors();
+    #[allow(clippy::cast_precision_loss, reason = "pixels fit in 2⁵³")]
+    let relative_error_mean = errors.iter().sum::<f64>() / errors.len() as f64;
+    let lit = comparison.lit.each_ref().map(metrics::Relit::normalised);
+    Ok(Judgement {
+        relative_error_mean,
+        psnr_db: lit
+            .each_ref()
+            .map(|lit| psnr_db(&lit.reference, &lit.image)),
+        ssim: lit
+            .each_ref()
+            .map(|lit| ssim(&lit.reference, &lit.image, capture.width())),
+        bytes,
+        capture_bytes: capture.file_bytes(),
+        comparison,
+    })
+}
+
+impl Judgement {
+    pub(crate) fn to_json(&self) -> Value {
+        let [uniform, disc, line] = self.psnr_db;
+        let [ssim_uniform, ssim_disc, ssim_line] = self.ssim;
+        json!({
+            "relative_error_mean": self.relative_error_mean,
+            "psnr_db": { "uniform": uniform, "disc": disc, "line": line },
+            "ssim": { "uniform": ssim_uniform, "disc": ssim_disc, "line": ssim_line },
+            "bytes": self.bytes,
+            "capture_bytes": self.capture_bytes,
+        })
+    }
+
+    pub(crate) fn print(&self) {
+        #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
+        let ratio = self.capture_bytes as f64 / self.bytes as f64;
+        println!(
+            "  {} of {}: 1:{ratio:.0}",
+            human(self.bytes),
+            human(self.capture_bytes)
+        );
+        println!(
+            "  mean relative error of the diffuse albedo {:.4}",
+            self.relative_error_mean
+        );
+        for ((light, psnr), ssim) in Light::ALL.iter().zip(self.psnr_db).zip(self.ssim) {
+            let ssim = ssim.map_or_else(
+                || "- (patch too small)".to_owned(),
+                |ssim| format!("{ssim:.4}"),
+            );
+            println!("  {:<8} PSNR {psnr:5.1} dB   SSIM {ssim}", light.name());
+        }
+    }
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let capture = Capture::open(&args.capture, &args.facts.overrides())?;
+    let bytes = read_file(&args.file)?;
+    let material = parse(&args.file, &bytes)?;
+    let judgement = judge(&capture, &material, bytes.len() as u64, &Bars::new())?;
+    if args.json {
+        println!("{:#}", judgement.to_json());
+    } else {
+        println!("{} against {}", args.file.display(), args.capture.display());
+        judgement.print();
+    }
+    if let Some(folder) = &args.images {
+        std::fs::create_dir_all(folder).map_err(|error| {
+            bad_request(format!(
+                "{}: cannot make the folder: {error}",
+                folder.display()
+            ))
+        })?;
+        let mut rows = Vec::new();
+        for (light, relit) in Light::ALL.iter().zip(&judgement.comparison.lit) {
+            let row = triptych(relit, capture.width());
+            write_png(
+                &folder.join(format!("{}.png", light.name())),
+                &montage(std::slice::from_ref(&row)),
+            )?;
+            rows.push(row);
+        }
+        write_png(&folder.join("comparison.png"), &montage(&rows))?;
+        if !args.json {
+            println!(
+                "pictures (original, file, 10 × difference) in {}",
+                folder.display()
+            );
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,237 @@
+//! `subsurf demo`: everything once, and a folder to look at.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use serde_json::json;
+use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::Addressing;
+use subsurf_encoder::bssrdf::{Method, Options};
+use subsurf_encoder::capture::{Capture, Overrides, Scalar};
+use subsurf_encoder::metrics::Light;
+use subsurf_encoder::simulate::Scene;
+use subsurf_encoder::write_bytes;
+use subsurf_runtime::scene::torus;
+use subsurf_runtime::{Backend, Gpu, Material, PatchRenderer, Region};
+use subsurf_shaders::cpu;
+
+use crate::bench::{Case, markdown, measure};
+use crate::compare::{Judgement, judge};
+use crate::devices::{self, BackendArg};
+use crate::encode::encode;
+use crate::failure::bad_request;
+use crate::memory::human;
+use crate::picture::{montage, triptych, write_png};
+use crate::progress::Bars;
+use crate::render::{MappingArg, Shot, draw_mesh, draw_patch, patch_irradiance, storage_of};
+use crate::simulate::Request;
+
+/// Simulate, encode, judge, draw and time one material, and leave pictures and tables in a folder.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The folder
+    #[arg(long, default_value = "demo-out", value_name = "DIR")]
+    dir: PathBuf,
+}
+
+const SIZE: usize = 64;
+const WINDOW: u32 = 25;
+const BASE_MATERIALS: usize = 64;
+const PITCH_MM: f64 = 0.5;
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let dir = &args.dir;
+    std::fs::create_dir_all(dir).map_err(|error| {
+        bad_request(format!(
+            "{}: cannot make the folder: {error}",
+            dir.display()
+        ))
+    })?;
+    let path = |name: &str| dir.join(name);
+
+    println!(
+        "1. Simulating a capture of a synthetic onyx, {SIZE} × {SIZE} pixels, window {WINDOW} (under a minute) .."
+    );
+    let start = Instant::now();
+    let map = Scene::Onyx.map([SIZE; 2], Addressing::Repeat, 1);
+    let request = Request {
+        map: &map,
+        source: json!({ "scene": Scene::Onyx.name() }),
+        addressing: Addressing::Repeat,
+        pitch_mm: PITCH_MM,
+        window: WINDOW,
+        thickness_mm: 20.0,
+        eta: 1.5,
+        refine: 1.0,
+        sensor: None,
+        seed: 1,
+        scalar: Scalar::F32,
+    };
+    request.write(&path("onyx.npy"))?;
+    println!("   {:.1} s", start.elapsed().as_secs_f64());
+
+    println!(
+        "2. Encoding it: per-pixel profiles, and 2-BMPP with {BASE_MATERIALS} base materials .."
+    );
+    let capture = Capture::open(&path("onyx.npy"), &Overrides::default())?;
+    let mut judgements = Vec::new();
+    let mut files = Vec::new();
+    for (method, name) in [
+        (Method::Lsp, "onyx-profiles.subsurf"),
+        (Method::Direct, "onyx.subsurf"),
+    ] {
+        let start = Instant::now();
+        let options = Options {
+            method,
+            base_materials: BASE_MATERIALS,
+            ..Options::default()
+        };
+        let encoded = encode(&capture, &options, &path(name))?;
+        println!(
+            "   {name}: {} in {:.1} s",
+            human(encoded.bytes.len() as u64),
+            start.elapsed().as_secs_f64()
+        );
+        let material = Bssrdf::parse(&encoded.bytes)?;
+        judgements.push(judge(
+            &capture,
+            &material,
+            encoded.bytes.len() as u64,
+            &Bars::new(),
+        )?);
+        files.push(encoded.bytes);
+    }
+    let material = Bssrdf::parse(&files[1])?;
+    judgements[1].print();
+    let rows: Vec<_> = judgements[1]
+        .comparison
+        .lit
+        .iter()
+        .map(|relit| triptych(relit, SIZE))
+        .collect();
+    write_png(&path("comparison.png"), &montage(&rows))?;
+
+    println!("3. Drawing it ..");
+    let drawn = draw(dir, &material)?;
+
+    println!("4. Timing how it loads ..");
+    let backend = if drawn.devices.is_empty() {
+        BackendArg::Cpu
+    } else {
+        BackendArg::Auto
+    };
+    let case = Case {
+        #[allow(clippy::cast_possible_truncation, reason = "64")]
+        size: [SIZE as u32; 2],
+        window: WINDOW,
+        #[allow(clippy::cast_possible_truncation, reason = "64")]
+        base_materials: BASE_MATERIALS as u32,
+        samples: material.header().samples.into(),
+        source: "synthetic onyx, simulated",
+        files: ["onyx.npy", "onyx-profiles.subsurf", "onyx.subsurf"].map(path),
+    };
+    let loading = measure(&case, 20, backend)?;
+    let table = format!(
+        "{}\n{}\nDrawn by: {}\n{}",
+        quality_table(&capture, &judgements),
+        markdown(&loading),
+        if drawn.devices.is_empty() {
+            devices::name(None)
+        } else {
+            drawn.devices.join("; ")
+        },
+        drawn.agreement,
+    );
+    println!("\n{table}");
+    write_bytes(&path("table.md"), table.as_bytes())?;
+    write_bytes(&path("loading.json"), format!("{loading:#}\n").as_bytes())?;
+
+    println!("Look at these, in {}:", std::path::absolute(dir)?.display());
+    println!(
+        "  comparison.png   original, 2-BMPP, and ten times their difference, under three lights"
+    );
+    println!("  patch.png        the patch lit by a disc, from the file");
+    println!("  mesh.png         a torus made of the material");
+    println!("  table.md         the tables above; loading.json has their numbers");
+    println!("  onyx.npy, onyx.subsurf   the capture and the file, to try the other commands on");
+    Ok(())
+}
+
+struct Drawn {
+    devices: Vec<String>,
+    /// How far the devices are from the CPU.
+    agreement: String,
+}
+
+/// Draws patch and torus by every backend that opens, or by the CPU, and compares the devices with the CPU.
+fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
+    let gpus: Vec<Gpu> = Backend::ALL
+        .into_iter()
+        .filter_map(|backend| Gpu::open(backend).ok())
+        .collect();
+    if gpus.is_empty() {
+        println!("   no device found: the CPU draws");
+    }
+    let header = material.header();
+    let whole = Region {
+        origin: [0, 0],
+        size: [header.width, header.height],
+    };
+    let irradiance = patch_irradiance(material, Light::Disc);
+    let expected = cpu::gather(material, &irradiance, whole.origin, whole.size);
+    let mut agreement = String::new();
+    let mut devices = Vec::new();
+    for gpu in &gpus {
+        let uploaded = Material::upload(gpu, material)?;
+        let renderer = PatchRenderer::new(gpu, storage_of(material))?;
+        let light = renderer.light(gpu, &uploaded, &irradiance)?;
+        let found = renderer.gather(gpu, &uploaded, &light, whole)?.read(gpu)?;
+        let largest = expected.iter().flatten().copied().fold(0.0, f32::max);
+        let differences = found
+            .iter()
+            .flatten()
+            .zip(expected.iter().flatten())
+            .map(|(a, b)| (a - b).abs() / largest);
+        let worst = differences.fold(0.0, f32::max);
+        let name = devices::name(Some(gpu));
+        let line =
+            format!("{name}: at most {worst:.1e} of the brightest value from the CPU's exitance");
+        println!("   {line}");
+        // Writing to a string cannot fail.
+        let _ = writeln!(agreement, "- {line}");
+        devices.push(name);
+    }
+    let gpu = gpus.first();
+    let (patch, _) = draw_patch(gpu, material, Light::Disc, [512, 512], None)?;
+    write_png(&dir.join("patch.png"), &patch)?;
+    let (mesh, _) = draw_mesh(
+        gpu,
+        material,
+        torus(18.0, 8.0, 64),
+        MappingArg::Auto,
+        &Shot::usual([800, 600]),
+    )?;
+    write_png(&dir.join("mesh.png"), &mesh)?;
+    Ok(Drawn { devices, agreement })
+}
+
+/// How good and how large: the original, per-pixel profiles, 2-BMPP.
+fn quality_table(capture: &Capture, judgements: &[Judgement]) -> String {
+    let mut out = String::from(
+        "| | bytes | relative error | PSNR uniform / disc / line (dB) | SSIM uniform |\n|---|---:|---:|---:|---:|\n",
+    );
+    // Writing to a string cannot fail.
+    let _ = writeln!(out, "| capture | {} | | | |", human(capture.file_bytes()));
+    for (name, judgement) in ["per-pixel profiles", "2-BMPP"].iter().zip(judgements) {
+        let [uniform, disc, line] = judgement.psnr_db;
+        let _ = writeln!(
+            out,
+            "| {name} | {} | {:.4} | {uniform:.1} / {disc:.1} / {line:.1} | {} |",
+            human(judgement.bytes),
+            judgement.relative_error_mean,
+            judgement.ssim[0].map_or("-".to_owned(), |ssim| format!("{ssim:.4}")),
+        );
+    }
+    out
+}

@@ -1,0 +1,112 @@
+//! `subsurf devices`: what there is to draw with.
+
+use subsurf_runtime::{Backend, Gpu, devices};
+
+use crate::failure::bad_request;
+
+/// List the devices that can draw, Vulkan and OpenGL ES.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Say nothing; exit with 3 if there is no device
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let mut opened = 0;
+    let mut failed = None;
+    for backend in Backend::ALL {
+        for info in devices(backend) {
+            if !args.quiet {
+                println!(
+                    "{backend:<10} {} ({:?}; {} {})",
+                    info.name, info.device_type, info.driver, info.driver_info
+                );
+            }
+        }
+        match Gpu::open(backend) {
+            Ok(_) => opened += 1,
+            Err(error) => failed = Some(error),
+        }
+    }
+    match failed {
+        Some(error) if opened == 0 => Err(error.into()),
+        _ => Ok(()),
+    }
+}
+
+/// What draws: a graphics API, or the CPU.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum BackendArg {
+    /// The first of Vulkan, OpenGL ES and CPU that works
+    Auto,
+    /// Vulkan
+    Vulkan,
+    /// OpenGL ES
+    Gl,
+    /// This machine's cores; needs no driver
+    Cpu,
+}
+
+impl BackendArg {
+    /// Opens the device; `None` stands for the CPU.
+    pub(crate) fn open(self) -> anyhow::Result<Option<Gpu>> {
+        match self {
+            Self::Auto => Ok(Backend::ALL
+                .into_iter()
+                .find_map(|backend| Gpu::open(backend).ok())),
+            Self::Vulkan => Ok(Some(Gpu::open(Backend::Vulkan)?)),
+            Self::Gl => Ok(Some(Gpu::open(Backend::Gl)?)),
+            Self::Cpu => Ok(None),
+        }
+    }
+}
+
+/// Name of a device for people.
+pub(crate) fn name(gpu: Option<&Gpu>) -> String {
+    gpu.map_or_else(
+        || format!("CPU, {} threads", rayon::current_num_threads()),
+        |gpu| {
+            format!(
+                "{} ({:?}, {})",
+                gpu.info().name,
+                gpu.info().backend,
+                gpu.info().driver_info
+            )
+        },
+    )
+}
+
+/// Picture sizes that no device takes, refused before anything is allocated.
+pub(crate) fn check_picture(size: [u32; 2]) -> anyhow::Result<()> {
+    const LARGEST: u32 = 16_384;
+    if size.iter().any(|side| *side > LARGEST) {
+        return Err(bad_request(format!(
+            "a picture of {} × {} pixels; the limit is {LARGEST}",
+            size[0], size[1]
+        )));
+    }
+    Ok(())
+}
+
+/// What drivers read from the environment, unless somebody set it.
+const DRIVER_SETTINGS: [(&str, &str); 2] = [
+    // Mesa opens desktop GL unless told otherwise; `gl` is to be what a phone has.
+    ("MESA_GL_VERSION_OVERRIDE", "3.0"),
+    ("MESA_GLES_VERSION_OVERRIDE", "3.0"),
+];
+
+/// Settles drivers before the first of them is loaded.
+pub(crate) fn settle_drivers() {
+    // Where no desktop session is, libwayland complains on stderr as soon as EGL asks it for a display. A folder to look
+    // for one in keeps it quiet.
+    let folder = std::env::temp_dir();
+    let runtime = ("XDG_RUNTIME_DIR", folder.as_os_str());
+    let settings = DRIVER_SETTINGS.map(|(key, value)| (key, value.as_ref()));
+    for (key, value) in settings.into_iter().chain([runtime]) {
+        if std::env::var_os(key).is_none() {
+            // SAFETY: called first in main; no other thread is there to read the environment.
+            unsafe { std::env::set_var(key, value) };
+        }
+    }
+}

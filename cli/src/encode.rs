@@ -1,0 +1,172 @@
+//! `subsurf encode`: from a capture to a file.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::ValueEnum;
+use serde_json::json;
+use subsurf_decoder::Bssrdf;
+use subsurf_encoder::bssrdf::{self, Encoded, Method, Options};
+use subsurf_encoder::capture::Capture;
+use subsurf_encoder::write_bytes;
+
+use crate::compare::{Judgement, judge};
+use crate::failure::bad_request;
+use crate::memory::{human, resident};
+use crate::options::CaptureArgs;
+use crate::progress::Bars;
+
+/// Fit a material to a capture and write a .subsurf file.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The capture: a .npy array [height][width][D][D][3] of Rd in mm⁻², and its sidecar .json with the pixel pitch
+    capture: PathBuf,
+    /// The .subsurf file to write; NAME.subsurf beside the capture if not given
+    #[arg(long, short)]
+    output: Option<PathBuf>,
+    /// What to fit
+    #[arg(long, value_enum, default_value = "direct")]
+    method: MethodArg,
+    /// Base materials, 1 to 256
+    #[arg(long, short = 'M', default_value_t = 128, value_name = "M")]
+    base_materials: usize,
+    /// Nodes of a profile; half the window's width and one if not given
+    #[arg(long, short = 'S', value_name = "S")]
+    samples: Option<usize>,
+    /// Seed of the first cluster centres
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    #[command(flatten)]
+    facts: CaptureArgs,
+    /// Threads to use; the file is the same for any number
+    #[arg(long)]
+    threads: Option<usize>,
+    /// Report as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MethodArg {
+    /// 2-BMPP: two of M base materials per pixel, 48 bits (Yatagawa et al. 2020), fitted by exact alternation
+    Direct,
+    /// A profile for every pixel (Song et al. 2009): some thirty times larger
+    Lsp,
+    /// One of M clusters of those profiles per pixel: what 2-BMPP is measured against
+    Clusters,
+}
+
+impl From<MethodArg> for Method {
+    fn from(arg: MethodArg) -> Self {
+        match arg {
+            MethodArg::Direct => Self::Direct,
+            MethodArg::Lsp => Self::Lsp,
+            MethodArg::Clusters => Self::Clusters,
+        }
+    }
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    if let Some(threads) = args.threads {
+        if threads == 0 {
+            return Err(bad_request(
+                "--threads is 0; leave it out to use all of them",
+            ));
+        }
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build_global()?;
+    }
+    let capture = Capture::open(&args.capture, &args.facts.overrides())?;
+    let output = args
+        .output
+        .clone()
+        .unwrap_or_else(|| args.capture.with_extension("subsurf"));
+    if output == args.capture {
+        return Err(bad_request(format!(
+            "{}: would overwrite the capture",
+            output.display()
+        )));
+    }
+    let options = Options {
+        method: args.method.into(),
+        base_materials: args.base_materials,
+        samples: args.samples,
+        seed: args.seed,
+    };
+    let start = Instant::now();
+    let encoded = encode(&capture, &options, &output)?;
+    let seconds = start.elapsed().as_secs_f64();
+    let material = Bssrdf::parse(&encoded.bytes).map_err(subsurf_runtime::Error::Read)?;
+    let judgement = judge(
+        &capture,
+        &material,
+        encoded.bytes.len() as u64,
+        &Bars::new(),
+    )?;
+    report(args, &capture, &output, &encoded, &judgement, seconds);
+    Ok(())
+}
+
+/// Fits and writes.
+pub(crate) fn encode(
+    capture: &Capture,
+    options: &Options,
+    output: &Path,
+) -> anyhow::Result<Encoded> {
+    let encoded = bssrdf::encode(capture, options, &Bars::new())?;
+    write_bytes(output, &encoded.bytes)?;
+    Ok(encoded)
+}
+
+fn report(
+    args: &Args,
+    capture: &Capture,
+    output: &Path,
+    encoded: &Encoded,
+    judgement: &Judgement,
+    seconds: f64,
+) {
+    let memory = resident().unwrap_or_default();
+    let beside_mapped = memory.peak.saturating_sub(memory.mapped);
+    if args.json {
+        let mut value = json!({
+            "file": output,
+            "method": format!("{:?}", args.method).to_lowercase(),
+            "base_materials": encoded.base_materials,
+            "samples": encoded.samples,
+            "cost": encoded.cost,
+            "entries": encoded.entries,
+            "measured": encoded.measured,
+            "seconds": seconds,
+            "peak_rss_bytes": memory.peak,
+            "peak_rss_beside_mapped_bytes": beside_mapped,
+        });
+        if let (Some(value), Some(judgement)) =
+            (value.as_object_mut(), judgement.to_json().as_object())
+        {
+            value.extend(judgement.clone());
+        }
+        println!("{value:#}");
+        return;
+    }
+    println!(
+        "{}: {} from {}",
+        output.display(),
+        human(encoded.bytes.len() as u64),
+        human(capture.file_bytes())
+    );
+    let missing = encoded.entries - encoded.measured;
+    if missing > 0 {
+        #[allow(clippy::cast_precision_loss, reason = "a percentage")]
+        let share = 100.0 * missing as f64 / encoded.entries as f64;
+        println!(
+            "  {share:.1} % of the entries inside the material were not measured; they weigh nothing"
+        );
+    }
+    judgement.print();
+    println!(
+        "  {seconds:.1} s, {} of memory besides the mapped capture",
+        human(beside_mapped)
+    );
+}

@@ -1,0 +1,60 @@
+//! One line on stderr, and the exit code that says whose fault it is.
+
+use std::process::ExitCode;
+
+/// A request that cannot be carried out, in one line that says what to do instead.
+#[derive(Debug)]
+pub(crate) struct BadRequest(pub(crate) String);
+
+impl std::fmt::Display for BadRequest {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for BadRequest {}
+
+/// Shorthand for an error of the caller's making.
+pub(crate) fn bad_request(message: impl Into<String>) -> anyhow::Error {
+    anyhow::Error::new(BadRequest(message.into()))
+}
+
+const MACHINE: u8 = 1;
+const INPUT: u8 = 2;
+const NO_DEVICE: u8 = 3;
+
+pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
+    // Causes on one line, without those that their parent already quotes.
+    let mut line = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if !line.contains(&cause) {
+            line = if line.is_empty() {
+                cause
+            } else {
+                format!("{line}: {cause}")
+            };
+        }
+    }
+    eprintln!("subsurf: {}", line.replace('\n', " "));
+    ExitCode::from(code(error))
+}
+
+fn code(error: &anyhow::Error) -> u8 {
+    for cause in error.chain() {
+        if cause.is::<BadRequest>() {
+            return INPUT;
+        }
+        if let Some(error) = cause.downcast_ref::<subsurf_encoder::Error>() {
+            return if error.is_callers() { INPUT } else { MACHINE };
+        }
+        if let Some(error) = cause.downcast_ref::<subsurf_runtime::Error>() {
+            use subsurf_runtime::Error::{Mesh, NoDevice, Read, Unsupported};
+            return match error {
+                Read(_) | Mesh(_) => INPUT,
+                NoDevice { .. } | Unsupported { .. } => NO_DEVICE,
+                _ => MACHINE,
+            };
+        }
+    }
+    MACHINE
+}

@@ -1,0 +1,99 @@
+//! `subsurf info`: what is in a file.
+
+use std::path::PathBuf;
+
+use anyhow::Context;
+use serde_json::json;
+use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::Model;
+use subsurf_decoder::container::{Container, Crc};
+
+use crate::memory::human;
+
+/// Show what a .subsurf file holds, and check all of it.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The file
+    file: PathBuf,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let bytes = read_file(&args.file)?;
+    let material = parse(&args.file, &bytes)?;
+    let container = Container::parse(&bytes).map_err(|error| read_error(&args.file, error))?;
+    let header = material.header();
+    let model = match material.model() {
+        Model::BaseMaterials(_) => "2-BMPP (two base materials per pixel)",
+        Model::PerPixel(_) => "per-pixel profiles",
+    };
+    if args.json {
+        let sections: Vec<_> = container
+            .entries()
+            .map(|entry| json!({ "kind": entry.section.kind().escape_ascii().to_string(), "bytes": entry.length }))
+            .collect();
+        let value = json!({
+            "model": model, "width": header.width, "height": header.height, "base_materials": header.base_materials,
+            "samples": header.samples, "window_radius": header.window_radius, "pitch_mm": header.pitch_mm,
+            "r_max_mm": header.r_max_mm, "eta": header.eta, "addressing": format!("{:?}", header.addressing).to_lowercase(),
+            "bytes": bytes.len(), "sections": sections,
+        });
+        println!("{value:#}");
+        return Ok(());
+    }
+    println!(
+        "{}: {model}, {}",
+        args.file.display(),
+        human(bytes.len() as u64)
+    );
+    println!(
+        "  {} × {} pixels of {} mm, beyond the border: {:?}",
+        header.width, header.height, header.pitch_mm, header.addressing
+    );
+    println!(
+        "  window {0} × {0} pixels, profiles of {1} nodes up to {2:.2} mm, {3} base materials",
+        2 * u32::from(header.window_radius) + 1,
+        header.samples,
+        header.r_max_mm,
+        header.base_materials,
+    );
+    println!("  refractive index {}, linear Rec. 709", header.eta);
+    for entry in container.entries() {
+        println!(
+            "  {:<36} {:>10} bytes at {}",
+            entry.section.to_string(),
+            entry.length,
+            entry.offset
+        );
+    }
+    Ok(())
+}
+
+/// The bytes of an input file.
+pub(crate) fn read_file(path: &std::path::Path) -> anyhow::Result<Vec<u8>> {
+    std::fs::read(path).map_err(|error| {
+        crate::failure::bad_request(format!(
+            "{}: {error}; expected a .subsurf file",
+            path.display()
+        ))
+    })
+}
+
+/// Parses with all checks, and names the file if it fails.
+pub(crate) fn parse<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Bssrdf<'a>> {
+    Bssrdf::parse_with(bytes, Crc::Check)
+        .map_err(|error| read_error(path, error))
+        .context("not a usable material")
+}
+
+fn read_error(
+    path: &std::path::Path,
+    source: subsurf_decoder::ReadError,
+) -> subsurf_encoder::Error {
+    subsurf_encoder::Error::Read {
+        path: path.to_owned(),
+        source,
+    }
+}

@@ -1,0 +1,73 @@
+//! The `subsurf` command.
+
+mod bench;
+mod compare;
+mod demo;
+mod devices;
+mod encode;
+mod failure;
+mod info;
+mod memory;
+mod mesh;
+mod options;
+mod picture;
+mod progress;
+mod render;
+mod simulate;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Measured heterogeneous translucency, small enough for a phone.
+///
+/// A capture (NAME.npy) or a simulation becomes a .subsurf file of 48 bits per pixel, which a no_std decoder reads and
+/// a GLES 3.0 device draws.
+#[derive(Parser)]
+#[command(name = "subsurf", version, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+Try it:
+  subsurf demo                                            all of it once, into ./demo-out
+  subsurf simulate --scene onyx -o onyx.npy               a capture where nothing was measured
+  subsurf encode onyx.npy -o onyx.subsurf                 fit 128 base materials, two per pixel
+  subsurf compare onyx.npy onyx.subsurf --images out      how far off, in numbers and pictures
+  subsurf render onyx.subsurf --mesh bunny.ply -o b.png   draw it
+
+Exit codes: 0 done; 1 this machine failed (disk full, driver crashed); 2 the input or the request is wrong;
+3 there is no device that can do it.";
+
+#[derive(Subcommand)]
+enum Command {
+    Simulate(simulate::Args),
+    Encode(encode::Args),
+    Compare(compare::Args),
+    Render(render::Args),
+    Info(info::Args),
+    Devices(devices::Args),
+    #[command(subcommand)]
+    Bench(bench::Command),
+    Demo(demo::Args),
+}
+
+fn main() -> ExitCode {
+    devices::settle_drivers();
+    let result = match Cli::parse().command {
+        Command::Simulate(args) => simulate::run(&args),
+        Command::Encode(args) => encode::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Render(args) => render::run(&args),
+        Command::Info(args) => info::run(&args),
+        Command::Devices(args) => devices::run(&args),
+        Command::Bench(command) => bench::run(&command),
+        Command::Demo(args) => demo::run(&args),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => failure::report(&error),
+    }
+}

@@ -1,0 +1,73 @@
+//! Meshes from files, and which of their vertices a light reaches.
+
+mod formats;
+mod shadow;
+
+use std::path::Path;
+
+use glam::{Vec2, Vec3};
+use subsurf_runtime::scene::Mesh;
+
+use crate::failure::bad_request;
+pub(crate) use shadow::visibility;
+
+/// A mesh as files have it.
+#[derive(Debug, Default)]
+struct Raw {
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    uvs: Option<Vec<Vec2>>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// Which way is up in the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Up {
+    /// As in glTF and most OBJ files
+    Y,
+    /// As in most scans and CAD files
+    Z,
+}
+
+/// Reads a mesh and scales its longest side to `extent_mm`, its middle at the origin.
+pub(crate) fn load(path: &Path, extent_mm: f32, up: Up) -> anyhow::Result<Mesh> {
+    let extension = path
+        .extension()
+        .and_then(|extension| extension.to_str())
+        .unwrap_or("")
+        .to_ascii_lowercase();
+    let raw = match extension.as_str() {
+        "obj" => formats::obj(path),
+        "ply" => formats::ply(path),
+        "glb" | "gltf" => formats::gltf(path),
+        _ => Err("unknown kind of file".to_owned()),
+    };
+    let mut raw = raw.map_err(|reason| {
+        bad_request(format!(
+            "{}: {reason}; expected a mesh in .obj, .ply, .glb or .gltf",
+            path.display()
+        ))
+    })?;
+    if up == Up::Z {
+        for v in raw.positions.iter_mut().chain(&mut raw.normals) {
+            *v = Vec3::new(v.x, v.z, -v.y);
+        }
+    }
+    let low = raw
+        .positions
+        .iter()
+        .copied()
+        .fold(Vec3::INFINITY, Vec3::min);
+    let high = raw
+        .positions
+        .iter()
+        .copied()
+        .fold(Vec3::NEG_INFINITY, Vec3::max);
+    let middle = 0.5 * (low + high);
+    for position in &mut raw.positions {
+        *position -= middle;
+    }
+    let scale = extent_mm / (high - low).max_element();
+    let mesh = Mesh::new(raw.positions, raw.normals, raw.uvs, raw.triangles, scale);
+    mesh.map_err(|error| bad_request(format!("{}: {error}", path.display())))
+}

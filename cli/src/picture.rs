@@ -1,0 +1,96 @@
+//! PNG files, and pictures side by side.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use image::{ImageFormat, Rgb, RgbImage};
+use subsurf_encoder::metrics::Relit;
+use subsurf_encoder::write_bytes;
+
+/// Display values, row by row, as an image.
+pub(crate) fn image(pixels: &[[u8; 3]], width: u32) -> RgbImage {
+    let height = u32::try_from(pixels.len()).unwrap_or(0) / width;
+    RgbImage::from_fn(width, height, |x, y| Rgb(pixels[(y * width + x) as usize]))
+}
+
+/// Writes a PNG, whole or not at all.
+pub(crate) fn write_png(path: &Path, image: &RgbImage) -> anyhow::Result<()> {
+    let mut bytes = Cursor::new(Vec::new());
+    image.write_to(&mut bytes, ImageFormat::Png)?;
+    Ok(write_bytes(path, &bytes.into_inner())?)
+}
+
+/// Light grey, between pictures.
+const GAP: u32 = 6;
+const PAPER: Rgb<u8> = Rgb([235; 3]);
+
+/// Puts pictures of equal size into rows.
+pub(crate) fn montage(rows: &[Vec<RgbImage>]) -> RgbImage {
+    let (width, height) = rows
+        .first()
+        .and_then(|row| row.first())
+        .map_or((1, 1), RgbImage::dimensions);
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let count = |n: usize| u32::try_from(n).unwrap_or(0);
+    let mut sheet = RgbImage::from_pixel(
+        count(columns) * (width + GAP) + GAP,
+        count(rows.len()) * (height + GAP) + GAP,
+        PAPER,
+    );
+    for (y, row) in rows.iter().enumerate() {
+        for (x, picture) in row.iter().enumerate() {
+            let [x, y] =
+                [(x, width), (y, height)].map(|(k, side)| i64::from(count(k) * (side + GAP) + GAP));
+            image::imageops::replace(&mut sheet, picture, x, y);
+        }
+    }
+    sheet
+}
+
+/// Linear values 0 to 1 as sRGB, every pixel a block of `scale` × `scale`.
+fn linear(pixels: &[[f64; 3]], width: u32, scale: u32) -> RgbImage {
+    #[allow(clippy::cast_possible_truncation, reason = "display values")]
+    let bytes: Vec<[u8; 3]> = pixels
+        .iter()
+        .map(|rgb| {
+            subsurf_shaders::cpu::display(subsurf_shaders::cpu::srgb(rgb.map(|value| value as f32)))
+        })
+        .collect();
+    enlarge(&image(&bytes, width), scale)
+}
+
+fn enlarge(picture: &RgbImage, scale: u32) -> RgbImage {
+    let (width, height) = picture.dimensions();
+    image::imageops::resize(
+        picture,
+        width * scale,
+        height * scale,
+        image::imageops::FilterType::Nearest,
+    )
+}
+
+/// Original, file, and ten times their difference, on linear values divided by the original's largest.
+pub(crate) fn triptych(relit: &Relit, width: usize) -> Vec<RgbImage> {
+    let width = u32::try_from(width).unwrap_or(1);
+    let scale = (256 / width.max(1)).max(1);
+    let normalised = relit.normalised();
+    let pairs = normalised.reference.iter().zip(&normalised.image);
+    let difference: Vec<[f64; 3]> = pairs
+        .map(|(a, b)| [0, 1, 2].map(|c| 10.0 * (a[c] - b[c]).abs()))
+        .collect();
+    vec![
+        linear(&normalised.reference, width, scale),
+        linear(&normalised.image, width, scale),
+        // Differences are shown linearly: what looks half as bright is half as large.
+        enlarge(&grey_levels(&difference, width), scale),
+    ]
+}
+
+fn grey_levels(pixels: &[[f64; 3]], width: u32) -> RgbImage {
+    #[allow(clippy::cast_possible_truncation, reason = "display values")]
+    let bytes: Vec<[u8; 3]> = pixels
+        .iter()
+        .map(|rgb| subsurf_shaders::cpu::display(rgb.map(|value| value as f32)))
+        .collect();
+    image(&bytes, width)
+}
