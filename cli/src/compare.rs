@@ -61,12 +61,8 @@ pub(crate) fn judge(
     let lit = comparison.lit.each_ref().map(metrics::Relit::normalised);
     Ok(Judgement {
         relative_error_mean,
-        psnr_db: lit
-            .each_ref()
-            .map(|lit| psnr_db(&lit.reference, &lit.image)),
-        ssim: lit
-            .each_ref()
-            .map(|lit| ssim(&lit.reference, &lit.image, capture.width())),
+        psnr_db: lit.each_ref().map(|lit| psnr_db(&lit.reference, &lit.image)),
+        ssim: lit.each_ref().map(|lit| ssim(&lit.reference, &lit.image, capture.width())),
         bytes,
         capture_bytes: capture.file_bytes(),
         comparison,
@@ -89,20 +85,10 @@ impl Judgement {
     pub(crate) fn print(&self) {
         #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
         let ratio = self.capture_bytes as f64 / self.bytes as f64;
-        println!(
-            "  {} of {}: 1:{ratio:.0}",
-            human(self.bytes),
-            human(self.capture_bytes)
-        );
-        println!(
-            "  mean relative error of the diffuse albedo {:.4}",
-            self.relative_error_mean
-        );
+        println!("  {} of {}: 1:{ratio:.0}", human(self.bytes), human(self.capture_bytes));
+        println!("  mean relative error of the diffuse albedo {:.4}", self.relative_error_mean);
         for ((light, psnr), ssim) in Light::ALL.iter().zip(self.psnr_db).zip(self.ssim) {
-            let ssim = ssim.map_or_else(
-                || "- (patch too small)".to_owned(),
-                |ssim| format!("{ssim:.4}"),
-            );
+            let ssim = ssim.map_or_else(|| "- (patch too small)".to_owned(), |ssim| format!("{ssim:.4}"));
             println!("  {:<8} PSNR {psnr:5.1} dB   SSIM {ssim}", light.name());
         }
     }
@@ -120,27 +106,17 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         judgement.print();
     }
     if let Some(folder) = &args.images {
-        std::fs::create_dir_all(folder).map_err(|error| {
-            bad_request(format!(
-                "{}: cannot make the folder: {error}",
-                folder.display()
-            ))
-        })?;
+        std::fs::create_dir_all(folder)
+            .map_err(|error| bad_request(format!("{}: cannot make the folder: {error}", folder.display())))?;
         let mut rows = Vec::new();
         for (light, relit) in Light::ALL.iter().zip(&judgement.comparison.lit) {
             let row = triptych(relit, capture.width());
-            write_png(
-                &folder.join(format!("{}.png", light.name())),
-                &montage(std::slice::from_ref(&row)),
-            )?;
+            write_png(&folder.join(format!("{}.png", light.name())), &montage(std::slice::from_ref(&row)))?;
             rows.push(row);
         }
         write_png(&folder.join("comparison.png"), &montage(&rows))?;
         if !args.json {
-            println!(
-                "pictures (original, file, 10 × difference) in {}",
-                folder.display()
-            );
+            println!("pictures (original, file, 10 × difference) in {}", folder.display());
         }
     }
     Ok(())

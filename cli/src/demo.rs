@@ -10,7 +10,7 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::bssrdf::{Method, Options};
 use subsurf_encoder::capture::{Capture, Overrides, Scalar};
 use subsurf_encoder::metrics::Light;
-use subsurf_encoder::simulate::Scene;
+use subsurf_encoder::simulate::{Finish, Scene};
 use subsurf_encoder::write_bytes;
 use subsurf_runtime::scene::torus;
 use subsurf_runtime::{Backend, Gpu, Material, PatchRenderer, Region};
@@ -42,12 +42,8 @@ const PITCH_MM: f64 = 0.5;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let dir = &args.dir;
-    std::fs::create_dir_all(dir).map_err(|error| {
-        bad_request(format!(
-            "{}: cannot make the folder: {error}",
-            dir.display()
-        ))
-    })?;
+    std::fs::create_dir_all(dir)
+        .map_err(|error| bad_request(format!("{}: cannot make the folder: {error}", dir.display())))?;
     let path = |name: &str| dir.join(name);
 
     println!(
@@ -64,63 +60,36 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         thickness_mm: 20.0,
         eta: 1.5,
         refine: 1.0,
-        sensor: None,
+        finish: Finish::default(),
         seed: 1,
         scalar: Scalar::F32,
     };
     request.write(&path("onyx.npy"))?;
     println!("   {:.1} s", start.elapsed().as_secs_f64());
 
-    println!(
-        "2. Encoding it: per-pixel profiles, and 2-BMPP with {BASE_MATERIALS} base materials .."
-    );
+    println!("2. Encoding it: per-pixel profiles, and 2-BMPP with {BASE_MATERIALS} base materials ..");
     let capture = Capture::open(&path("onyx.npy"), &Overrides::default())?;
     let mut judgements = Vec::new();
     let mut files = Vec::new();
-    for (method, name) in [
-        (Method::Lsp, "onyx-profiles.subsurf"),
-        (Method::Direct, "onyx.subsurf"),
-    ] {
+    for (method, name) in [(Method::Lsp, "onyx-profiles.subsurf"), (Method::Direct, "onyx.subsurf")] {
         let start = Instant::now();
-        let options = Options {
-            method,
-            base_materials: BASE_MATERIALS,
-            ..Options::default()
-        };
+        let options = Options { method, base_materials: BASE_MATERIALS, ..Options::default() };
         let encoded = encode(&capture, &options, &path(name))?;
-        println!(
-            "   {name}: {} in {:.1} s",
-            human(encoded.bytes.len() as u64),
-            start.elapsed().as_secs_f64()
-        );
+        println!("   {name}: {} in {:.1} s", human(encoded.bytes.len() as u64), start.elapsed().as_secs_f64());
         let material = Bssrdf::parse(&encoded.bytes)?;
-        judgements.push(judge(
-            &capture,
-            &material,
-            encoded.bytes.len() as u64,
-            &Bars::new(),
-        )?);
+        judgements.push(judge(&capture, &material, encoded.bytes.len() as u64, &Bars::new())?);
         files.push(encoded.bytes);
     }
     let material = Bssrdf::parse(&files[1])?;
     judgements[1].print();
-    let rows: Vec<_> = judgements[1]
-        .comparison
-        .lit
-        .iter()
-        .map(|relit| triptych(relit, SIZE))
-        .collect();
+    let rows: Vec<_> = judgements[1].comparison.lit.iter().map(|relit| triptych(relit, SIZE)).collect();
     write_png(&path("comparison.png"), &montage(&rows))?;
 
     println!("3. Drawing it ..");
     let drawn = draw(dir, &material)?;
 
     println!("4. Timing how it loads ..");
-    let backend = if drawn.devices.is_empty() {
-        BackendArg::Cpu
-    } else {
-        BackendArg::Auto
-    };
+    let backend = if drawn.devices.is_empty() { BackendArg::Cpu } else { BackendArg::Auto };
     let case = Case {
         #[allow(clippy::cast_possible_truncation, reason = "64")]
         size: [SIZE as u32; 2],
@@ -136,11 +105,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "{}\n{}\nDrawn by: {}\n{}",
         quality_table(&capture, &judgements),
         markdown(&loading),
-        if drawn.devices.is_empty() {
-            devices::name(None)
-        } else {
-            drawn.devices.join("; ")
-        },
+        if drawn.devices.is_empty() { devices::name(None) } else { drawn.devices.join("; ") },
         drawn.agreement,
     );
     println!("\n{table}");
@@ -148,9 +113,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     write_bytes(&path("loading.json"), format!("{loading:#}\n").as_bytes())?;
 
     println!("Look at these, in {}:", std::path::absolute(dir)?.display());
-    println!(
-        "  comparison.png   original, 2-BMPP, and ten times their difference, under three lights"
-    );
+    println!("  comparison.png   original, 2-BMPP, and ten times their difference, under three lights");
     println!("  patch.png        the patch lit by a disc, from the file");
     println!("  mesh.png         a torus made of the material");
     println!("  table.md         the tables above; loading.json has their numbers");
@@ -166,18 +129,12 @@ struct Drawn {
 
 /// Draws patch and torus by every backend that opens, or by the CPU, and compares the devices with the CPU.
 fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
-    let gpus: Vec<Gpu> = Backend::ALL
-        .into_iter()
-        .filter_map(|backend| Gpu::open(backend).ok())
-        .collect();
+    let gpus: Vec<Gpu> = Backend::ALL.into_iter().filter_map(|backend| Gpu::open(backend).ok()).collect();
     if gpus.is_empty() {
         println!("   no device found: the CPU draws");
     }
     let header = material.header();
-    let whole = Region {
-        origin: [0, 0],
-        size: [header.width, header.height],
-    };
+    let whole = Region { origin: [0, 0], size: [header.width, header.height] };
     let irradiance = patch_irradiance(material, Light::Disc);
     let expected = cpu::gather(material, &irradiance, whole.origin, whole.size);
     let mut agreement = String::new();
@@ -188,15 +145,10 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
         let light = renderer.light(gpu, &uploaded, &irradiance)?;
         let found = renderer.gather(gpu, &uploaded, &light, whole)?.read(gpu)?;
         let largest = expected.iter().flatten().copied().fold(0.0, f32::max);
-        let differences = found
-            .iter()
-            .flatten()
-            .zip(expected.iter().flatten())
-            .map(|(a, b)| (a - b).abs() / largest);
+        let differences = found.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| (a - b).abs() / largest);
         let worst = differences.fold(0.0, f32::max);
         let name = devices::name(Some(gpu));
-        let line =
-            format!("{name}: at most {worst:.1e} of the brightest value from the CPU's exitance");
+        let line = format!("{name}: at most {worst:.1e} of the brightest value from the CPU's exitance");
         println!("   {line}");
         // Writing to a string cannot fail.
         let _ = writeln!(agreement, "- {line}");
@@ -205,13 +157,7 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
     let gpu = gpus.first();
     let (patch, _) = draw_patch(gpu, material, Light::Disc, [512, 512], None)?;
     write_png(&dir.join("patch.png"), &patch)?;
-    let (mesh, _) = draw_mesh(
-        gpu,
-        material,
-        torus(18.0, 8.0, 64),
-        MappingArg::Auto,
-        &Shot::usual([800, 600]),
-    )?;
+    let (mesh, _) = draw_mesh(gpu, material, torus(18.0, 8.0, 64), MappingArg::Auto, &Shot::usual([800, 600]))?;
     write_png(&dir.join("mesh.png"), &mesh)?;
     Ok(Drawn { devices, agreement })
 }

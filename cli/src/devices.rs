@@ -18,10 +18,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     for backend in Backend::ALL {
         for info in devices(backend) {
             if !args.quiet {
-                println!(
-                    "{backend:<10} {} ({:?}; {} {})",
-                    info.name, info.device_type, info.driver, info.driver_info
-                );
+                println!("{backend:<10} {} ({:?}; {} {})", info.name, info.device_type, info.driver, info.driver_info);
             }
         }
         match Gpu::open(backend) {
@@ -52,9 +49,7 @@ impl BackendArg {
     /// Opens the device; `None` stands for the CPU.
     pub(crate) fn open(self) -> anyhow::Result<Option<Gpu>> {
         match self {
-            Self::Auto => Ok(Backend::ALL
-                .into_iter()
-                .find_map(|backend| Gpu::open(backend).ok())),
+            Self::Auto => Ok(Backend::ALL.into_iter().find_map(|backend| Gpu::open(backend).ok())),
             Self::Vulkan => Ok(Some(Gpu::open(Backend::Vulkan)?)),
             Self::Gl => Ok(Some(Gpu::open(Backend::Gl)?)),
             Self::Cpu => Ok(None),
@@ -66,14 +61,7 @@ impl BackendArg {
 pub(crate) fn name(gpu: Option<&Gpu>) -> String {
     gpu.map_or_else(
         || format!("CPU, {} threads", rayon::current_num_threads()),
-        |gpu| {
-            format!(
-                "{} ({:?}, {})",
-                gpu.info().name,
-                gpu.info().backend,
-                gpu.info().driver_info
-            )
-        },
+        |gpu| format!("{} ({:?}, {})", gpu.info().name, gpu.info().backend, gpu.info().driver_info),
     )
 }
 
@@ -81,10 +69,7 @@ pub(crate) fn name(gpu: Option<&Gpu>) -> String {
 pub(crate) fn check_picture(size: [u32; 2]) -> anyhow::Result<()> {
     const LARGEST: u32 = 16_384;
     if size.iter().any(|side| *side > LARGEST) {
-        return Err(bad_request(format!(
-            "a picture of {} × {} pixels; the limit is {LARGEST}",
-            size[0], size[1]
-        )));
+        return Err(bad_request(format!("a picture of {} × {} pixels; the limit is {LARGEST}", size[0], size[1])));
     }
     Ok(())
 }

@@ -69,24 +69,14 @@ impl From<MethodArg> for Method {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(threads) = args.threads {
         if threads == 0 {
-            return Err(bad_request(
-                "--threads is 0; leave it out to use all of them",
-            ));
+            return Err(bad_request("--threads is 0; leave it out to use all of them"));
         }
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build_global()?;
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
     }
     let capture = Capture::open(&args.capture, &args.facts.overrides())?;
-    let output = args
-        .output
-        .clone()
-        .unwrap_or_else(|| args.capture.with_extension("subsurf"));
+    let output = args.output.clone().unwrap_or_else(|| args.capture.with_extension("subsurf"));
     if output == args.capture {
-        return Err(bad_request(format!(
-            "{}: would overwrite the capture",
-            output.display()
-        )));
+        return Err(bad_request(format!("{}: would overwrite the capture", output.display())));
     }
     let options = Options {
         method: args.method.into(),
@@ -98,35 +88,19 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let encoded = encode(&capture, &options, &output)?;
     let seconds = start.elapsed().as_secs_f64();
     let material = Bssrdf::parse(&encoded.bytes).map_err(subsurf_runtime::Error::Read)?;
-    let judgement = judge(
-        &capture,
-        &material,
-        encoded.bytes.len() as u64,
-        &Bars::new(),
-    )?;
+    let judgement = judge(&capture, &material, encoded.bytes.len() as u64, &Bars::new())?;
     report(args, &capture, &output, &encoded, &judgement, seconds);
     Ok(())
 }
 
 /// Fits and writes.
-pub(crate) fn encode(
-    capture: &Capture,
-    options: &Options,
-    output: &Path,
-) -> anyhow::Result<Encoded> {
+pub(crate) fn encode(capture: &Capture, options: &Options, output: &Path) -> anyhow::Result<Encoded> {
     let encoded = bssrdf::encode(capture, options, &Bars::new())?;
     write_bytes(output, &encoded.bytes)?;
     Ok(encoded)
 }
 
-fn report(
-    args: &Args,
-    capture: &Capture,
-    output: &Path,
-    encoded: &Encoded,
-    judgement: &Judgement,
-    seconds: f64,
-) {
+fn report(args: &Args, capture: &Capture, output: &Path, encoded: &Encoded, judgement: &Judgement, seconds: f64) {
     let memory = resident().unwrap_or_default();
     let beside_mapped = memory.peak.saturating_sub(memory.mapped);
     if args.json {
@@ -142,31 +116,19 @@ fn report(
             "peak_rss_bytes": memory.peak,
             "peak_rss_beside_mapped_bytes": beside_mapped,
         });
-        if let (Some(value), Some(judgement)) =
-            (value.as_object_mut(), judgement.to_json().as_object())
-        {
+        if let (Some(value), Some(judgement)) = (value.as_object_mut(), judgement.to_json().as_object()) {
             value.extend(judgement.clone());
         }
         println!("{value:#}");
         return;
     }
-    println!(
-        "{}: {} from {}",
-        output.display(),
-        human(encoded.bytes.len() as u64),
-        human(capture.file_bytes())
-    );
+    println!("{}: {} from {}", output.display(), human(encoded.bytes.len() as u64), human(capture.file_bytes()));
     let missing = encoded.entries - encoded.measured;
     if missing > 0 {
         #[allow(clippy::cast_precision_loss, reason = "a percentage")]
         let share = 100.0 * missing as f64 / encoded.entries as f64;
-        println!(
-            "  {share:.1} % of the entries inside the material were not measured; they weigh nothing"
-        );
+        println!("  {share:.1} % of the entries inside the material were not measured; they weigh nothing");
     }
     judgement.print();
-    println!(
-        "  {seconds:.1} s, {} of memory besides the mapped capture",
-        human(beside_mapped)
-    );
+    println!("  {seconds:.1} s, {} of memory besides the mapped capture", human(beside_mapped));
 }

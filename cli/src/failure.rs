@@ -28,11 +28,7 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
     let mut line = String::new();
     for cause in error.chain().map(ToString::to_string) {
         if !line.contains(&cause) {
-            line = if line.is_empty() {
-                cause
-            } else {
-                format!("{line}: {cause}")
-            };
+            line = if line.is_empty() { cause } else { format!("{line}: {cause}") };
         }
     }
     eprintln!("subsurf: {}", line.replace('\n', " "));

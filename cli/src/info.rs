@@ -43,11 +43,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         println!("{value:#}");
         return Ok(());
     }
-    println!(
-        "{}: {model}, {}",
-        args.file.display(),
-        human(bytes.len() as u64)
-    );
+    println!("{}: {model}, {}", args.file.display(), human(bytes.len() as u64));
     println!(
         "  {} × {} pixels of {} mm, beyond the border: {:?}",
         header.width, header.height, header.pitch_mm, header.addressing
@@ -61,39 +57,22 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     );
     println!("  refractive index {}, linear Rec. 709", header.eta);
     for entry in container.entries() {
-        println!(
-            "  {:<36} {:>10} bytes at {}",
-            entry.section.to_string(),
-            entry.length,
-            entry.offset
-        );
+        println!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
     }
     Ok(())
 }
 
 /// The bytes of an input file.
 pub(crate) fn read_file(path: &std::path::Path) -> anyhow::Result<Vec<u8>> {
-    std::fs::read(path).map_err(|error| {
-        crate::failure::bad_request(format!(
-            "{}: {error}; expected a .subsurf file",
-            path.display()
-        ))
-    })
+    std::fs::read(path)
+        .map_err(|error| crate::failure::bad_request(format!("{}: {error}; expected a .subsurf file", path.display())))
 }
 
 /// Parses with all checks, and names the file if it fails.
 pub(crate) fn parse<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Bssrdf<'a>> {
-    Bssrdf::parse_with(bytes, Crc::Check)
-        .map_err(|error| read_error(path, error))
-        .context("not a usable material")
+    Bssrdf::parse_with(bytes, Crc::Check).map_err(|error| read_error(path, error)).context("not a usable material")
 }
 
-fn read_error(
-    path: &std::path::Path,
-    source: subsurf_decoder::ReadError,
-) -> subsurf_encoder::Error {
-    subsurf_encoder::Error::Read {
-        path: path.to_owned(),
-        source,
-    }
+fn read_error(path: &std::path::Path, source: subsurf_decoder::ReadError) -> subsurf_encoder::Error {
+    subsurf_encoder::Error::Read { path: path.to_owned(), source }
 }

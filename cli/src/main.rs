@@ -39,7 +39,7 @@ Try it:
   subsurf render onyx.subsurf --mesh bunny.ply -o b.png   draw it
 
 Exit codes: 0 done; 1 this machine failed (disk full, driver crashed); 2 the input or the request is wrong;
-3 there is no device that can do it.";
+3 there is no device that can do it; 130 interrupted.";
 
 #[derive(Subcommand)]
 enum Command {
@@ -54,8 +54,20 @@ enum Command {
     Demo(demo::Args),
 }
 
+/// As shells have it: 128 and the signal's number.
+const INTERRUPTED: i32 = 130;
+
 fn main() -> ExitCode {
     devices::settle_drivers();
+    let interrupted = ctrlc::set_handler(|| {
+        subsurf_encoder::remove_unfinished();
+        eprintln!("subsurf: interrupted; nothing was written");
+        std::process::exit(INTERRUPTED);
+    });
+    if let Err(error) = interrupted {
+        // Without it an interrupted run leaves a hidden temporary file behind, nothing worse.
+        eprintln!("subsurf: cannot watch for interruptions: {error}");
+    }
     let result = match Cli::parse().command {
         Command::Simulate(args) => simulate::run(&args),
         Command::Encode(args) => encode::run(&args),

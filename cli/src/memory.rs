@@ -17,10 +17,7 @@ pub(crate) fn resident() -> Option<Resident> {
         let kib: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
         Some(kib * 1024)
     };
-    Some(Resident {
-        peak: field("VmHWM:")?,
-        mapped: field("RssFile:").unwrap_or(0),
-    })
+    Some(Resident { peak: field("VmHWM:")?, mapped: field("RssFile:").unwrap_or(0) })
 }
 
 /// Bytes for people: three digits and a unit.

@@ -43,11 +43,7 @@ pub(crate) struct CaptureArgs {
 
 impl CaptureArgs {
     pub(crate) fn overrides(&self) -> Overrides {
-        Overrides {
-            pitch_mm: self.pitch,
-            addressing: self.addressing.map(Into::into),
-            eta: self.eta,
-        }
+        Overrides { pitch_mm: self.pitch, addressing: self.addressing.map(Into::into), eta: self.eta }
     }
 }
 
@@ -62,9 +58,7 @@ impl FromStr for Size {
         let (width, height) = text.split_once(['x', 'X', '×']).unwrap_or((text, text));
         let side = |text: &str| match text.trim().parse() {
             Ok(side) if side > 0 => Ok(side),
-            _ => Err(format!(
-                "\"{text}\" is no number of pixels; write for example 640x480"
-            )),
+            _ => Err(format!("\"{text}\" is no number of pixels; write for example 640x480")),
         };
         Ok(Self([side(width)?, side(height)?]))
     }
@@ -84,9 +78,6 @@ mod tests {
     fn sizes() {
         assert_eq!("640x480".parse(), Ok(Size([640, 480])));
         assert_eq!("80".parse(), Ok(Size([80, 80])));
-        assert!(
-            "0x1".parse::<Size>().is_err() && "ax1".parse::<Size>().is_err(),
-            "no pixels"
-        );
+        assert!("0x1".parse::<Size>().is_err() && "ax1".parse::<Size>().is_err(), "no pixels");
     }
 }

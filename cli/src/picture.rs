@@ -26,21 +26,14 @@ const PAPER: Rgb<u8> = Rgb([235; 3]);
 
 /// Puts pictures of equal size into rows.
 pub(crate) fn montage(rows: &[Vec<RgbImage>]) -> RgbImage {
-    let (width, height) = rows
-        .first()
-        .and_then(|row| row.first())
-        .map_or((1, 1), RgbImage::dimensions);
+    let (width, height) = rows.first().and_then(|row| row.first()).map_or((1, 1), RgbImage::dimensions);
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let count = |n: usize| u32::try_from(n).unwrap_or(0);
-    let mut sheet = RgbImage::from_pixel(
-        count(columns) * (width + GAP) + GAP,
-        count(rows.len()) * (height + GAP) + GAP,
-        PAPER,
-    );
+    let mut sheet =
+        RgbImage::from_pixel(count(columns) * (width + GAP) + GAP, count(rows.len()) * (height + GAP) + GAP, PAPER);
     for (y, row) in rows.iter().enumerate() {
         for (x, picture) in row.iter().enumerate() {
-            let [x, y] =
-                [(x, width), (y, height)].map(|(k, side)| i64::from(count(k) * (side + GAP) + GAP));
+            let [x, y] = [(x, width), (y, height)].map(|(k, side)| i64::from(count(k) * (side + GAP) + GAP));
             image::imageops::replace(&mut sheet, picture, x, y);
         }
     }
@@ -52,21 +45,14 @@ fn linear(pixels: &[[f64; 3]], width: u32, scale: u32) -> RgbImage {
     #[allow(clippy::cast_possible_truncation, reason = "display values")]
     let bytes: Vec<[u8; 3]> = pixels
         .iter()
-        .map(|rgb| {
-            subsurf_shaders::cpu::display(subsurf_shaders::cpu::srgb(rgb.map(|value| value as f32)))
-        })
+        .map(|rgb| subsurf_shaders::cpu::display(subsurf_shaders::cpu::srgb(rgb.map(|value| value as f32))))
         .collect();
     enlarge(&image(&bytes, width), scale)
 }
 
 fn enlarge(picture: &RgbImage, scale: u32) -> RgbImage {
     let (width, height) = picture.dimensions();
-    image::imageops::resize(
-        picture,
-        width * scale,
-        height * scale,
-        image::imageops::FilterType::Nearest,
-    )
+    image::imageops::resize(picture, width * scale, height * scale, image::imageops::FilterType::Nearest)
 }
 
 /// Original, file, and ten times their difference, on linear values divided by the original's largest.
@@ -75,9 +61,7 @@ pub(crate) fn triptych(relit: &Relit, width: usize) -> Vec<RgbImage> {
     let scale = (256 / width.max(1)).max(1);
     let normalised = relit.normalised();
     let pairs = normalised.reference.iter().zip(&normalised.image);
-    let difference: Vec<[f64; 3]> = pairs
-        .map(|(a, b)| [0, 1, 2].map(|c| 10.0 * (a[c] - b[c]).abs()))
-        .collect();
+    let difference: Vec<[f64; 3]> = pairs.map(|(a, b)| [0, 1, 2].map(|c| 10.0 * (a[c] - b[c]).abs())).collect();
     vec![
         linear(&normalised.reference, width, scale),
         linear(&normalised.image, width, scale),
@@ -88,9 +72,7 @@ pub(crate) fn triptych(relit: &Relit, width: usize) -> Vec<RgbImage> {
 
 fn grey_levels(pixels: &[[f64; 3]], width: u32) -> RgbImage {
     #[allow(clippy::cast_possible_truncation, reason = "display values")]
-    let bytes: Vec<[u8; 3]> = pixels
-        .iter()
-        .map(|rgb| subsurf_shaders::cpu::display(rgb.map(|value| value as f32)))
-        .collect();
+    let bytes: Vec<[u8; 3]> =
+        pixels.iter().map(|rgb| subsurf_shaders::cpu::display(rgb.map(|value| value as f32))).collect();
     image(&bytes, width)
 }

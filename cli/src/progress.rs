@@ -14,10 +14,7 @@ impl Bars {
     }
 
     fn current(&self) -> ProgressBar {
-        self.0
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner)
-            .clone()
+        self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner).clone()
     }
 }
 
@@ -30,16 +27,10 @@ impl Drop for Bars {
 impl subsurf_encoder::Progress for Bars {
     fn begin(&self, stage: &str, total: u64) {
         let template = "{msg:28} {wide_bar:.cyan/dim} {percent:>3} % {elapsed} (left: {eta})";
-        let style =
-            ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-        let bar = ProgressBar::new(total)
-            .with_style(style)
-            .with_message(stage.to_owned());
+        let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+        let bar = ProgressBar::new(total).with_style(style).with_message(stage.to_owned());
         bar.enable_steady_tick(Duration::from_millis(250));
-        let mut current = self
-            .0
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut current = self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         current.finish_and_clear();
         *current = bar;
     }

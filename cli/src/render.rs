@@ -11,8 +11,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::Light;
 use subsurf_runtime::scene::{Mapping, Mesh, Surface};
 use subsurf_runtime::{
-    BACKGROUND, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchRenderer, Region, Storage,
-    View,
+    BACKGROUND, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchRenderer, Region, Storage, View,
 };
 use subsurf_shaders::cpu::{self, Rgb};
 
@@ -45,13 +44,7 @@ pub(crate) struct Args {
     #[arg(long, value_enum, default_value = "auto", requires = "mesh")]
     mapping: MappingArg,
     /// From where the mesh is seen: degrees around, degrees up
-    #[arg(
-        long,
-        default_value = "30,15",
-        value_name = "AROUND,UP",
-        requires = "mesh",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, default_value = "30,15", value_name = "AROUND,UP", requires = "mesh", allow_hyphen_values = true)]
     view: Angles,
     /// uniform, disc or line on a patch; a direction X,Y,Z towards the light on a mesh
     #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
@@ -94,10 +87,7 @@ impl FromStr for LightArg {
         if let Some(light) = Light::ALL.into_iter().find(|light| light.name() == text) {
             return Ok(Self::Pattern(light));
         }
-        let numbers: Option<Vec<f32>> = text
-            .split(',')
-            .map(|number| number.trim().parse().ok())
-            .collect();
+        let numbers: Option<Vec<f32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
         match numbers.as_deref() {
             Some(&[x, y, z]) if Vec3::new(x, y, z).try_normalize().is_some() => {
                 Ok(Self::Direction(Vec3::new(x, y, z).normalize()))
@@ -118,16 +108,10 @@ impl FromStr for Angles {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let numbers: Option<Vec<f32>> = text
-            .split(',')
-            .map(|number| number.trim().parse().ok())
-            .collect();
+        let numbers: Option<Vec<f32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
         match numbers.as_deref() {
             Some(&[around, up]) if up.abs() < 90.0 && around.is_finite() => Ok(Self { around, up }),
-            _ => Err(
-                "expected two angles in degrees, the second between -90 and 90, such as 30,15"
-                    .to_owned(),
-            ),
+            _ => Err("expected two angles in degrees, the second between -90 and 90, such as 30,15".to_owned()),
         }
     }
 }
@@ -142,29 +126,19 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(exposure) = args.exposure
         && !(exposure.is_finite() && exposure > 0.0)
     {
-        return Err(bad_request(format!(
-            "--exposure is {exposure}; it must be positive"
-        )));
+        return Err(bad_request(format!("--exposure is {exposure}; it must be positive")));
     }
     let bytes = read_file(&args.file)?;
     let material = parse(&args.file, &bytes)?;
     let gpu = args.backend.open()?;
     let start = Instant::now();
     let (picture, facts) = match (&args.mesh, args.light) {
-        (None, None) => draw_patch(
-            gpu.as_ref(),
-            &material,
-            Light::Disc,
-            args.size.0,
-            args.exposure,
-        )?,
+        (None, None) => draw_patch(gpu.as_ref(), &material, Light::Disc, args.size.0, args.exposure)?,
         (None, Some(LightArg::Pattern(light))) => {
             draw_patch(gpu.as_ref(), &material, light, args.size.0, args.exposure)?
         }
         (None, Some(LightArg::Direction(_))) => {
-            return Err(bad_request(
-                "--light X,Y,Z is for meshes; on a patch it is uniform, disc or line",
-            ));
+            return Err(bad_request("--light X,Y,Z is for meshes; on a patch it is uniform, disc or line"));
         }
         (Some(_), Some(LightArg::Pattern(_))) => {
             return Err(bad_request(
@@ -177,12 +151,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 _ => DEFAULT_LIGHT.normalize(),
             };
             let mesh = mesh::load(path, args.extent, args.up)?;
-            let shot = Shot {
-                direction,
-                angles: args.view,
-                size: args.size.0,
-                exposure: args.exposure,
-            };
+            let shot = Shot { direction, angles: args.view, size: args.size.0, exposure: args.exposure };
             draw_mesh(gpu.as_ref(), &material, mesh, args.mapping, &shot)?
         }
     };
@@ -196,10 +165,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
         println!("{value:#}");
     } else {
-        println!(
-            "{}: drawn by {device} in {seconds:.1} s",
-            args.output.display()
-        );
+        println!("{}: drawn by {device} in {seconds:.1} s", args.output.display());
         if let Some(bytes) = facts.get("gpu_bytes").and_then(Value::as_u64) {
             println!("  the material takes {} on the device", human(bytes));
         }
@@ -221,28 +187,15 @@ pub(crate) struct Shot {
 impl Shot {
     /// The usual picture of `size`.
     pub(crate) fn usual(size: [u32; 2]) -> Self {
-        Self {
-            direction: DEFAULT_LIGHT.normalize(),
-            angles: Angles {
-                around: 30.0,
-                up: 15.0,
-            },
-            size,
-            exposure: None,
-        }
+        Self { direction: DEFAULT_LIGHT.normalize(), angles: Angles { around: 30.0, up: 15.0 }, size, exposure: None }
     }
 }
 
 /// Irradiance of a pattern on every pixel of a patch, as it is after it has entered.
 pub(crate) fn patch_irradiance(material: &Bssrdf<'_>, light: Light) -> Vec<Rgb> {
-    let size = [
-        material.header().width as usize,
-        material.header().height as usize,
-    ];
+    let size = [material.header().width as usize, material.header().height as usize];
     let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
-    pixels
-        .map(|pixel| [light.irradiance(pixel, size); 3])
-        .collect()
+    pixels.map(|pixel| [light.irradiance(pixel, size); 3]).collect()
 }
 
 /// Draws the whole patch, each of its pixels a block.
@@ -254,22 +207,11 @@ pub(crate) fn draw_patch(
     exposure: Option<f32>,
 ) -> anyhow::Result<(RgbImage, Map<String, Value>)> {
     let header = material.header();
-    let whole = Region {
-        origin: [0, 0],
-        size: [header.width, header.height],
-    };
+    let whole = Region { origin: [0, 0], size: [header.width, header.height] };
     // The patch keeps its shape.
-    let scale = (0..2)
-        .map(|k| f64::from(size[k]) / f64::from(whole.size[k]))
-        .fold(f64::INFINITY, f64::min);
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "no larger than `size`"
-    )]
-    let size = whole
-        .size
-        .map(|side| ((f64::from(side) * scale).round() as u32).max(1));
+    let scale = (0..2).map(|k| f64::from(size[k]) / f64::from(whole.size[k])).fold(f64::INFINITY, f64::min);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "no larger than `size`")]
+    let size = whole.size.map(|side| ((f64::from(side) * scale).round() as u32).max(1));
     let irradiance = patch_irradiance(material, light);
     let mut facts = Map::new();
     facts.insert("light".to_owned(), json!(light.name()));
@@ -300,9 +242,7 @@ pub(crate) fn draw_patch(
 
 /// The exposure that brings all but the brightest hundredth below [`BRIGHT`].
 fn exposure_for<'a>(lights: impl Iterator<Item = &'a Rgb>) -> f32 {
-    let mut values: Vec<f32> = lights
-        .map(|rgb| rgb.iter().copied().fold(0.0, f32::max))
-        .collect();
+    let mut values: Vec<f32> = lights.map(|rgb| rgb.iter().copied().fold(0.0, f32::max)).collect();
     values.sort_by(f32::total_cmp);
     let bright = values.get(values.len() * 99 / 100).copied().unwrap_or(0.0);
     if bright > 0.0 { BRIGHT / bright } else { 1.0 }
@@ -325,11 +265,7 @@ pub(crate) fn draw_mesh(
     let mesh = mesh.subdivided(LONGEST_EDGE * header.pitch_mm);
     let visibility = mesh::visibility(&mesh, shot.direction);
     let surface = Surface::new(&mesh, mapping, header, &visibility);
-    let light = MeshLight {
-        direction: shot.direction,
-        irradiance: [3.0, 2.9, 2.7],
-        sky: [0.35, 0.4, 0.5],
-    };
+    let light = MeshLight { direction: shot.direction, irradiance: [3.0, 2.9, 2.7], sky: [0.35, 0.4, 0.5] };
     let large = shot.size.map(|side| side * SUPERSAMPLING);
     let view = frame(&mesh, shot, light.sky);
 
@@ -338,10 +274,11 @@ pub(crate) fn draw_mesh(
     facts.insert("triangles".to_owned(), json!(given));
     facts.insert("points".to_owned(), json!(surface.len()));
     facts.insert("mapping".to_owned(), json!(format!("{mapping:?}")));
-    // Light that leaves becomes radiance by 1/π.
+    // Light that leaves becomes radiance by 1/π. Dark materials stay dark enough that what they reflect is not burnt out.
+    let brightest_sky = light.sky.iter().copied().fold(0.0, f32::max);
     let exposure_of = |exitance: &[Rgb]| {
-        shot.exposure
-            .unwrap_or_else(|| exposure_for(exitance.iter()) * std::f32::consts::PI)
+        let chosen = || exposure_for(exitance.iter()).min(BRIGHT / brightest_sky) * std::f32::consts::PI;
+        shot.exposure.unwrap_or_else(chosen)
     };
     let pixels = match gpu {
         Some(gpu) => {
@@ -360,11 +297,7 @@ pub(crate) fn draw_mesh(
             let exitance = cpu::surface_gather(material, &surface.points(), &irradiance);
             let exposure = exposure_of(&exitance);
             facts.insert("exposure".to_owned(), json!(exposure));
-            let exitances: Vec<Rgb> = surface
-                .point_of()
-                .iter()
-                .map(|&point| exitance[point as usize])
-                .collect();
+            let exitances: Vec<Rgb> = surface.point_of().iter().map(|&point| exitance[point as usize]).collect();
             let triangles = cpu::Triangles {
                 positions: &mesh.positions,
                 normals: &mesh.normals,
@@ -379,11 +312,7 @@ pub(crate) fn draw_mesh(
 }
 
 /// Repeats texture coordinates so that the material has its own size on average, a whole number of times.
-fn choose_mapping(
-    mesh: &Mesh,
-    mapping: MappingArg,
-    material: &Bssrdf<'_>,
-) -> anyhow::Result<Mapping> {
+fn choose_mapping(mesh: &Mesh, mapping: MappingArg, material: &Bssrdf<'_>) -> anyhow::Result<Mapping> {
     let uvs = match (mapping, &mesh.uvs) {
         (MappingArg::Uv, None) => {
             return Err(bad_request(
@@ -402,17 +331,9 @@ fn choose_mapping(
         area_uv += f64::from((tb - ta).perp_dot(tc - ta).abs());
     }
     let header = material.header();
-    let mm_per_unit = if area_uv > 0.0 {
-        (area_mm2 / area_uv).sqrt()
-    } else {
-        0.0
-    };
+    let mm_per_unit = if area_uv > 0.0 { (area_mm2 / area_uv).sqrt() } else { 0.0 };
     #[allow(clippy::cast_possible_truncation, reason = "a small whole number")]
-    let times = |side: u32| {
-        (mm_per_unit / (f64::from(side) * f64::from(header.pitch_mm)))
-            .round()
-            .max(1.0) as f32
-    };
+    let times = |side: u32| (mm_per_unit / (f64::from(side) * f64::from(header.pitch_mm))).round().max(1.0) as f32;
     Ok(Mapping::Uv([times(header.width), times(header.height)]))
 }
 
@@ -423,24 +344,11 @@ fn frame(mesh: &Mesh, shot: &Shot, sky: Rgb) -> View {
     let target_mm = 0.5 * (low + high);
     let (around, up) = (shot.angles.around.to_radians(), shot.angles.up.to_radians());
     let towards = Vec3::new(up.cos() * around.sin(), up.sin(), up.cos() * around.cos());
-    let radius = mesh
-        .positions
-        .iter()
-        .map(|position| position.distance(target_mm))
-        .fold(0.0, f32::max);
-    #[allow(
-        clippy::cast_precision_loss,
-        reason = "pictures are a few thousand pixels wide"
-    )]
+    let radius = mesh.positions.iter().map(|position| position.distance(target_mm)).fold(0.0, f32::max);
+    #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
     let aspect = (shot.size[0] as f32 / shot.size[1] as f32).min(1.0);
     let distance = 1.02 * radius / (0.5 * ANGLE).sin() / aspect;
-    View {
-        eye_mm: target_mm + distance * towards,
-        target_mm,
-        angle: ANGLE,
-        exposure: 1.0,
-        sky,
-    }
+    View { eye_mm: target_mm + distance * towards, target_mm, angle: ANGLE, exposure: 1.0, sky }
 }
 
 /// Means of blocks of pixels, taken of light rather than of display values.
@@ -448,11 +356,7 @@ fn average_down(pixels: &[[u8; 3]], size: [u32; 2]) -> RgbImage {
     let light: Vec<f32> = (0..=255_u8)
         .map(|value| {
             let value = f32::from(value) / 255.0;
-            if value <= 0.040_45 {
-                value / 12.92
-            } else {
-                ((value + 0.055) / 1.055).powf(2.4)
-            }
+            if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
         })
         .collect();
     let n = SUPERSAMPLING;

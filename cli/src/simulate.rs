@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
 use subsurf_encoder::simulate::maps::{self, MeanFreePath, Weight};
-use subsurf_encoder::simulate::{MediumMap, Scene, Sensor, Slab};
+use subsurf_encoder::simulate::{Finish, MediumMap, Scene, Sensor, Slab, Summary, simulate};
 
 use crate::failure::bad_request;
 use crate::memory::human;
@@ -23,12 +23,7 @@ use crate::progress::Bars;
 #[command(after_help = MAPS_HELP)]
 pub(crate) struct Args {
     /// A built-in material
-    #[arg(
-        long,
-        value_enum,
-        conflicts_with = "maps",
-        required_unless_present = "maps"
-    )]
+    #[arg(long, value_enum, conflicts_with = "maps", required_unless_present = "maps")]
     scene: Option<SceneArg>,
     /// Your own images: NAME=VALUE, once for each; see below
     #[arg(long, value_name = "NAME=VALUE")]
@@ -66,6 +61,9 @@ pub(crate) struct Args {
     /// Write 16-bit floats: half the size, three digits
     #[arg(long)]
     half: bool,
+    /// Leave the two directions of each pair as they come; otherwise they get their mean, since light paths can be reversed
+    #[arg(long)]
+    one_way: bool,
     /// Divide the width of every voxel by this, to see that the result stays
     #[arg(long, default_value_t = 1.0, value_name = "FACTOR")]
     refine: f64,
@@ -86,12 +84,8 @@ pub(crate) struct SceneArg(pub(crate) Scene);
 
 impl ValueEnum for SceneArg {
     fn value_variants<'a>() -> &'a [Self] {
-        const ALL: [SceneArg; 4] = [
-            SceneArg(Scene::ALL[0]),
-            SceneArg(Scene::ALL[1]),
-            SceneArg(Scene::ALL[2]),
-            SceneArg(Scene::ALL[3]),
-        ];
+        const ALL: [SceneArg; 4] =
+            [SceneArg(Scene::ALL[0]), SceneArg(Scene::ALL[1]), SceneArg(Scene::ALL[2]), SceneArg(Scene::ALL[3])];
         &ALL
     }
 
@@ -103,14 +97,8 @@ impl ValueEnum for SceneArg {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let size = args.size.0.map(|side| side as usize);
     let (map, source) = match args.scene {
-        Some(SceneArg(scene)) => (
-            scene.map(size, args.addressing.into(), args.seed),
-            json!({ "scene": scene.name() }),
-        ),
-        None => (
-            read_maps(args, size)?,
-            json!({ "maps": args.maps, "stretch": args.stretch }),
-        ),
+        Some(SceneArg(scene)) => (scene.map(size, args.addressing.into(), args.seed), json!({ "scene": scene.name() })),
+        None => (read_maps(args, size)?, json!({ "maps": args.maps, "stretch": args.stretch })),
     };
     let request = Request {
         map: &map,
@@ -121,16 +109,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         thickness_mm: args.thickness,
         eta: args.eta,
         refine: args.refine,
-        sensor: args.noise.map(|photons| Sensor {
-            photons,
-            seed: args.seed,
-        }),
+        finish: Finish { one_way: args.one_way, sensor: args.noise.map(|photons| Sensor { photons, seed: args.seed }) },
         seed: args.seed,
         scalar: if args.half { Scalar::F16 } else { Scalar::F32 },
     };
     request.check()?;
     let start = Instant::now();
-    let share = request.write(&args.output)?;
+    let Summary { window_share, asymmetry } = request.write(&args.output)?;
     let bytes = std::fs::metadata(&args.output).map_or(0, |metadata| metadata.len());
     println!(
         "{}: synthetic capture, {} × {} pixels, window {}, {} in {:.1} s",
@@ -141,15 +126,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         human(bytes),
         start.elapsed().as_secs_f64(),
     );
-    println!(
-        "{:.1} % of the light that leaves the surface leaves within the window",
-        100.0 * share
-    );
-    if share < 0.9 {
-        println!(
-            "the rest is lost to everything made from this capture: a larger --window or --pitch keeps more"
-        );
+    println!("{:.1} % of the light that leaves the surface leaves within the window", 100.0 * window_share);
+    if window_share < 0.9 {
+        println!("the rest is lost to everything made from this capture: a larger --window or --pitch keeps more");
     }
+    let end = if args.one_way { ", and stay so" } else { "; each has their mean" };
+    println!("the two directions of a pair came out {:.1} % apart on average{end}", 100.0 * asymmetry.exp_m1());
     Ok(())
 }
 
@@ -163,7 +145,7 @@ pub(crate) struct Request<'a> {
     pub(crate) thickness_mm: f64,
     pub(crate) eta: f64,
     pub(crate) refine: f64,
-    pub(crate) sensor: Option<Sensor>,
+    pub(crate) finish: Finish,
     pub(crate) seed: u64,
     pub(crate) scalar: Scalar,
 }
@@ -172,36 +154,26 @@ impl Request<'_> {
     fn check(&self) -> anyhow::Result<()> {
         let positive = |what: &str, value: f64| {
             let fine = value.is_finite() && value > 0.0;
-            fine.then_some(())
-                .ok_or_else(|| bad_request(format!("{what} is {value}; it must be positive")))
+            fine.then_some(()).ok_or_else(|| bad_request(format!("{what} is {value}; it must be positive")))
         };
         positive("--pitch", self.pitch_mm)?;
         positive("--thickness", self.thickness_mm)?;
         positive("--refine", self.refine)?;
-        positive("--noise", self.sensor.map_or(1.0, |sensor| sensor.photons))?;
+        positive("--noise", self.finish.sensor.map_or(1.0, |sensor| sensor.photons))?;
         if !(1.0..=4.0).contains(&self.eta) {
-            return Err(bad_request(format!(
-                "--eta is {}; refractive indices are 1 to 4",
-                self.eta
-            )));
+            return Err(bad_request(format!("--eta is {}; refractive indices are 1 to 4", self.eta)));
         }
         if self.window.is_multiple_of(2) || self.window > 2_047 {
-            return Err(bad_request(format!(
-                "--window is {}; it must be odd and at most 2047",
-                self.window
-            )));
+            return Err(bad_request(format!("--window is {}; it must be odd and at most 2047", self.window)));
         }
         if self.map.size.iter().any(|side| *side > 65_535) {
-            return Err(bad_request(format!(
-                "--size is {:?}; the limit is 65535 pixels",
-                self.map.size
-            )));
+            return Err(bad_request(format!("--size is {:?}; the limit is 65535 pixels", self.map.size)));
         }
         Ok(())
     }
 
-    /// Simulates and writes array and sidecar; returns the share of the light that stays within the window.
-    pub(crate) fn write(&self, path: &Path) -> anyhow::Result<f64> {
+    /// Simulates and writes array and sidecar.
+    pub(crate) fn write(&self, path: &Path) -> anyhow::Result<Summary> {
         let radius = self.window as usize / 2;
         let slab = Slab {
             map: self.map,
@@ -213,33 +185,19 @@ impl Request<'_> {
             refine: self.refine,
         };
         let sidecar = self.sidecar();
-        let writer = CaptureWriter {
-            path,
-            size: self.map.size,
-            radius,
-            scalar: self.scalar,
-            sidecar: &sidecar,
-        };
-        let bars = Bars::new();
-        let mut share = 0.0;
-        writer.write(|sink| {
-            share = slab.measure(self.sensor.as_ref(), &bars, sink)?;
-            Ok(())
-        })?;
-        Ok(share)
+        let writer = CaptureWriter { path, size: self.map.size, radius, scalar: self.scalar, sidecar: &sidecar };
+        Ok(simulate(&slab, &self.finish, &writer, &Bars::new())?)
     }
 
-    #[allow(
-        clippy::cast_possible_truncation,
-        reason = "lengths and indices need no more than f32"
-    )]
+    #[allow(clippy::cast_possible_truncation, reason = "lengths and indices need no more than f32")]
     fn sidecar(&self) -> Sidecar {
         let simulated = json!({
             "by": concat!("subsurf ", env!("CARGO_PKG_VERSION")),
             "source": self.source,
             "thickness_mm": self.thickness_mm,
             "seed": self.seed,
-            "photons": self.sensor.map(|sensor| sensor.photons),
+            "reciprocal": !self.finish.one_way,
+            "photons": self.finish.sensor.map(|sensor| sensor.photons),
             "refine": self.refine,
         });
         Sidecar {
@@ -258,9 +216,7 @@ fn read_maps(args: &Args, size: [usize; 2]) -> anyhow::Result<MediumMap> {
     let mut mean_free_path = None;
     for entry in &args.maps {
         let (name, value) = entry.split_once('=').ok_or_else(|| {
-            bad_request(format!(
-                "--maps {entry}: expected NAME=VALUE, for example marble=rest or albedo=colour.png"
-            ))
+            bad_request(format!("--maps {entry}: expected NAME=VALUE, for example marble=rest or albedo=colour.png"))
         })?;
         match name {
             "albedo" => albedo = Some(PathBuf::from(value)),
@@ -271,13 +227,11 @@ fn read_maps(args: &Args, size: [usize; 2]) -> anyhow::Result<MediumMap> {
     match (albedo, mean_free_path, weights.is_empty()) {
         (Some(albedo), Some(length), true) => Ok(maps::albedo(&albedo, &length, size, args.eta)?),
         (None, None, false) => Ok(maps::mixture(&weights, size, args.stretch)?),
-        (Some(_), None, true) => Err(bad_request(
-            "--maps albedo=.. needs --maps mfp=.. too: how far light travels, in mm",
-        )),
+        (Some(_), None, true) => {
+            Err(bad_request("--maps albedo=.. needs --maps mfp=.. too: how far light travels, in mm"))
+        }
         (None, Some(_), true) => Err(bad_request("--maps mfp=.. needs --maps albedo=IMAGE too")),
-        _ => Err(bad_request(
-            "--maps takes either measured materials or albedo and mfp, not both",
-        )),
+        _ => Err(bad_request("--maps takes either measured materials or albedo and mfp, not both")),
     }
 }
 
@@ -291,17 +245,13 @@ fn parse_weight(value: &str) -> Weight {
 
 fn parse_mean_free_path(value: &str) -> anyhow::Result<MeanFreePath> {
     let numbers = |text: &str, separator: char| -> Option<Vec<f64>> {
-        text.split(separator)
-            .map(|number| number.trim().parse().ok())
-            .collect()
+        text.split(separator).map(|number| number.trim().parse().ok()).collect()
     };
     if let Some(lengths) = numbers(value, ',') {
         return match lengths[..] {
             [all] => Ok(MeanFreePath::Constant([all; 3])),
             [r, g, b] => Ok(MeanFreePath::Constant([r, g, b])),
-            _ => Err(bad_request(format!(
-                "--maps mfp={value}: one length in mm, or three for red, green and blue"
-            ))),
+            _ => Err(bad_request(format!("--maps mfp={value}: one length in mm, or three for red, green and blue"))),
         };
     }
     // IMAGE:FROM:TO, split from the end: a path may have colons.
@@ -311,7 +261,5 @@ fn parse_mean_free_path(value: &str) -> anyhow::Result<MeanFreePath> {
     {
         return Ok(MeanFreePath::Image(path.into(), [from, to]));
     }
-    Err(bad_request(format!(
-        "--maps mfp={value}: a length in mm, three of them, or IMAGE:FROM:TO with two lengths"
-    )))
+    Err(bad_request(format!("--maps mfp={value}: a length in mm, three of them, or IMAGE:FROM:TO with two lengths")))
 }

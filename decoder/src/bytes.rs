@@ -77,6 +77,22 @@ impl<'a> F32Le<'a> {
         self.0.iter().copied().map(i32::from_le_bytes)
     }
 
+    /// Whether `outside` gives a negative number for the bits of any value.
+    ///
+    /// Lanes of their own and one branch at the end: the loop compiles to vector code that keeps up with memory.
+    pub(crate) fn any_negative(self, outside: impl Fn(i32) -> i32) -> bool {
+        const LANES: usize = 16;
+        let (blocks, rest) = self.0.as_chunks::<LANES>();
+        let mut any = [0; LANES];
+        for block in blocks {
+            for (any, value) in any.iter_mut().zip(block) {
+                *any |= outside(i32::from_le_bytes(*value));
+            }
+        }
+        let rest = rest.iter().map(|value| outside(i32::from_le_bytes(*value)));
+        any.into_iter().chain(rest).fold(0, |any, value| any | value) < 0
+    }
+
     /// Three consecutive values from `index`, zero where there are none.
     pub(crate) fn rgb_at(self, index: usize) -> [f32; 3] {
         let rgb = self.0.get(index..).and_then(<[[u8; 4]]>::first_chunk::<3>);

@@ -119,10 +119,7 @@ impl<'a> Container<'a> {
         }
         let count = u32_at(bytes, 12).ok_or(at_start)?;
         if count == 0 || count > MAX_SECTIONS {
-            return Err(ReadError::SectionCount {
-                count,
-                limit: MAX_SECTIONS,
-            });
+            return Err(ReadError::SectionCount { count, limit: MAX_SECTIONS });
         }
         let file_bytes = u64_at(bytes, 16).ok_or(at_start)?;
         let file = slice_at(bytes, 0, file_bytes).ok_or(truncated(file_bytes))?;
@@ -135,18 +132,10 @@ impl<'a> Container<'a> {
         let stored = u32_at(stored, 0).ok_or(truncated(header_end))?;
         let computed = crc32(covered);
         if stored != computed {
-            return Err(ReadError::Checksum {
-                section: Section::FileHeader,
-                stored,
-                computed,
-            });
+            return Err(ReadError::Checksum { section: Section::FileHeader, stored, computed });
         }
         let table = covered.get(FILE_HEADER_BYTES..).unwrap_or(&[]);
-        let container = Self {
-            file,
-            table: table.as_chunks().0,
-            minor,
-        };
+        let container = Self { file, table: table.as_chunks().0, minor };
         container.check_table(header_end)?;
         Ok(container)
     }
@@ -157,11 +146,7 @@ impl<'a> Container<'a> {
         for (number, entry) in self.entries().enumerate() {
             let section = entry.section;
             if entry.offset < earliest {
-                return Err(ReadError::Overlap {
-                    section,
-                    offset: entry.offset,
-                    earliest,
-                });
+                return Err(ReadError::Overlap { section, offset: entry.offset, earliest });
             }
             if slice_at(self.file, entry.offset, entry.length).is_none() {
                 return Err(ReadError::Truncated {
@@ -170,11 +155,7 @@ impl<'a> Container<'a> {
                     have_bytes: self.file.len() as u64,
                 });
             }
-            if self
-                .entries()
-                .take(number)
-                .any(|before| before.section == section)
-            {
+            if self.entries().take(number).any(|before| before.section == section) {
                 return Err(ReadError::Duplicate { section });
             }
             earliest = entry.end();
@@ -211,11 +192,7 @@ impl<'a> Container<'a> {
         if crc == Crc::Check {
             let computed = crc32(bytes);
             if computed != entry.crc {
-                return Err(ReadError::Checksum {
-                    section,
-                    stored: entry.crc,
-                    computed,
-                });
+                return Err(ReadError::Checksum { section, stored: entry.crc, computed });
             }
         }
         Ok((entry, bytes))

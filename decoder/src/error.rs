@@ -173,72 +173,34 @@ impl fmt::Display for ReadError {
         match *self {
             Self::NotSubsurf => f.write_str("not a .subsurf file (its first 8 bytes are others)"),
             Self::NewerVersion { major, minor } => {
-                write!(
-                    f,
-                    "format version {major}.{minor}; this reader knows version 1"
-                )
+                write!(f, "format version {major}.{minor}; this reader knows version 1")
             }
-            Self::Truncated {
-                section,
-                need_bytes,
-                have_bytes,
-            } => write!(
-                f,
-                "{section}: file is cut, needs {need_bytes} bytes, has {have_bytes}"
-            ),
+            Self::Truncated { section, need_bytes, have_bytes } => {
+                write!(f, "{section}: file is cut, needs {need_bytes} bytes, has {have_bytes}")
+            }
             Self::SectionCount { count, limit } => {
                 write!(f, "file header: {count} sections, allowed are 1 to {limit}")
             }
-            Self::Overlap {
-                section,
-                offset,
-                earliest,
-            } => write!(
-                f,
-                "{section}: begins at byte {offset}, inside what ends at byte {earliest}"
-            ),
+            Self::Overlap { section, offset, earliest } => {
+                write!(f, "{section}: begins at byte {offset}, inside what ends at byte {earliest}")
+            }
             Self::Duplicate { section } => write!(f, "{section}: is there twice"),
             Self::Missing { section } => write!(f, "{section}: is missing"),
-            Self::Checksum {
-                section,
-                stored,
-                computed,
-            } => write!(
-                f,
-                "{section}: is damaged, CRC-32 {computed:08x}, stored {stored:08x}"
-            ),
-            Self::WrongSize {
-                section,
-                need_bytes,
-                have_bytes,
-            } => write!(
-                f,
-                "{section}: has {have_bytes} bytes, the header asks for {need_bytes}"
-            ),
-            Self::BadField {
-                section,
-                offset,
-                value,
-            } => write!(f, "{section}: byte {offset}: value {value} is not allowed"),
-            Self::BadNumber {
-                section,
-                offset,
-                value,
-                min,
-                max,
-            } => write!(
-                f,
-                "{section}: byte {offset}: {value} is not in {min} to {max}"
-            ),
-            Self::IndexOutOfRange {
-                section,
-                offset,
-                index,
-                len,
-            } => write!(
-                f,
-                "{section}: byte {offset}: index {index}, but there are {len} base materials"
-            ),
+            Self::Checksum { section, stored, computed } => {
+                write!(f, "{section}: is damaged, CRC-32 {computed:08x}, stored {stored:08x}")
+            }
+            Self::WrongSize { section, need_bytes, have_bytes } => {
+                write!(f, "{section}: has {have_bytes} bytes, the header asks for {need_bytes}")
+            }
+            Self::BadField { section, offset, value } => {
+                write!(f, "{section}: byte {offset}: value {value} is not allowed")
+            }
+            Self::BadNumber { section, offset, value, min, max } => {
+                write!(f, "{section}: byte {offset}: {value} is not in {min} to {max}")
+            }
+            Self::IndexOutOfRange { section, offset, index, len } => {
+                write!(f, "{section}: byte {offset}: index {index}, but there are {len} base materials")
+            }
         }
     }
 }

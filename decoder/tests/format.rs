@@ -36,17 +36,11 @@ fn reads_the_example() {
     assert_eq!((header.window_radius, header.samples), (1, 2));
     assert_eq!(header.base_materials, 2);
     assert_eq!(header.addressing, Addressing::Clamp);
-    assert_eq!(
-        (header.pitch_mm, header.r_max_mm, header.eta),
-        (0.5, 1.0, 1.5)
-    );
+    assert_eq!((header.pitch_mm, header.r_max_mm, header.eta), (0.5, 1.0, 1.5));
     let Model::BaseMaterials(planes) = material.model() else {
         panic!("model 2 is two base materials");
     };
-    assert!(
-        planes.profiles.iter().eq(PROFILES),
-        "profiles in file order"
-    );
+    assert!(planes.profiles.iter().eq(PROFILES), "profiles in file order");
     assert!(planes.ratios.iter().eq([1.0, 0.25]), "ratios in file order");
     assert_eq!(planes.indices, [[0, 1], [1, 0]]);
     assert_eq!(planes.profiles.as_bytes(), &file[PROF..MIXR]);
@@ -92,21 +86,14 @@ fn distances_beyond_r_max_do_not_scatter() {
     file[PITCH..PITCH + 4].copy_from_slice(&1.0_f32.to_le_bytes());
     seal(&mut file);
     let material = Bssrdf::parse(&file).unwrap();
-    assert!(
-        material.rd([0, 0], [1, 0])[0] > 0.0,
-        "r = r_max belongs to the profile"
-    );
+    assert!(material.rd([0, 0], [1, 0])[0] > 0.0, "r = r_max belongs to the profile");
     assert_eq!(material.rd([0, 0], [1, 1]), [0.0; 3]);
     assert!(material.knot(f32::NAN).is_none(), "NaN is no distance");
 }
 
 #[test]
 fn refuses_what_the_specification_forbids() {
-    let bad_field = |at, value| ReadError::BadField {
-        section: Section::BssrdfHeader,
-        offset: at,
-        value,
-    };
+    let bad_field = |at, value| ReadError::BadField { section: Section::BssrdfHeader, offset: at, value };
     assert_eq!(refused(|f| f[MODEL] = 3), bad_field(124, 3));
     assert_eq!(refused(|f| f[MODEL + 1] = 2), bad_field(125, 2));
     assert_eq!(refused(|f| f[MODEL + 2] = 3), bad_field(126, 3));
@@ -115,95 +102,50 @@ fn refuses_what_the_specification_forbids() {
     assert_eq!(refused(|f| f[SAMPLES] = 1), bad_field(138, 1));
     assert_eq!(
         refused(|f| f[WIDTH] = 3),
-        ReadError::WrongSize {
-            section: Section::MixtureRatios,
-            need_bytes: 12,
-            have_bytes: 8,
-        }
+        ReadError::WrongSize { section: Section::MixtureRatios, need_bytes: 12, have_bytes: 8 }
     );
     assert_eq!(
         refused(|f| f[BIDX + 2] = 7),
-        ReadError::IndexOutOfRange {
-            section: Section::BaseIndices,
-            offset: 214,
-            index: 7,
-            len: 2,
-        }
+        ReadError::IndexOutOfRange { section: Section::BaseIndices, offset: 214, index: 7, len: 2 }
     );
     for ratio in [-0.0_f32, -1e-9, 1.000_001, f32::NAN, f32::INFINITY] {
         let error = refused(|f| f[MIXR + 4..MIXR + 8].copy_from_slice(&ratio.to_le_bytes()));
-        let ReadError::BadNumber {
-            section, offset, ..
-        } = error
-        else {
+        let ReadError::BadNumber { section, offset, .. } = error else {
             panic!("{ratio}: {error:?}");
         };
         assert_eq!((section, offset), (Section::MixtureRatios, 208));
     }
     for log in [87.01_f32, -88.0, f32::NAN, f32::NEG_INFINITY] {
         let error = refused(|f| f[PROF..PROF + 4].copy_from_slice(&log.to_le_bytes()));
-        let ReadError::BadNumber {
-            section, offset, ..
-        } = error
-        else {
+        let ReadError::BadNumber { section, offset, .. } = error else {
             panic!("{log}: {error:?}");
         };
         assert_eq!((section, offset), (Section::BaseProfiles, 156));
     }
     for pitch in [0.0_f32, -1.0, f32::NAN, f32::INFINITY] {
         let error = refused(|f| f[PITCH..PITCH + 4].copy_from_slice(&pitch.to_le_bytes()));
-        assert!(
-            matches!(error, ReadError::BadNumber { offset: 144, .. }),
-            "{pitch}: {error:?}"
-        );
+        assert!(matches!(error, ReadError::BadNumber { offset: 144, .. }), "{pitch}: {error:?}");
     }
 }
 
 #[test]
 fn refuses_broken_containers() {
     assert_eq!(refused(|f| f[0] = 0), ReadError::NotSubsurf);
-    assert_eq!(
-        refused(|f| f[8] = 2),
-        ReadError::NewerVersion { major: 2, minor: 0 }
-    );
-    assert_eq!(
-        refused(|f| f[12] = 65),
-        ReadError::SectionCount {
-            count: 65,
-            limit: 64
-        }
-    );
+    assert_eq!(refused(|f| f[8] = 2), ReadError::NewerVersion { major: 2, minor: 0 });
+    assert_eq!(refused(|f| f[12] = 65), ReadError::SectionCount { count: 65, limit: 64 });
     // PROF moved into BSSR.
     assert_eq!(
         refused(|f| f[24 + 24 + 8] = 0x80),
-        ReadError::Overlap {
-            section: Section::BaseProfiles,
-            offset: 128,
-            earliest: 156,
-        }
+        ReadError::Overlap { section: Section::BaseProfiles, offset: 128, earliest: 156 }
     );
     // MIXR named PROF.
-    assert_eq!(
-        refused(|f| f.copy_within(48..52, 72)),
-        ReadError::Duplicate {
-            section: Section::BaseProfiles
-        }
-    );
+    assert_eq!(refused(|f| f.copy_within(48..52, 72)), ReadError::Duplicate { section: Section::BaseProfiles });
     // MIXR named something else: skipped, and missed.
-    assert_eq!(
-        refused(|f| f[72] = b'X'),
-        ReadError::Missing {
-            section: Section::MixtureRatios
-        }
-    );
+    assert_eq!(refused(|f| f[72] = b'X'), ReadError::Missing { section: Section::MixtureRatios });
     // A length that would overflow.
     assert_eq!(
         refused(|f| f[24 + 72 + 16..24 + 72 + 24].fill(0xFF)),
-        ReadError::Truncated {
-            section: Section::BaseIndices,
-            need_bytes: u64::MAX,
-            have_bytes: 216,
-        }
+        ReadError::Truncated { section: Section::BaseIndices, need_bytes: u64::MAX, have_bytes: 216 }
     );
 }
 
@@ -213,10 +155,7 @@ fn accepts_later_minor_versions_and_trailing_bytes() {
     file[10] = 9;
     seal(&mut file);
     file.extend([0xFF; 37]);
-    assert!(
-        Bssrdf::parse(&file).is_ok(),
-        "minor 9, flash padding behind"
-    );
+    assert!(Bssrdf::parse(&file).is_ok(), "minor 9, flash padding behind");
 }
 
 #[test]
@@ -238,10 +177,7 @@ fn skips_unknown_sections() {
     file[16..24].copy_from_slice(&bytes.to_le_bytes());
     let crc = crc32(&file[..144]);
     file[144..148].copy_from_slice(&crc.to_le_bytes());
-    assert!(
-        Bssrdf::parse(&file).is_ok(),
-        "an unknown section, its CRC not looked at"
-    );
+    assert!(Bssrdf::parse(&file).is_ok(), "an unknown section, its CRC not looked at");
 }
 
 #[test]
@@ -251,31 +187,17 @@ fn alignment_does_not_matter() {
         let mut shifted = vec![0xAA; shift];
         shifted.extend(&file);
         let material = Bssrdf::parse(&shifted[shift..]).unwrap();
-        assert_eq!(
-            material.rd([0, 0], [1, 0]),
-            Bssrdf::parse(&file).unwrap().rd([0, 0], [1, 0])
-        );
+        assert_eq!(material.rd([0, 0], [1, 0]), Bssrdf::parse(&file).unwrap().rd([0, 0], [1, 0]));
     }
 }
 
 #[test]
 fn errors_say_section_offset_and_numbers() {
     let message = refused(|f| f[BIDX] = 200).to_string();
-    assert_eq!(
-        message,
-        "BIDX (base-material indices): byte 212: index 200, but there are 2 base materials"
-    );
+    assert_eq!(message, "BIDX (base-material indices): byte 212: index 200, but there are 2 base materials");
     let mut file = example();
     file[PROF] ^= 1;
     let error = Bssrdf::parse(&file).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .starts_with("PROF (base scattering profiles): is damaged, CRC-32 "),
-        "{error}"
-    );
-    assert!(
-        Bssrdf::parse_with(&file, Crc::Skip).is_ok(),
-        "the value itself is a legal one"
-    );
+    assert!(error.to_string().starts_with("PROF (base scattering profiles): is damaged, CRC-32 "), "{error}");
+    assert!(Bssrdf::parse_with(&file, Crc::Skip).is_ok(), "the value itself is a legal one");
 }

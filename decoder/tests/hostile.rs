@@ -16,10 +16,7 @@ fn exercise(material: &Bssrdf<'_>) {
         // A window of 1,023 pixels is legal, but four million terms are no test.
         if material.header().window_radius < 4 {
             let albedo = material.albedo([a, b]);
-            assert!(
-                albedo.iter().all(|v| !v.is_nan() && *v >= 0.0),
-                "{albedo:?}"
-            );
+            assert!(albedo.iter().all(|v| !v.is_nan() && *v >= 0.0), "{albedo:?}");
         }
     }
 }
@@ -29,10 +26,7 @@ fn cut_at_every_length() {
     let file = example();
     for length in 0..file.len() {
         let error = Bssrdf::parse(&file[..length]).unwrap_err();
-        assert!(
-            matches!(error, ReadError::Truncated { .. }),
-            "{length}: {error:?}"
-        );
+        assert!(matches!(error, ReadError::Truncated { .. }), "{length}: {error:?}");
     }
 }
 

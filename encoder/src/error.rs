@@ -44,18 +44,11 @@ pub enum Error {
 
 impl Error {
     pub(crate) fn input(path: &Path, found: impl Display, expected: impl Display) -> Self {
-        Self::Input {
-            path: path.to_owned(),
-            found: found.to_string(),
-            expected: expected.to_string(),
-        }
+        Self::Input { path: path.to_owned(), found: found.to_string(), expected: expected.to_string() }
     }
 
     pub(crate) fn output(path: &Path, source: io::Error) -> Self {
-        Self::Output {
-            path: path.to_owned(),
-            source,
-        }
+        Self::Output { path: path.to_owned(), source }
     }
 
     /// Whether the input or the request is to blame, rather than this machine.

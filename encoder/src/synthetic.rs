@@ -47,10 +47,7 @@ impl Shape {
             samples: self.samples,
             base_materials: self.base_materials.into(),
             pitch_mm,
-            r_max_mm: f32::from(self.radius.max(1))
-                * std::f32::consts::SQRT_2
-                * pitch_mm
-                * 1.000_01,
+            r_max_mm: f32::from(self.radius.max(1)) * std::f32::consts::SQRT_2 * pitch_mm * 1.000_01,
             eta: 1.4,
         }
     }
@@ -68,48 +65,25 @@ impl Shape {
     #[must_use]
     pub fn bmpp(&self) -> Vec<u8> {
         let nodes = || (0..self.samples).flat_map(|h| (0..3).map(move |c| (h, c)));
-        let profiles =
-            (0..u32::from(self.base_materials)).flat_map(|b| nodes().map(move |(h, c)| (b, h, c)));
-        let profiles = profiles
-            .flat_map(|(b, h, c)| self.log_profile(b, h, c).to_le_bytes())
-            .collect();
+        let profiles = (0..u32::from(self.base_materials)).flat_map(|b| nodes().map(move |(h, c)| (b, h, c)));
+        let profiles = profiles.flat_map(|(b, h, c)| self.log_profile(b, h, c).to_le_bytes()).collect();
         let pixels = || 0..self.size[0] * self.size[1];
-        let ratios = pixels()
-            .flat_map(|pixel| unit(0x2000_0000 + pixel).to_le_bytes())
-            .collect();
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "less than M"
-        )]
-        let base = |n: u32| {
-            ((unit(n) * f32::from(self.base_materials)) as u8).min(self.base_materials - 1)
-        };
-        let indices = pixels()
-            .flat_map(|pixel| [base(0x3000_0000 + pixel), base(0x4000_0000 + pixel)])
-            .collect();
-        let sections = [
-            (Section::BaseProfiles, profiles),
-            (Section::MixtureRatios, ratios),
-            (Section::BaseIndices, indices),
-        ];
+        let ratios = pixels().flat_map(|pixel| unit(0x2000_0000 + pixel).to_le_bytes()).collect();
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "less than M")]
+        let base = |n: u32| ((unit(n) * f32::from(self.base_materials)) as u8).min(self.base_materials - 1);
+        let indices = pixels().flat_map(|pixel| [base(0x3000_0000 + pixel), base(0x4000_0000 + pixel)]).collect();
+        let sections =
+            [(Section::BaseProfiles, profiles), (Section::MixtureRatios, ratios), (Section::BaseIndices, indices)];
         write_file(&self.header(), &sections)
     }
 
     /// A file of per-pixel profiles.
     #[must_use]
     pub fn per_pixel(&self) -> Vec<u8> {
-        let header = Header {
-            model: MODEL_PER_PIXEL,
-            base_materials: 0,
-            ..self.header()
-        };
+        let header = Header { model: MODEL_PER_PIXEL, base_materials: 0, ..self.header() };
         let planes = (0..self.samples).flat_map(|h| (0..3).map(move |c| (h, c)));
-        let values = planes
-            .flat_map(|(h, c)| (0..self.size[0] * self.size[1]).map(move |pixel| (pixel, h, c)));
-        let values = values
-            .flat_map(|(pixel, h, c)| self.log_profile(pixel, h, c).to_le_bytes())
-            .collect();
+        let values = planes.flat_map(|(h, c)| (0..self.size[0] * self.size[1]).map(move |pixel| (pixel, h, c)));
+        let values = values.flat_map(|(pixel, h, c)| self.log_profile(pixel, h, c).to_le_bytes()).collect();
         write_file(&header, &[(Section::LocalProfiles, values)])
     }
 }
@@ -126,13 +100,9 @@ pub fn capture_row(material: &Bssrdf<'_>, y: u32) -> Vec<f32> {
         steps.flat_map(move |[dx, dy]| {
             let to = [from[0] + dx, from[1] + dy];
             let same = |k: i32, n: u32| header.addressing.map(k, n).cast_signed() == k;
-            let inside = header.addressing != Addressing::Clamp
-                || (same(to[0], header.width) && same(to[1], header.height));
-            if inside {
-                material.rd(from, to)
-            } else {
-                [f32::NAN; 3]
-            }
+            let inside =
+                header.addressing != Addressing::Clamp || (same(to[0], header.width) && same(to[1], header.height));
+            if inside { material.rd(from, to) } else { [f32::NAN; 3] }
         })
     });
     windows.collect()

@@ -1,32 +1,22 @@
 //! The simulator against closed forms, against Monte Carlo, and against itself on finer grids.
 
 use subsurf_decoder::bssrdf::Addressing;
+use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
 use subsurf_encoder::simulate::analytic::HalfSpace;
 use subsurf_encoder::simulate::medium::reduced_albedo_to_diffuse;
-use subsurf_encoder::simulate::{Medium, MediumMap, Scene, Sensor, Slab};
+use subsurf_encoder::simulate::{Finish, Medium, MediumMap, Scene, Sensor, Slab, Summary, simulate};
 
 fn homogeneous(medium: Medium) -> MediumMap {
-    MediumMap {
-        size: [1, 1],
-        media: vec![medium],
-    }
+    MediumMap { size: [1, 1], media: vec![medium] }
 }
 
 fn slab(map: &MediumMap, radius: usize, refine: f64) -> Slab<'_> {
-    Slab {
-        map,
-        addressing: Addressing::Repeat,
-        pitch_mm: 0.5,
-        radius,
-        thickness_mm: 40.0,
-        eta: 1.4,
-        refine,
-    }
+    Slab { map, addressing: Addressing::Repeat, pitch_mm: 0.5, radius, thickness_mm: 40.0, eta: 1.4, refine }
 }
 
-fn measure(slab: &Slab<'_>, sensor: Option<&Sensor>) -> (Vec<f32>, f64) {
+fn measure(slab: &Slab<'_>) -> (Vec<f32>, f64) {
     let mut out = Vec::new();
-    let share = slab.measure::<std::convert::Infallible>(sensor, &(), |rows| {
+    let share = slab.measure::<std::convert::Infallible>(&(), |rows| {
         out.extend_from_slice(rows);
         Ok(())
     });
@@ -37,12 +27,8 @@ fn measure(slab: &Slab<'_>, sensor: Option<&Sensor>) -> (Vec<f32>, f64) {
 /// Relative error of every entry of a homogeneous window against the closed form, in channel `c`.
 fn errors(medium: Medium, radius: usize, refine: f64, c: usize) -> Vec<f64> {
     let map = homogeneous(medium);
-    let (window, _) = measure(&slab(&map, radius, refine), None);
-    let half_space = HalfSpace {
-        sigma_s: medium.sigma_s[c],
-        sigma_a: medium.sigma_a[c],
-        eta: 1.4,
-    };
+    let (window, _) = measure(&slab(&map, radius, refine));
+    let half_space = HalfSpace { sigma_s: medium.sigma_s[c], sigma_a: medium.sigma_a[c], eta: 1.4 };
     let d = 2 * radius + 1;
     let mut errors = Vec::new();
     // One octant: the others are its reflections.
@@ -66,17 +52,11 @@ fn converges_to_the_closed_form() {
     let marble = Medium::measured("marble").unwrap();
     for c in [0, 2] {
         let usual = errors(marble, 6, 1.0, c);
-        let largest = usual
-            .iter()
-            .fold(0.0_f64, |largest, error| largest.max(error.abs()));
+        let largest = usual.iter().fold(0.0_f64, |largest, error| largest.max(error.abs()));
         assert!(largest < 0.04, "channel {c}: {usual:.3?}");
         let fine = errors(marble, 6, 2.0, c);
         let (usual, fine) = (root_mean_square(&usual), root_mean_square(&fine));
-        println!(
-            "marble, channel {c}: RMS error {:.2} %, twice as fine {:.2} %",
-            100.0 * usual,
-            100.0 * fine
-        );
+        println!("marble, channel {c}: RMS error {:.2} %, twice as fine {:.2} %", 100.0 * usual, 100.0 * fine);
         assert!(fine < 0.5 * usual, "channel {c}: {usual} -> {fine}");
     }
 }
@@ -86,17 +66,11 @@ fn converges_where_media_meet() {
     // Neighbouring squares of the chessboard, no closed form: the usual grid against twice and four times as fine.
     let board = Scene::Chessboard.map([64, 64], Addressing::Repeat, 1);
     let cut = |x: usize| board.media[8 * 64 + x];
-    let map = MediumMap {
-        size: [8, 1],
-        media: (6..14).map(cut).collect(),
-    };
-    let at = |refine| measure(&slab(&map, 4, refine), None).0;
+    let map = MediumMap { size: [8, 1], media: (6..14).map(cut).collect() };
+    let at = |refine| measure(&slab(&map, 4, refine)).0;
     let finest = at(4.0);
     let error = |coarse: &[f32]| {
-        let logs = coarse
-            .iter()
-            .zip(&finest)
-            .map(|(a, b)| f64::from((a / b).ln()));
+        let logs = coarse.iter().zip(&finest).map(|(a, b)| f64::from((a / b).ln()));
         root_mean_square(&logs.collect::<Vec<f64>>())
     };
     let (usual, fine) = (error(&at(1.0)), error(&at(2.0)));
@@ -119,11 +93,7 @@ fn point_rd(medium: &HalfSpace, r_mm: f64) -> f64 {
 fn closed_form_is_near_monte_carlo() {
     // Virtual Tissue Simulator (VirtualPhotonics/VTS), ROfRhoAndTime: 10⁸ photons, σ_s' = 1/mm, g = 0.8, n = 1.4, no
     // absorption; weighted by exp(−σ_a c t / n) with σ_a = 0.01/mm and summed over time. r in mm, Rd in mm⁻².
-    let medium = HalfSpace {
-        sigma_s: 1.0,
-        sigma_a: 0.01,
-        eta: 1.4,
-    };
+    let medium = HalfSpace { sigma_s: 1.0, sigma_a: 0.01, eta: 1.4 };
     for (r_mm, monte_carlo, tolerance) in [
         // Within about a mean free path (1 mm) diffusion is known to be too high.
         (0.5, 0.038_807_3, 0.26),
@@ -146,30 +116,16 @@ fn closed_form_is_near_monte_carlo() {
 fn closed_form_is_near_other_diffusion_solutions() {
     // VTS, ValidateDiffusionReflectanceModelsTests: distributed source, σ_a = 0.01, σ_s' = 1/mm, n = 1.4. It uses an
     // extrapolated boundary and another internal-reflection fit; ours is the partial-current boundary itself.
-    let medium = HalfSpace {
-        sigma_s: 1.0,
-        sigma_a: 0.01,
-        eta: 1.4,
-    };
-    for (r_mm, vts, tolerance) in [
-        (1.0, 0.020_915_5, 0.13),
-        (3.0, 0.004_056_28, 0.03),
-        (10.0, 0.000_161_842, 0.05),
-    ] {
+    let medium = HalfSpace { sigma_s: 1.0, sigma_a: 0.01, eta: 1.4 };
+    for (r_mm, vts, tolerance) in [(1.0, 0.020_915_5, 0.13), (3.0, 0.004_056_28, 0.03), (10.0, 0.000_161_842, 0.05)] {
         let error = point_rd(&medium, r_mm) / vts - 1.0;
-        println!(
-            "r = {r_mm} mm: {:+.1} % from VTS's distributed source",
-            100.0 * error
-        );
+        println!("r = {r_mm} mm: {:+.1} % from VTS's distributed source", 100.0 * error);
         assert!(error.abs() < tolerance, "r = {r_mm} mm: {error:+.3}");
     }
     // The dipole puts all light at one depth: off by some 20 % at a few mean free paths, right far away.
     for (r_mm, tolerance) in [(3.0, 0.2), (10.0, 0.05), (20.0, 0.05)] {
         let error = medium.dipole_rd(r_mm) / point_rd(&medium, r_mm) - 1.0;
-        println!(
-            "r = {r_mm} mm: dipole {:+.1} % from the closed form",
-            100.0 * error
-        );
+        println!("r = {r_mm} mm: dipole {:+.1} % from the closed form", 100.0 * error);
         assert!(error.abs() < tolerance, "r = {r_mm} mm: {error:+.3}");
     }
 }
@@ -179,21 +135,15 @@ fn inverted_albedos_come_back_from_the_simulation() {
     let albedo = [0.8, 0.5, 0.2];
     let medium = Medium::from_albedo(albedo, [2.0, 1.5, 1.0], 1.4);
     let map = homogeneous(medium);
-    let (window, share) = measure(&slab(&map, 8, 1.0), None);
+    let (window, share) = measure(&slab(&map, 8, 1.0));
     for c in 0..3 {
-        assert!(
-            (medium.decay_length_mm(c) - [2.0, 1.5, 1.0][c]).abs() < 1e-9,
-            "{medium:?}"
-        );
+        assert!((medium.decay_length_mm(c) - [2.0, 1.5, 1.0][c]).abs() < 1e-9, "{medium:?}");
     }
     // The window holds `share` of all light; put the rest back.
     let total: f64 = window.iter().map(|&rd| f64::from(rd) * 0.25).sum::<f64>() / share;
     let expected: f64 = albedo.iter().sum();
     println!("albedos {expected} came back as {total:.4}, window share {share:.3}");
-    assert!(
-        (total / expected - 1.0).abs() < 0.02,
-        "{total} is not {expected}"
-    );
+    assert!((total / expected - 1.0).abs() < 0.02, "{total} is not {expected}");
 }
 
 #[test]
@@ -201,14 +151,9 @@ fn albedo_stays_physical() {
     // No absorption: what is not reflected leaves through the bottom or beyond the window.
     let spectralon = Medium::measured("spectralon").unwrap();
     let map = homogeneous(spectralon);
-    let (window, share) = measure(&slab(&map, 8, 1.0), None);
+    let (window, share) = measure(&slab(&map, 8, 1.0));
     for c in 0..3 {
-        let albedo: f64 = window
-            .iter()
-            .skip(c)
-            .step_by(3)
-            .map(|&rd| f64::from(rd) * 0.25)
-            .sum();
+        let albedo: f64 = window.iter().skip(c).step_by(3).map(|&rd| f64::from(rd) * 0.25).sum();
         assert!((0.9..=1.0).contains(&albedo), "channel {c}: {albedo}");
     }
     assert!((0.9..=1.0).contains(&share), "{share}");
@@ -217,66 +162,79 @@ fn albedo_stays_physical() {
 #[test]
 fn a_patch_that_clamps_ends_at_its_border() {
     let map = Scene::Jade.map([3, 2], Addressing::Clamp, 1);
-    let slab = Slab {
-        addressing: Addressing::Clamp,
-        ..slab(&map, 2, 1.0)
-    };
-    let (entries, _) = measure(&slab, None);
+    let slab = Slab { addressing: Addressing::Clamp, ..slab(&map, 2, 1.0) };
+    let (entries, _) = measure(&slab);
     for (k, entry) in entries.chunks(3).enumerate() {
         let (pixel, place) = (k / 25, k % 25);
         let target = [pixel % 3 + place % 5, pixel / 3 + place / 5];
         let inside = (2..5).contains(&target[0]) && (2..4).contains(&target[1]);
-        assert_eq!(
-            entry.iter().all(|rd| rd.is_finite() && *rd > 0.0),
-            inside,
-            "{pixel} {place}"
-        );
+        assert_eq!(entry.iter().all(|rd| rd.is_finite() && *rd > 0.0), inside, "{pixel} {place}");
     }
+}
+
+/// Simulates into a file and reads all windows back; what was not measured is 0.
+fn simulated(slab: &Slab<'_>, finish: &Finish) -> (Vec<f32>, Summary) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("capture.npy");
+    let sidecar = Sidecar { pitch_mm: 0.5, addressing: slab.addressing, eta: 1.4, simulated: None };
+    let (size, radius) = (slab.map.size, slab.radius);
+    let writer = CaptureWriter { path: &path, size, radius, scalar: Scalar::F32, sidecar: &sidecar };
+    let summary = simulate(slab, finish, &writer, &()).unwrap();
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2, "array and sidecar, nothing else");
+    let capture = Capture::open(&path, &Overrides::default()).unwrap();
+    let mut entries = vec![0.0; capture.pixels() * capture.window_len()];
+    for (pixel, window) in entries.chunks_mut(capture.window_len()).enumerate() {
+        capture.read_window(pixel, window);
+    }
+    (entries, summary)
 }
 
 #[test]
 fn noise_is_seeded_unbiased_and_has_a_floor() {
     let map = homogeneous(Medium::measured("marble").unwrap());
     let slab = slab(&map, 6, 1.0);
-    let (clean, _) = measure(&slab, None);
-    let bright = Sensor {
-        photons: 1e6,
-        seed: 3,
-    };
-    let (noisy, _) = measure(&slab, Some(&bright));
-    assert_eq!(noisy, measure(&slab, Some(&bright)).0);
-    assert_ne!(noisy, measure(&slab, Some(&Sensor { seed: 4, ..bright })).0);
-    let (clean_sum, noisy_sum): (f32, f32) = (clean.iter().sum(), noisy.iter().sum());
+    let (clean, _) = measure(&slab);
+    let noisy = |sensor| simulated(&slab, &Finish { one_way: true, sensor: Some(sensor) }).0;
+    let bright = Sensor { photons: 1e6, seed: 3 };
+    let exposed = noisy(bright);
+    assert_eq!(exposed, noisy(bright));
+    assert_ne!(exposed, noisy(Sensor { seed: 4, ..bright }));
+    let (clean_sum, noisy_sum): (f32, f32) = (clean.iter().sum(), exposed.iter().sum());
     // Three channels of some 800,000 photons: one part in 1,500 is one deviation.
-    assert!(
-        (noisy_sum / clean_sum - 1.0).abs() < 3e-3,
-        "{noisy_sum} from {clean_sum}"
-    );
+    assert!((noisy_sum / clean_sum - 1.0).abs() < 3e-3, "{noisy_sum} from {clean_sum}");
 
-    let (noisy, _) = measure(
-        &slab,
-        Some(&Sensor {
-            photons: 1e4,
-            seed: 3,
-        }),
-    );
+    let exposed = noisy(Sensor { photons: 1e4, seed: 3 });
     // Six photons are the floor: 6 / (10⁴ · 0.25) mm⁻².
     let floor = 6.0 / (1e4 * 0.25);
-    assert!(
-        noisy.iter().all(|&rd| rd == 0.0 || rd >= floor * 0.999),
-        "nothing below the floor"
-    );
-    let lost: Vec<f32> = noisy
-        .iter()
-        .zip(&clean)
-        .filter(|(noisy, _)| **noisy == 0.0)
-        .map(|(_, clean)| *clean)
-        .collect();
+    assert!(exposed.iter().all(|&rd| rd == 0.0 || rd >= floor * 0.999), "nothing below the floor");
+    let lost: Vec<f32> =
+        exposed.iter().zip(&clean).filter(|(noisy, _)| **noisy == 0.0).map(|(_, clean)| *clean).collect();
     assert!(!lost.is_empty(), "the far corners drown");
-    assert!(
-        lost.iter().all(|clean| *clean < 5.0 * floor),
-        "bright entries do not"
-    );
+    assert!(lost.iter().all(|clean| *clean < 5.0 * floor), "bright entries do not");
+}
+
+#[test]
+fn pairs_get_the_mean_of_both_directions() {
+    let board = Scene::Chessboard.map([64, 64], Addressing::Clamp, 1);
+    let media = (0..4).flat_map(|y| (6..11).map(move |x| (x, y))).map(|(x, y)| board.media[(8 + y) * 64 + x]);
+    let map = MediumMap { size: [5, 4], media: media.collect() };
+    let slab = Slab { addressing: Addressing::Clamp, ..slab(&map, 2, 1.0) };
+    let (one_way, summary) = simulated(&slab, &Finish { one_way: true, sensor: None });
+    let (both, _) = simulated(&slab, &Finish::default());
+    assert!((0.005..0.2).contains(&summary.asymmetry), "dyed against plain marble: {summary:?}");
+    let mut pairs = 0;
+    for (pixel, place) in (0..20).flat_map(|pixel| (0..25).map(move |place| (pixel, place))) {
+        let (x, y) = (pixel % 5 + place % 5, pixel / 5 + place / 5);
+        if !(2..7).contains(&x) || !(2..6).contains(&y) {
+            continue;
+        }
+        let there = (pixel * 25 + place) * 3;
+        let back = (((y - 2) * 5 + x - 2) * 25 + 24 - place) * 3;
+        assert_eq!(both[there], both[back], "{pixel}, {place}");
+        assert_eq!(both[there], 0.5 * (one_way[there] + one_way[back]), "{pixel}, {place}");
+        pairs += 1;
+    }
+    assert_eq!(pairs, (3 + 4 + 5 + 4 + 3) * (3 + 4 + 4 + 3), "all pairs inside");
 }
 
 #[test]
@@ -284,11 +242,7 @@ fn scenes_that_repeat_have_no_seam() {
     for scene in Scene::ALL {
         let map = scene.map([40, 40], Addressing::Repeat, 1);
         let at = |x: usize, y: usize| map.media[(y % 40) * 40 + x % 40].sigma_a[2];
-        let mean_step = |column: usize| {
-            (0..40)
-                .map(|y| (at(column, y) - at(column + 1, y)).abs())
-                .sum::<f64>()
-        };
+        let mean_step = |column: usize| (0..40).map(|y| (at(column, y) - at(column + 1, y)).abs()).sum::<f64>();
         let seam = mean_step(39);
         let largest = (0..39).map(mean_step).fold(0.0, f64::max);
         assert!(seam <= 1.5 * largest, "{scene:?}: {seam} against {largest}");

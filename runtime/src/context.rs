@@ -4,9 +4,8 @@ use std::fmt;
 
 use pollster::block_on;
 use wgpu::{
-    Adapter, AdapterInfo, Backends, Device, DeviceDescriptor, DeviceType, ErrorFilter,
-    ExperimentalFeatures, Features, GlDebugFns, Instance, InstanceDescriptor, InstanceFlags,
-    Limits, MemoryHints, Queue, Trace,
+    Adapter, AdapterInfo, Backends, Device, DeviceDescriptor, DeviceType, ErrorFilter, ExperimentalFeatures, Features,
+    GlDebugFns, Instance, InstanceDescriptor, InstanceFlags, Limits, MemoryHints, Queue, Trace,
 };
 
 use crate::error::{Error, Result};
@@ -104,12 +103,7 @@ impl Gpu {
             trace: Trace::Off,
         });
         let (device, queue) = block_on(request).map_err(|error| none(error.to_string()))?;
-        Ok(Self {
-            device,
-            queue,
-            info: adapter.get_info(),
-            ledger: Ledger::default(),
-        })
+        Ok(Self { device, queue, info: adapter.get_info(), ledger: Ledger::default() })
     }
 
     /// What the driver says of itself.
@@ -127,11 +121,7 @@ impl Gpu {
     /// Runs `work` and turns what the device complains about into an error.
     pub(crate) fn checked<T>(&self, work: impl FnOnce() -> T) -> Result<T> {
         // Shader errors of GLES come as internal ones.
-        let filters = [
-            ErrorFilter::Validation,
-            ErrorFilter::Internal,
-            ErrorFilter::OutOfMemory,
-        ];
+        let filters = [ErrorFilter::Validation, ErrorFilter::Internal, ErrorFilter::OutOfMemory];
         let scopes = filters.map(|filter| self.device.push_error_scope(filter));
         let result = work();
         let mut failed = None;

@@ -18,11 +18,7 @@ impl Ledger {
     /// Enters a resource; it leaves the ledger when it is dropped.
     pub(crate) fn enter<T>(&self, resource: T, bytes: u64) -> Tracked<T> {
         self.0.fetch_add(bytes, Ordering::Relaxed);
-        Tracked {
-            resource,
-            bytes,
-            ledger: self.clone(),
-        }
+        Tracked { resource, bytes, ledger: self.clone() }
     }
 }
 

@@ -3,10 +3,7 @@
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{Header, Model};
 use subsurf_shaders::uniform;
-use wgpu::{
-    BindingResource, Buffer, TextureFormat, TextureView, TextureViewDescriptor,
-    TextureViewDimension,
-};
+use wgpu::{BindingResource, Buffer, TextureFormat, TextureView, TextureViewDescriptor, TextureViewDimension};
 
 use crate::context::Gpu;
 use crate::error::{Error, Result};
@@ -56,8 +53,7 @@ impl Material {
         match material.model() {
             Model::BaseMaterials(planes) => {
                 let profiles = [channels, header.base_materials];
-                let profiles =
-                    TextureSpec::table("base profiles", profiles, TextureFormat::R32Float);
+                let profiles = TextureSpec::table("base profiles", profiles, TextureFormat::R32Float);
                 let ratios = TextureSpec::table("mixture ratios", size, TextureFormat::R32Float);
                 let indices = TextureSpec::table("base indices", size, TextureFormat::Rg8Uint);
                 let textures = vec![
@@ -65,22 +61,11 @@ impl Material {
                     gpu.filled(&ratios, planes.ratios.as_bytes())?,
                     gpu.filled(&indices, planes.indices.as_flattened())?,
                 ];
-                let views = textures
-                    .iter()
-                    .map(|surface| surface.view.clone())
-                    .collect();
-                Ok(Self::new(
-                    gpu,
-                    Storage::Bmpp,
-                    header,
-                    [ROW; 2],
-                    textures,
-                    views,
-                ))
+                let views = textures.iter().map(|surface| surface.view.clone()).collect();
+                Ok(Self::new(gpu, Storage::Bmpp, header, [ROW; 2], textures, views))
             }
             Model::PerPixel(planes) => {
-                let spec =
-                    TextureSpec::layered("local profiles", size, channels, TextureFormat::R32Float);
+                let spec = TextureSpec::layered("local profiles", size, channels, TextureFormat::R32Float);
                 let texture = gpu.texture(&spec)?;
                 let plane = size[0] as usize * size[1] as usize * 4;
                 gpu.checked(|| {
@@ -89,14 +74,7 @@ impl Material {
                     }
                 })?;
                 let views = vec![layers_of(&texture)];
-                Ok(Self::new(
-                    gpu,
-                    Storage::PerPixel,
-                    header,
-                    [ROW; 2],
-                    vec![texture],
-                    views,
-                ))
+                Ok(Self::new(gpu, Storage::PerPixel, header, [ROW; 2], vec![texture], views))
             }
         }
     }
@@ -112,12 +90,7 @@ impl Material {
         let small = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
         let rows = small(rows.div_ceil(layers));
         let layer = ROW as usize * rows as usize * 4;
-        let spec = TextureSpec::layered(
-            "capture",
-            [ROW, rows],
-            small(layers),
-            TextureFormat::R32Float,
-        );
+        let spec = TextureSpec::layered("capture", [ROW, rows], small(layers), TextureFormat::R32Float);
         let texture = gpu.texture(&spec)?;
         for (bytes, layer) in entries.chunks(layer).zip(0..) {
             gpu.checked(|| gpu.fill(&texture.texture, layer, bytes))?;
@@ -125,14 +98,7 @@ impl Material {
             gpu.finish()?;
         }
         let views = vec![layers_of(&texture)];
-        Ok(Self::new(
-            gpu,
-            Storage::Capture,
-            header,
-            [ROW, rows],
-            vec![texture],
-            views,
-        ))
+        Ok(Self::new(gpu, Storage::Capture, header, [ROW, rows], vec![texture], views))
     }
 
     fn new(
@@ -144,13 +110,7 @@ impl Material {
         views: Vec<TextureView>,
     ) -> Self {
         let block = uniform::Material::new(header, layer);
-        Self {
-            storage,
-            header: *header,
-            uniform: gpu.uniform("material", &block),
-            textures,
-            views,
-        }
+        Self { storage, header: *header, uniform: gpu.uniform("material", &block), textures, views }
     }
 
     /// How it is stored.
@@ -168,19 +128,13 @@ impl Material {
     /// Bytes of its textures and uniforms on the device.
     #[must_use]
     pub fn gpu_bytes(&self) -> u64 {
-        self.textures
-            .iter()
-            .map(|surface| surface.texture.bytes())
-            .sum::<u64>()
-            + self.uniform.bytes()
+        self.textures.iter().map(|surface| surface.texture.bytes()).sum::<u64>() + self.uniform.bytes()
     }
 
     /// Resources of the material's group, in the order of [`Storage::slots`].
     pub(crate) fn resources(&self) -> Vec<BindingResource<'_>> {
         let uniform = std::iter::once(self.uniform.as_entire_binding());
-        uniform
-            .chain(self.views.iter().map(BindingResource::TextureView))
-            .collect()
+        uniform.chain(self.views.iter().map(BindingResource::TextureView)).collect()
     }
 
     /// Refuses a material of another storage than a renderer was built for.
@@ -188,16 +142,12 @@ impl Material {
         if self.storage == storage {
             return Ok(());
         }
-        Err(Error::Device(format!(
-            "this renderer draws {storage:?}, the material is stored as {:?}",
-            self.storage
-        )))
+        Err(Error::Device(format!("this renderer draws {storage:?}, the material is stored as {:?}", self.storage)))
     }
 }
 
 fn layers_of(surface: &Surface2d) -> TextureView {
-    surface.texture.create_view(&TextureViewDescriptor {
-        dimension: Some(TextureViewDimension::D2Array),
-        ..Default::default()
-    })
+    surface
+        .texture
+        .create_view(&TextureViewDescriptor { dimension: Some(TextureViewDimension::D2Array), ..Default::default() })
 }

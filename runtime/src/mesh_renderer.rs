@@ -7,12 +7,10 @@ use subsurf_shaders::cpu::diffuse_transmittance;
 use subsurf_shaders::{source, uniform};
 use wgpu::{
     BindGroupLayout, BindingResource, Buffer, BufferUsages, Color, ColorTargetState, ColorWrites,
-    CommandEncoderDescriptor, CompareFunction, DepthStencilState, FragmentState, IndexFormat,
-    LoadOp, MultisampleState, Operations, PipelineLayoutDescriptor, PrimitiveState,
-    RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor,
-    RenderPipeline, RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp,
-    TextureFormat, TextureUsages, VertexBufferLayout, VertexState, VertexStepMode,
-    vertex_attr_array,
+    CommandEncoderDescriptor, CompareFunction, DepthStencilState, FragmentState, IndexFormat, LoadOp, MultisampleState,
+    Operations, PipelineLayoutDescriptor, PrimitiveState, RenderPassColorAttachment, RenderPassDepthStencilAttachment,
+    RenderPassDescriptor, RenderPipeline, RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp,
+    TextureFormat, TextureUsages, VertexBufferLayout, VertexState, VertexStepMode, vertex_attr_array,
 };
 
 use crate::context::Gpu;
@@ -70,10 +68,7 @@ impl View {
     /// The uniform block for a picture of `size` and a material of index `eta`.
     #[must_use]
     pub fn block(&self, size: [u32; 2], eta: f32) -> uniform::Camera {
-        #[allow(
-            clippy::cast_precision_loss,
-            reason = "pictures are a few thousand pixels wide"
-        )]
+        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
         let aspect = size[0] as f32 / size[1] as f32;
         let distance = self.eye_mm.distance(self.target_mm);
         let clip_from_view = perspective(self.angle, aspect, 0.05 * distance, 20.0 * distance);
@@ -146,31 +141,17 @@ impl MeshRenderer {
             Storage::Bmpp => source::SURFACE_GATHER_BMPP,
             Storage::PerPixel => source::SURFACE_GATHER_PER_PIXEL,
             Storage::Capture => {
-                return Err(Error::Device(
-                    "captures are drawn flat, not on meshes".to_owned(),
-                ));
+                return Err(Error::Device("captures are drawn flat, not on meshes".to_owned()));
             }
         };
-        let of_points = [
-            Slot::Uniform,
-            Slot::Float,
-            Slot::Uint,
-            Slot::Uint,
-            Slot::Float,
-        ];
+        let of_points = [Slot::Uniform, Slot::Float, Slot::Uint, Slot::Uint, Slot::Float];
         let of_light: [&[Slot]; 1] = [&[Slot::Uniform, Slot::Float]];
         let shade_group = bind_group_layouts(gpu, &of_light).remove(0);
         let half = TextureFormat::Rgba16Float;
         Ok(Self {
             storage,
             irradiance: CoverPass::new(gpu, source::IRRADIANCE, "irradiance", &of_light, half)?,
-            gather: CoverPass::new(
-                gpu,
-                gather,
-                "surface_gather",
-                &[storage.slots(), &of_points],
-                half,
-            )?,
+            gather: CoverPass::new(gpu, gather, "surface_gather", &[storage.slots(), &of_points], half)?,
             shade: shade_pipeline(gpu, &shade_group)?,
             shade_group,
         })
@@ -180,37 +161,17 @@ impl MeshRenderer {
     ///
     /// # Errors
     /// [`Error::Device`].
-    pub fn exitance(
-        &self,
-        gpu: &Gpu,
-        material: &Material,
-        mesh: &GpuMesh,
-        light: &MeshLight,
-    ) -> Result<MeshExitance> {
+    pub fn exitance(&self, gpu: &Gpu, material: &Material, mesh: &GpuMesh, light: &MeshLight) -> Result<MeshExitance> {
         material.expect(self.storage)?;
         let size = array_size(mesh.points);
-        let target = |label| {
-            gpu.texture(&TextureSpec::target(
-                label,
-                size,
-                TextureFormat::Rgba16Float,
-            ))
-        };
+        let target = |label| gpu.texture(&TextureSpec::target(label, size, TextureFormat::Rgba16Float));
 
         let irradiance = target("irradiance")?;
         let block = gpu.uniform("light", &light.block(material.header().eta));
-        let group = [
-            block.as_entire_binding(),
-            BindingResource::TextureView(&mesh.normals.view),
-        ];
+        let group = [block.as_entire_binding(), BindingResource::TextureView(&mesh.normals.view)];
         let group = self.irradiance.bind(gpu, 0, &group)?;
-        let all = Rows {
-            width: size[0],
-            first: 0,
-            count: size[1],
-        };
-        self.irradiance
-            .draw(gpu, &irradiance.view, &[&group], all)?;
+        let all = Rows { width: size[0], first: 0, count: size[1] };
+        self.irradiance.draw(gpu, &irradiance.view, &[&group], all)?;
 
         let exitance = target("exitance")?;
         let of_material = self.gather.bind(gpu, 0, &material.resources())?;
@@ -224,13 +185,9 @@ impl MeshRenderer {
         let of_points = self.gather.bind(gpu, 1, &of_points)?;
         // A point seldom has more than a few thousand others within reach.
         for rows in Rows::bands(size, u64::from(ROW) * 4_096) {
-            self.gather
-                .draw(gpu, &exitance.view, &[&of_material, &of_points], rows)?;
+            self.gather.draw(gpu, &exitance.view, &[&of_material, &of_points], rows)?;
         }
-        Ok(MeshExitance {
-            surface: exitance,
-            points: mesh.points,
-        })
+        Ok(MeshExitance { surface: exitance, points: mesh.points })
     }
 
     /// The picture: `size` pixels of 8-bit sRGB, row by row from the top.
@@ -245,26 +202,15 @@ impl MeshRenderer {
         camera: &uniform::Camera,
         size: [u32; 2],
     ) -> Result<Vec<[u8; 3]>> {
-        let colour = gpu.texture(&TextureSpec::target(
-            "picture",
-            size,
-            TextureFormat::Rgba8Unorm,
-        ))?;
-        let depth = TextureSpec {
-            usage: TextureUsages::RENDER_ATTACHMENT,
-            ..TextureSpec::target("depth", size, DEPTH)
-        };
+        let colour = gpu.texture(&TextureSpec::target("picture", size, TextureFormat::Rgba8Unorm))?;
+        let depth =
+            TextureSpec { usage: TextureUsages::RENDER_ATTACHMENT, ..TextureSpec::target("depth", size, DEPTH) };
         let depth = gpu.texture(&depth)?;
         let camera = gpu.uniform("camera", camera);
-        let group = [
-            camera.as_entire_binding(),
-            BindingResource::TextureView(&exitance.surface.view),
-        ];
+        let group = [camera.as_entire_binding(), BindingResource::TextureView(&exitance.surface.view)];
         let group = bind(gpu, &self.shade_group, &group)?;
         gpu.checked(|| {
-            let mut encoder = gpu
-                .device
-                .create_command_encoder(&CommandEncoderDescriptor::default());
+            let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
             let grey = f64::from(BACKGROUND) / 255.0;
             let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
                 label: Some("shade"),
@@ -273,21 +219,13 @@ impl MeshRenderer {
                     depth_slice: None,
                     resolve_target: None,
                     ops: Operations {
-                        load: LoadOp::Clear(Color {
-                            r: grey,
-                            g: grey,
-                            b: grey,
-                            a: 1.0,
-                        }),
+                        load: LoadOp::Clear(Color { r: grey, g: grey, b: grey, a: 1.0 }),
                         store: StoreOp::Store,
                     },
                 })],
                 depth_stencil_attachment: Some(RenderPassDepthStencilAttachment {
                     view: &depth.view,
-                    depth_ops: Some(Operations {
-                        load: LoadOp::Clear(1.0),
-                        store: StoreOp::Discard,
-                    }),
+                    depth_ops: Some(Operations { load: LoadOp::Clear(1.0), store: StoreOp::Discard }),
                     stencil_ops: None,
                 }),
                 timestamp_writes: None,
@@ -313,30 +251,16 @@ impl GpuMesh {
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no textures or buffers of that size.
     pub fn upload(gpu: &Gpu, mesh: &Mesh, surface: &Surface) -> Result<Self> {
-        let table = |label, len, format, bytes: &[u8]| {
-            gpu.filled(&TextureSpec::array(label, len, format), bytes)
-        };
+        let table = |label, len, format, bytes: &[u8]| gpu.filled(&TextureSpec::array(label, len, format), bytes);
         let points = surface.len();
-        let vertices = mesh
-            .positions
-            .iter()
-            .zip(&mesh.normals)
-            .zip(&surface.point_of);
+        let vertices = mesh.positions.iter().zip(&mesh.normals).zip(&surface.point_of);
         let vertices: Vec<Vertex> = vertices
-            .map(|((position_mm, normal), point)| Vertex {
-                position_mm: *position_mm,
-                normal: *normal,
-                point: *point,
-            })
+            .map(|((position_mm, normal), point)| Vertex { position_mm: *position_mm, normal: *normal, point: *point })
             .collect();
         let limit = gpu.device.limits().max_buffer_size;
         let need = (size_of_val(&vertices[..]) as u64).max(size_of_val(&mesh.triangles[..]) as u64);
         if need > limit {
-            return Err(Error::Unsupported {
-                what: "buffers",
-                need,
-                have: limit,
-            });
+            return Err(Error::Unsupported { what: "buffers", need, have: limit });
         }
         let index_count = u32::try_from(3 * mesh.triangles.len());
         Ok(Self {
@@ -347,36 +271,17 @@ impl GpuMesh {
                 TextureFormat::Rgba32Float,
                 bytemuck::cast_slice(&surface.positions),
             )?,
-            normals: table(
-                "normals",
-                points,
-                TextureFormat::Rgba32Float,
-                bytemuck::cast_slice(&surface.normals),
-            )?,
-            pixels: table(
-                "pixels",
-                points,
-                TextureFormat::Rg16Uint,
-                bytemuck::cast_slice(&surface.pixels),
-            )?,
+            normals: table("normals", points, TextureFormat::Rgba32Float, bytemuck::cast_slice(&surface.normals))?,
+            pixels: table("pixels", points, TextureFormat::Rg16Uint, bytemuck::cast_slice(&surface.pixels))?,
             cell_starts: table(
                 "cell starts",
                 surface.cell_starts.len(),
                 TextureFormat::R32Uint,
                 bytemuck::cast_slice(&surface.cell_starts),
             )?,
-            vertices: gpu.buffer(
-                "vertices",
-                bytemuck::cast_slice(&vertices),
-                BufferUsages::VERTEX,
-            ),
-            indices: gpu.buffer(
-                "indices",
-                bytemuck::cast_slice(&mesh.triangles),
-                BufferUsages::INDEX,
-            ),
-            index_count: index_count
-                .map_err(|_| Error::Mesh("more than 2³² indices".to_owned()))?,
+            vertices: gpu.buffer("vertices", bytemuck::cast_slice(&vertices), BufferUsages::VERTEX),
+            indices: gpu.buffer("indices", bytemuck::cast_slice(&mesh.triangles), BufferUsages::INDEX),
+            index_count: index_count.map_err(|_| Error::Mesh("more than 2³² indices".to_owned()))?,
             points,
         })
     }
@@ -400,49 +305,46 @@ fn shade_pipeline(gpu: &Gpu, group: &BindGroupLayout) -> Result<RenderPipeline> 
             label: Some("shade"),
             source: ShaderSource::Wgsl(source::SHADE.into()),
         });
-        let layout = gpu
-            .device
-            .create_pipeline_layout(&PipelineLayoutDescriptor {
-                label: Some("shade"),
-                bind_group_layouts: &[Some(group)],
-                immediate_size: 0,
-            });
+        let layout = gpu.device.create_pipeline_layout(&PipelineLayoutDescriptor {
+            label: Some("shade"),
+            bind_group_layouts: &[Some(group)],
+            immediate_size: 0,
+        });
         let attributes = vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Uint32];
-        gpu.device
-            .create_render_pipeline(&RenderPipelineDescriptor {
-                label: Some("shade"),
-                layout: Some(&layout),
-                vertex: VertexState {
-                    module: &module,
-                    entry_point: Some("project"),
-                    compilation_options: Default::default(),
-                    buffers: &[Some(VertexBufferLayout {
-                        array_stride: size_of::<Vertex>() as u64,
-                        step_mode: VertexStepMode::Vertex,
-                        attributes: &attributes,
-                    })],
-                },
-                primitive: PrimitiveState::default(),
-                depth_stencil: Some(DepthStencilState {
-                    format: DEPTH,
-                    depth_write_enabled: Some(true),
-                    depth_compare: Some(CompareFunction::Less),
-                    stencil: Default::default(),
-                    bias: Default::default(),
-                }),
-                multisample: MultisampleState::default(),
-                fragment: Some(FragmentState {
-                    module: &module,
-                    entry_point: Some("shade"),
-                    compilation_options: Default::default(),
-                    targets: &[Some(ColorTargetState {
-                        format: TextureFormat::Rgba8Unorm,
-                        blend: None,
-                        write_mask: ColorWrites::ALL,
-                    })],
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
+        gpu.device.create_render_pipeline(&RenderPipelineDescriptor {
+            label: Some("shade"),
+            layout: Some(&layout),
+            vertex: VertexState {
+                module: &module,
+                entry_point: Some("project"),
+                compilation_options: Default::default(),
+                buffers: &[Some(VertexBufferLayout {
+                    array_stride: size_of::<Vertex>() as u64,
+                    step_mode: VertexStepMode::Vertex,
+                    attributes: &attributes,
+                })],
+            },
+            primitive: PrimitiveState::default(),
+            depth_stencil: Some(DepthStencilState {
+                format: DEPTH,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(CompareFunction::Less),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: MultisampleState::default(),
+            fragment: Some(FragmentState {
+                module: &module,
+                entry_point: Some("shade"),
+                compilation_options: Default::default(),
+                targets: &[Some(ColorTargetState {
+                    format: TextureFormat::Rgba8Unorm,
+                    blend: None,
+                    write_mask: ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
     })
 }

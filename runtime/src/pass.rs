@@ -1,11 +1,10 @@
 //! Pipelines: one shader, its bind groups, one target.
 
 use wgpu::{
-    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor,
-    BindingResource, ColorTargetState, ColorWrites, CommandEncoderDescriptor, FragmentState,
-    LoadOp, MultisampleState, Operations, PipelineLayoutDescriptor, PrimitiveState,
-    RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline, RenderPipelineDescriptor,
-    ShaderModuleDescriptor, ShaderSource, StoreOp, TextureFormat, TextureView, VertexState,
+    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindingResource,
+    ColorTargetState, ColorWrites, CommandEncoderDescriptor, FragmentState, LoadOp, MultisampleState, Operations,
+    PipelineLayoutDescriptor, PrimitiveState, RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline,
+    RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp, TextureFormat, TextureView, VertexState,
 };
 
 use crate::context::Gpu;
@@ -34,78 +33,53 @@ impl CoverPass {
                 label: Some(fragment),
                 source: ShaderSource::Wgsl(shader.into()),
             });
-            let bind_group_layouts: Vec<Option<&BindGroupLayout>> =
-                groups.iter().map(Some).collect();
-            let layout = gpu
-                .device
-                .create_pipeline_layout(&PipelineLayoutDescriptor {
-                    label: Some(fragment),
-                    bind_group_layouts: &bind_group_layouts,
-                    immediate_size: 0,
-                });
-            let pipeline = gpu
-                .device
-                .create_render_pipeline(&RenderPipelineDescriptor {
-                    label: Some(fragment),
-                    layout: Some(&layout),
-                    vertex: VertexState {
-                        module: &module,
-                        entry_point: Some("cover"),
-                        compilation_options: Default::default(),
-                        buffers: &[],
-                    },
-                    primitive: PrimitiveState::default(),
-                    depth_stencil: None,
-                    multisample: MultisampleState::default(),
-                    fragment: Some(FragmentState {
-                        module: &module,
-                        entry_point: Some(fragment),
-                        compilation_options: Default::default(),
-                        targets: &[Some(ColorTargetState {
-                            format: target,
-                            blend: None,
-                            write_mask: ColorWrites::ALL,
-                        })],
-                    }),
-                    multiview_mask: None,
-                    cache: None,
-                });
+            let bind_group_layouts: Vec<Option<&BindGroupLayout>> = groups.iter().map(Some).collect();
+            let layout = gpu.device.create_pipeline_layout(&PipelineLayoutDescriptor {
+                label: Some(fragment),
+                bind_group_layouts: &bind_group_layouts,
+                immediate_size: 0,
+            });
+            let pipeline = gpu.device.create_render_pipeline(&RenderPipelineDescriptor {
+                label: Some(fragment),
+                layout: Some(&layout),
+                vertex: VertexState {
+                    module: &module,
+                    entry_point: Some("cover"),
+                    compilation_options: Default::default(),
+                    buffers: &[],
+                },
+                primitive: PrimitiveState::default(),
+                depth_stencil: None,
+                multisample: MultisampleState::default(),
+                fragment: Some(FragmentState {
+                    module: &module,
+                    entry_point: Some(fragment),
+                    compilation_options: Default::default(),
+                    targets: &[Some(ColorTargetState { format: target, blend: None, write_mask: ColorWrites::ALL })],
+                }),
+                multiview_mask: None,
+                cache: None,
+            });
             Self { pipeline, groups }
         })
     }
 
     /// Binds resources, in order, to bind group number `group`.
-    pub(crate) fn bind(
-        &self,
-        gpu: &Gpu,
-        group: usize,
-        resources: &[BindingResource<'_>],
-    ) -> Result<BindGroup> {
+    pub(crate) fn bind(&self, gpu: &Gpu, group: usize, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
         bind(gpu, &self.groups[group], resources)
     }
 
     /// Draws `rows` rows of the target from `first` on, and hands them to the device.
-    pub(crate) fn draw(
-        &self,
-        gpu: &Gpu,
-        target: &TextureView,
-        groups: &[&BindGroup],
-        rows: Rows,
-    ) -> Result<()> {
+    pub(crate) fn draw(&self, gpu: &Gpu, target: &TextureView, groups: &[&BindGroup], rows: Rows) -> Result<()> {
         gpu.checked(|| {
-            let mut encoder = gpu
-                .device
-                .create_command_encoder(&CommandEncoderDescriptor::default());
+            let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
             let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
                 label: None,
                 color_attachments: &[Some(RenderPassColorAttachment {
                     view: target,
                     depth_slice: None,
                     resolve_target: None,
-                    ops: Operations {
-                        load: LoadOp::Load,
-                        store: StoreOp::Store,
-                    },
+                    ops: Operations { load: LoadOp::Load, store: StoreOp::Store },
                 })],
                 depth_stencil_attachment: None,
                 timestamp_writes: None,
@@ -149,32 +123,14 @@ impl Rows {
 pub(crate) fn bind_group_layouts(gpu: &Gpu, groups: &[&[Slot]]) -> Vec<BindGroupLayout> {
     let layout = |slots: &&[Slot]| {
         let entries = layout_entries(slots);
-        gpu.device
-            .create_bind_group_layout(&BindGroupLayoutDescriptor {
-                label: None,
-                entries: &entries,
-            })
+        gpu.device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: None, entries: &entries })
     };
     groups.iter().map(layout).collect()
 }
 
-pub(crate) fn bind(
-    gpu: &Gpu,
-    layout: &BindGroupLayout,
-    resources: &[BindingResource<'_>],
-) -> Result<BindGroup> {
+pub(crate) fn bind(gpu: &Gpu, layout: &BindGroupLayout, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
     let entries = resources.iter().zip(0..);
-    let entries: Vec<BindGroupEntry<'_>> = entries
-        .map(|(resource, binding)| BindGroupEntry {
-            binding,
-            resource: resource.clone(),
-        })
-        .collect();
-    gpu.checked(|| {
-        gpu.device.create_bind_group(&BindGroupDescriptor {
-            label: None,
-            layout,
-            entries: &entries,
-        })
-    })
+    let entries: Vec<BindGroupEntry<'_>> =
+        entries.map(|(resource, binding)| BindGroupEntry { binding, resource: resource.clone() }).collect();
+    gpu.checked(|| gpu.device.create_bind_group(&BindGroupDescriptor { label: None, layout, entries: &entries }))
 }

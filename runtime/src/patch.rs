@@ -44,11 +44,7 @@ impl PatchRenderer {
     /// # Errors
     /// [`crate::Error::Device`] if the driver refuses them.
     pub fn new(gpu: &Gpu, storage: Storage) -> Result<Self> {
-        let ByModel {
-            bmpp,
-            per_pixel,
-            capture,
-        } = source::GATHER;
+        let ByModel { bmpp, per_pixel, capture } = source::GATHER;
         let shader = match storage {
             Storage::Bmpp => bmpp,
             Storage::PerPixel => per_pixel,
@@ -58,20 +54,8 @@ impl PatchRenderer {
         let present_groups: [&[Slot]; 1] = [&[Slot::Uniform, Slot::Float]];
         Ok(Self {
             storage,
-            gather: CoverPass::new(
-                gpu,
-                shader,
-                "gather",
-                &gather_groups,
-                TextureFormat::Rgba16Float,
-            )?,
-            present: CoverPass::new(
-                gpu,
-                source::PRESENT,
-                "present",
-                &present_groups,
-                TextureFormat::Rgba8Unorm,
-            )?,
+            gather: CoverPass::new(gpu, shader, "gather", &gather_groups, TextureFormat::Rgba16Float)?,
+            present: CoverPass::new(gpu, source::PRESENT, "present", &present_groups, TextureFormat::Rgba8Unorm)?,
         })
     }
 
@@ -79,98 +63,43 @@ impl PatchRenderer {
     ///
     /// # Errors
     /// [`crate::Error::Unsupported`] if the patch is too large for a texture.
-    pub fn light(
-        &self,
-        gpu: &Gpu,
-        material: &Material,
-        irradiance: &[[f32; 3]],
-    ) -> Result<PatchLight> {
+    pub fn light(&self, gpu: &Gpu, material: &Material, irradiance: &[[f32; 3]]) -> Result<PatchLight> {
         let header = material.header();
-        let texels: Vec<[f32; 4]> = irradiance
-            .iter()
-            .map(|[r, g, b]| [*r, *g, *b, 1.0])
-            .collect();
-        let spec = TextureSpec::table(
-            "patch irradiance",
-            [header.width, header.height],
-            TextureFormat::Rgba32Float,
-        );
-        Ok(PatchLight(
-            gpu.filled(&spec, bytemuck::cast_slice(&texels))?,
-        ))
+        let texels: Vec<[f32; 4]> = irradiance.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]).collect();
+        let spec = TextureSpec::table("patch irradiance", [header.width, header.height], TextureFormat::Rgba32Float);
+        Ok(PatchLight(gpu.filled(&spec, bytemuck::cast_slice(&texels))?))
     }
 
     /// Exitance Σ Rd(x_i, x_o) E(x_i) pitch² of a region.
     ///
     /// # Errors
     /// [`crate::Error::Device`].
-    pub fn gather(
-        &self,
-        gpu: &Gpu,
-        material: &Material,
-        light: &PatchLight,
-        region: Region,
-    ) -> Result<Exitance> {
+    pub fn gather(&self, gpu: &Gpu, material: &Material, light: &PatchLight, region: Region) -> Result<Exitance> {
         material.expect(self.storage)?;
         let spec = TextureSpec::target("exitance", region.size, TextureFormat::Rgba16Float);
         let surface = gpu.texture(&spec)?;
-        let view = gpu.uniform(
-            "view",
-            &uniform::View {
-                origin: region.origin,
-                pad: [0; 2],
-            },
-        );
+        let view = gpu.uniform("view", &uniform::View { origin: region.origin, pad: [0; 2] });
         let of_material = self.gather.bind(gpu, 0, &material.resources())?;
-        let of_view = [
-            view.as_entire_binding(),
-            BindingResource::TextureView(&light.0.view),
-        ];
+        let of_view = [view.as_entire_binding(), BindingResource::TextureView(&light.0.view)];
         let of_view = self.gather.bind(gpu, 1, &of_view)?;
         let d = 2 * u64::from(material.header().window_radius) + 1;
         for rows in Rows::bands(region.size, d * d * u64::from(region.size[0])) {
-            self.gather
-                .draw(gpu, &surface.view, &[&of_material, &of_view], rows)?;
+            self.gather.draw(gpu, &surface.view, &[&of_material, &of_view], rows)?;
         }
-        Ok(Exitance {
-            surface,
-            size: region.size,
-        })
+        Ok(Exitance { surface, size: region.size })
     }
 
     /// The picture of an exitance: `size` pixels of 8-bit sRGB, tone-mapped after multiplication with `exposure`.
     ///
     /// # Errors
     /// [`crate::Error::Device`].
-    pub fn picture(
-        &self,
-        gpu: &Gpu,
-        exitance: &Exitance,
-        size: [u32; 2],
-        exposure: f32,
-    ) -> Result<Vec<[u8; 3]>> {
-        let target = gpu.texture(&TextureSpec::target(
-            "picture",
-            size,
-            TextureFormat::Rgba8Unorm,
-        ))?;
-        let frame = uniform::Frame {
-            size,
-            texels: exitance.size,
-            exposure,
-            pad: [0.0; 3],
-        };
+    pub fn picture(&self, gpu: &Gpu, exitance: &Exitance, size: [u32; 2], exposure: f32) -> Result<Vec<[u8; 3]>> {
+        let target = gpu.texture(&TextureSpec::target("picture", size, TextureFormat::Rgba8Unorm))?;
+        let frame = uniform::Frame { size, texels: exitance.size, exposure, pad: [0.0; 3] };
         let frame = gpu.uniform("frame", &frame);
-        let resources = [
-            frame.as_entire_binding(),
-            BindingResource::TextureView(&exitance.surface.view),
-        ];
+        let resources = [frame.as_entire_binding(), BindingResource::TextureView(&exitance.surface.view)];
         let group = self.present.bind(gpu, 0, &resources)?;
-        let all = Rows {
-            width: size[0],
-            first: 0,
-            count: size[1],
-        };
+        let all = Rows { width: size[0], first: 0, count: size[1] };
         self.present.draw(gpu, &target.view, &[&group], all)?;
         let texels: Vec<[u8; 4]> = gpu.read(&target.texture)?;
         Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect())

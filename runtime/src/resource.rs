@@ -4,10 +4,9 @@ use bytemuck::Pod;
 use half::f16;
 use wgpu::util::DeviceExt;
 use wgpu::{
-    BindGroupLayoutEntry, BindingType, Buffer, BufferBindingType, BufferUsages,
-    CommandEncoderDescriptor, Extent3d, ShaderStages, TexelCopyBufferInfo, TexelCopyBufferLayout,
-    Texture, TextureDescriptor, TextureDimension, TextureFormat, TextureSampleType, TextureUsages,
-    TextureView, TextureViewDescriptor, TextureViewDimension,
+    BindGroupLayoutEntry, BindingType, Buffer, BufferBindingType, BufferUsages, CommandEncoderDescriptor, Extent3d,
+    ShaderStages, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture, TextureDescriptor, TextureDimension,
+    TextureFormat, TextureSampleType, TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
 };
 
 use crate::context::Gpu;
@@ -30,49 +29,23 @@ pub(crate) struct TextureSpec {
 impl TextureSpec {
     /// A texture that is written from the CPU and read by shaders.
     pub(crate) fn table(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
-        Self {
-            label,
-            size,
-            layers: 1,
-            format,
-            usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
-        }
+        Self { label, size, layers: 1, format, usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST }
     }
 
     /// A texture that shaders write and read, and that can be read back.
     pub(crate) fn target(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
-        let usage = TextureUsages::RENDER_ATTACHMENT
-            | TextureUsages::TEXTURE_BINDING
-            | TextureUsages::COPY_SRC;
-        Self {
-            label,
-            size,
-            layers: 1,
-            format,
-            usage,
-        }
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
+        Self { label, size, layers: 1, format, usage }
     }
 
     /// Layers of a table, at least as many as asked for.
     ///
     /// The GL backend makes a plain texture of one layer and a cube of six square ones (or a multiple of six), whatever
     /// the shader wants to see: such numbers get a layer more, which stays empty.
-    pub(crate) fn layered(
-        label: &'static str,
-        size: [u32; 2],
-        layers: u32,
-        format: TextureFormat,
-    ) -> Self {
+    pub(crate) fn layered(label: &'static str, size: [u32; 2], layers: u32, format: TextureFormat) -> Self {
         let cube = size[0] == size[1] && layers.is_multiple_of(6);
-        let layers = if layers == 1 || cube {
-            layers + 1
-        } else {
-            layers
-        };
-        Self {
-            layers,
-            ..Self::table(label, size, format)
-        }
+        let layers = if layers == 1 || cube { layers + 1 } else { layers };
+        Self { layers, ..Self::table(label, size, format) }
     }
 
     /// Room for an array of `len` entries, [`ROW`] to a row.
@@ -103,25 +76,14 @@ impl Gpu {
     /// Creates a texture, if the device takes its size.
     pub(crate) fn texture(&self, spec: &TextureSpec) -> Result<Surface2d> {
         let limits = self.device.limits();
-        let unsupported = |what, need: u32, have: u32| Error::Unsupported {
-            what,
-            need: need.into(),
-            have: have.into(),
-        };
+        let unsupported =
+            |what, need: u32, have: u32| Error::Unsupported { what, need: need.into(), have: have.into() };
         let side = spec.size[0].max(spec.size[1]);
         if side > limits.max_texture_dimension_2d {
-            return Err(unsupported(
-                "texture sides",
-                side,
-                limits.max_texture_dimension_2d,
-            ));
+            return Err(unsupported("texture sides", side, limits.max_texture_dimension_2d));
         }
         if spec.layers > limits.max_texture_array_layers {
-            return Err(unsupported(
-                "texture layers",
-                spec.layers,
-                limits.max_texture_array_layers,
-            ));
+            return Err(unsupported("texture layers", spec.layers, limits.max_texture_array_layers));
         }
         let texture = self.checked(|| {
             self.device.create_texture(&TextureDescriptor {
@@ -136,10 +98,7 @@ impl Gpu {
             })
         })?;
         let view = texture.create_view(&TextureViewDescriptor::default());
-        Ok(Surface2d {
-            texture: self.ledger().enter(texture, spec.bytes()),
-            view,
-        })
+        Ok(Surface2d { texture: self.ledger().enter(texture, spec.bytes()), view })
     }
 
     /// Fills whole rows of one layer from `bytes`; what is missing of the last row is left alone.
@@ -149,8 +108,7 @@ impl Gpu {
         let (whole, part) = bytes.split_at(bytes.len() / row * row);
         let rows = u32::try_from(whole.len() / row).unwrap_or(u32::MAX);
         let rest = u32::try_from(part.len()).unwrap_or(0) / texel;
-        for (bytes, y, width, height) in [(whole, 0, texture.width(), rows), (part, rows, rest, 1)]
-        {
+        for (bytes, y, width, height) in [(whole, 0, texture.width(), rows), (part, rows, rest, 1)] {
             if width > 0 && height > 0 {
                 let mut to = texture.as_image_copy();
                 to.origin = wgpu::Origin3d { x: 0, y, z: layer };
@@ -159,8 +117,7 @@ impl Gpu {
                     bytes_per_row: Some(width * texel),
                     rows_per_image: Some(height),
                 };
-                self.queue
-                    .write_texture(to, bytes, layout, extent([width, height], 1));
+                self.queue.write_texture(to, bytes, layout, extent([width, height], 1));
             }
         }
     }
@@ -173,17 +130,8 @@ impl Gpu {
     }
 
     /// A buffer with its contents.
-    pub(crate) fn buffer(
-        &self,
-        label: &'static str,
-        contents: &[u8],
-        usage: BufferUsages,
-    ) -> Tracked<Buffer> {
-        let descriptor = wgpu::util::BufferInitDescriptor {
-            label: Some(label),
-            contents,
-            usage,
-        };
+    pub(crate) fn buffer(&self, label: &'static str, contents: &[u8], usage: BufferUsages) -> Tracked<Buffer> {
+        let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage };
         let buffer = self.device.create_buffer_init(&descriptor);
         let bytes = buffer.size();
         self.ledger().enter(buffer, bytes)
@@ -191,11 +139,7 @@ impl Gpu {
 
     /// A uniform block.
     pub(crate) fn uniform<T: Pod>(&self, label: &'static str, block: &T) -> Tracked<Buffer> {
-        self.buffer(
-            label,
-            bytemuck::bytes_of(block),
-            BufferUsages::UNIFORM | BufferUsages::COPY_DST,
-        )
+        self.buffer(label, bytemuck::bytes_of(block), BufferUsages::UNIFORM | BufferUsages::COPY_DST)
     }
 
     /// The texels of a texture of one layer, row by row.
@@ -209,22 +153,11 @@ impl Gpu {
             usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
             mapped_at_creation: false,
         });
-        let buffer = self
-            .ledger()
-            .enter(buffer, u64::from(row) * u64::from(height));
+        let buffer = self.ledger().enter(buffer, u64::from(row) * u64::from(height));
         self.checked(|| {
-            let mut encoder = self
-                .device
-                .create_command_encoder(&CommandEncoderDescriptor::default());
-            let layout = TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(row),
-                rows_per_image: None,
-            };
-            let to = TexelCopyBufferInfo {
-                buffer: &buffer,
-                layout,
-            };
+            let mut encoder = self.device.create_command_encoder(&CommandEncoderDescriptor::default());
+            let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
+            let to = TexelCopyBufferInfo { buffer: &buffer, layout };
             encoder.copy_texture_to_buffer(texture.as_image_copy(), to, extent([width, height], 1));
             self.queue.submit([encoder.finish()]);
         })?;
@@ -234,37 +167,22 @@ impl Gpu {
             let _ = sender.send(result);
         });
         self.finish()?;
-        let mapped = receiver
-            .recv()
-            .map_err(|_| Error::Device("the device never answered".to_owned()))?;
+        let mapped = receiver.recv().map_err(|_| Error::Device("the device never answered".to_owned()))?;
         mapped.map_err(|error| Error::Device(error.to_string()))?;
-        let bytes = buffer
-            .get_mapped_range(..)
-            .map_err(|error| Error::Device(error.to_string()))?;
-        let rows = bytes
-            .chunks(row as usize)
-            .map(|bytes| &bytes[..(width * texel) as usize]);
-        Ok(rows
-            .flat_map(bytemuck::pod_collect_to_vec::<u8, T>)
-            .collect())
+        let bytes = buffer.get_mapped_range(..).map_err(|error| Error::Device(error.to_string()))?;
+        let rows = bytes.chunks(row as usize).map(|bytes| &bytes[..(width * texel) as usize]);
+        Ok(rows.flat_map(bytemuck::pod_collect_to_vec::<u8, T>).collect())
     }
 
     /// The first three channels of a half-float texture.
     pub(crate) fn read_rgb(&self, texture: &Texture) -> Result<Vec<[f32; 3]>> {
         let texels: Vec<[u16; 4]> = self.read(texture)?;
-        Ok(texels
-            .iter()
-            .map(|[r, g, b, _]| [*r, *g, *b].map(|bits| f16::from_bits(bits).to_f32()))
-            .collect())
+        Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b].map(|bits| f16::from_bits(bits).to_f32())).collect())
     }
 }
 
 fn extent(size: [u32; 2], layers: u32) -> Extent3d {
-    Extent3d {
-        width: size[0],
-        height: size[1],
-        depth_or_array_layers: layers,
-    }
+    Extent3d { width: size[0], height: size[1], depth_or_array_layers: layers }
 }
 
 /// How a shader sees a binding.
@@ -282,11 +200,8 @@ pub(crate) enum Slot {
 
 /// Layout entries of a bind group whose bindings are `slots`, seen by both stages.
 pub(crate) fn layout_entries(slots: &[Slot]) -> Vec<BindGroupLayoutEntry> {
-    let texture = |sample_type, view_dimension| BindingType::Texture {
-        sample_type,
-        view_dimension,
-        multisampled: false,
-    };
+    let texture =
+        |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };
     let unfiltered = TextureSampleType::Float { filterable: false };
     let bindings = slots.iter().zip(0..);
     bindings

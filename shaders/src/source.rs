@@ -33,8 +33,7 @@ pub const GATHER: ByModel = ByModel {
 pub const SURFACE_GATHER_BMPP: &str = with_model!("bmpp.wgsl", "cover.wgsl", "surface_gather.wgsl");
 
 /// Exitance of per-pixel profiles at the points of a surface; entry points `cover` and `surface_gather`.
-pub const SURFACE_GATHER_PER_PIXEL: &str =
-    with_model!("per_pixel.wgsl", "cover.wgsl", "surface_gather.wgsl");
+pub const SURFACE_GATHER_PER_PIXEL: &str = with_model!("per_pixel.wgsl", "cover.wgsl", "surface_gather.wgsl");
 
 /// Irradiance at the points of a surface; entry points `cover` and `irradiance`.
 pub const IRRADIANCE: &str = concat!(
@@ -63,10 +62,7 @@ pub const ALL: [(&str, &str); 8] = [
     ("gather, per-pixel profiles", GATHER.per_pixel),
     ("gather, capture", GATHER.capture),
     ("surface gather, 2-BMPP", SURFACE_GATHER_BMPP),
-    (
-        "surface gather, per-pixel profiles",
-        SURFACE_GATHER_PER_PIXEL,
-    ),
+    ("surface gather, per-pixel profiles", SURFACE_GATHER_PER_PIXEL),
     ("irradiance", IRRADIANCE),
     ("shade", SHADE),
     ("present", PRESENT),

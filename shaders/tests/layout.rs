@@ -10,24 +10,14 @@ fn assert_layout(name: &str, size: usize, members: &[(&str, usize)]) {
     let mut found = 0;
     for (pass, text) in source::ALL {
         let module = naga::front::wgsl::parse_str(text).unwrap();
-        let structs = module
-            .types
-            .iter()
-            .filter(|(_, ty)| ty.name.as_deref() == Some(name));
+        let structs = module.types.iter().filter(|(_, ty)| ty.name.as_deref() == Some(name));
         for (_, ty) in structs {
-            let TypeInner::Struct {
-                members: wgsl,
-                span,
-            } = &ty.inner
-            else {
+            let TypeInner::Struct { members: wgsl, span } = &ty.inner else {
                 panic!("{pass}: {name} is no struct");
             };
             // Padding has no meaning; what has one must be in both.
-            let wgsl = wgsl
-                .iter()
-                .map(|member| (member.name.as_deref().unwrap(), member.offset as usize));
-            let wgsl: Vec<(&str, usize)> =
-                wgsl.filter(|(name, _)| !name.starts_with("pad")).collect();
+            let wgsl = wgsl.iter().map(|member| (member.name.as_deref().unwrap(), member.offset as usize));
+            let wgsl: Vec<(&str, usize)> = wgsl.filter(|(name, _)| !name.starts_with("pad")).collect();
             assert_eq!(wgsl, members, "{pass}: {name}");
             assert_eq!(*span as usize, size, "{pass}: size of {name}");
             found += 1;

@@ -2,10 +2,7 @@
 
 use naga::back::{glsl, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use naga::{
-    Block, Expression, Function, MathFunction, Module, ScalarKind, ShaderStage, Statement,
-    TypeInner,
-};
+use naga::{Block, Expression, Function, MathFunction, Module, ScalarKind, ShaderStage, Statement, TypeInner};
 use subsurf_shaders::source;
 
 /// What a WebGL2-class device offers: nothing beyond the core of WGSL.
@@ -15,24 +12,17 @@ const MAX_UNIFORM_BYTES: u32 = 16 << 10;
 const MAX_TEXTURES: usize = 16;
 
 fn parse(name: &str, text: &str) -> Module {
-    naga::front::wgsl::parse_str(text)
-        .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(text)))
+    naga::front::wgsl::parse_str(text).unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(text)))
 }
 
 fn validate(name: &str, module: &Module) -> ModuleInfo {
     let mut validator = Validator::new(ValidationFlags::all(), WEBGL2);
-    validator
-        .validate(module)
-        .unwrap_or_else(|error| panic!("{name}: {error:?}"))
+    validator.validate(module).unwrap_or_else(|error| panic!("{name}: {error:?}"))
 }
 
 fn functions(module: &Module) -> impl Iterator<Item = &Function> {
     let entries = module.entry_points.iter().map(|entry| &entry.function);
-    module
-        .functions
-        .iter()
-        .map(|(_, function)| function)
-        .chain(entries)
+    module.functions.iter().map(|(_, function)| function).chain(entries)
 }
 
 #[test]
@@ -41,36 +31,15 @@ fn all_passes_are_valid_and_lower_to_gles_3_0_and_spir_v() {
         let module = parse(name, text);
         let info = validate(name, &module);
         for entry in &module.entry_points {
-            let options = glsl::Options {
-                version: glsl::Version::new_gles(300),
-                ..Default::default()
-            };
-            let pipeline = glsl::PipelineOptions {
-                shader_stage: entry.stage,
-                entry_point: entry.name.clone(),
-                multiview: None,
-            };
+            let options = glsl::Options { version: glsl::Version::new_gles(300), ..Default::default() };
+            let pipeline =
+                glsl::PipelineOptions { shader_stage: entry.stage, entry_point: entry.name.clone(), multiview: None };
             let mut text = String::new();
-            glsl::Writer::new(
-                &mut text,
-                &module,
-                &info,
-                &options,
-                &pipeline,
-                Default::default(),
-            )
-            .and_then(|mut writer| writer.write())
-            .unwrap_or_else(|error| panic!("{name}, {}: {error}", entry.name));
-            assert!(
-                text.starts_with("#version 300 es"),
-                "{name}, {}: {text}",
-                entry.name
-            );
-            assert_ne!(
-                entry.stage,
-                ShaderStage::Compute,
-                "{name}: GLES 3.0 has no compute"
-            );
+            glsl::Writer::new(&mut text, &module, &info, &options, &pipeline, Default::default())
+                .and_then(|mut writer| writer.write())
+                .unwrap_or_else(|error| panic!("{name}, {}: {error}", entry.name));
+            assert!(text.starts_with("#version 300 es"), "{name}, {}: {text}", entry.name);
+            assert_ne!(entry.stage, ShaderStage::Compute, "{name}: GLES 3.0 has no compute");
         }
         spv::write_vec(&module, &info, &spv::Options::default(), None)
             .unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -111,10 +80,7 @@ fn no_pass_uses_what_gles_3_0_compilers_refuse() {
                     Expression::ImageSample { gather, level, .. } => {
                         assert!(gather.is_none(), "{name}: textureGather");
                         // Implicit levels need derivatives, which non-uniform control flow does not have.
-                        assert!(
-                            !matches!(level, naga::SampleLevel::Auto),
-                            "{name}: textureSample"
-                        );
+                        assert!(!matches!(level, naga::SampleLevel::Auto), "{name}: textureSample");
                     }
                     _ => {}
                 }
@@ -129,28 +95,15 @@ fn selects_by_vector_are_of_floats() {
     for (name, text) in source::ALL {
         let module = parse(name, text);
         let info = validate(name, &module);
-        let by_index = module
-            .functions
-            .iter()
-            .map(|(handle, function)| (function, &info[handle]));
+        let by_index = module.functions.iter().map(|(handle, function)| (function, &info[handle]));
         let entries = module.entry_points.iter().enumerate();
         let by_entry = entries.map(|(index, entry)| (&entry.function, info.get_entry_point(index)));
         for (function, info) in by_index.chain(by_entry) {
             for (_, expression) in function.expressions.iter() {
-                if let Expression::Select {
-                    condition, accept, ..
-                } = expression
-                {
-                    let scalar = matches!(
-                        info[*condition].ty.inner_with(&module.types),
-                        TypeInner::Scalar(_)
-                    );
+                if let Expression::Select { condition, accept, .. } = expression {
+                    let scalar = matches!(info[*condition].ty.inner_with(&module.types), TypeInner::Scalar(_));
                     let kind = info[*accept].ty.inner_with(&module.types).scalar_kind();
-                    assert!(
-                        scalar || kind == Some(ScalarKind::Float),
-                        "{name}, {:?}",
-                        function.name
-                    );
+                    assert!(scalar || kind == Some(ScalarKind::Float), "{name}, {:?}", function.name);
                 }
             }
         }
@@ -162,10 +115,7 @@ fn selects_by_vector_are_of_floats() {
 #[test]
 fn texture_loads_are_accounted_for() {
     let loads = |text: &str| text.matches("textureLoad(").count();
-    let counts: Vec<(&str, usize)> = source::ALL
-        .iter()
-        .map(|(name, text)| (*name, loads(text)))
-        .collect();
+    let counts: Vec<(&str, usize)> = source::ALL.iter().map(|(name, text)| (*name, loads(text))).collect();
     assert_eq!(
         counts,
         [
@@ -196,13 +146,7 @@ fn limits_of_webgl2_are_kept() {
                 }
                 other => panic!("{name}: {other:?} is neither texture nor uniform"),
             }
-            assert_ne!(
-                global.space,
-                naga::AddressSpace::Storage {
-                    access: naga::StorageAccess::LOAD
-                },
-                "{name}"
-            );
+            assert_ne!(global.space, naga::AddressSpace::Storage { access: naga::StorageAccess::LOAD }, "{name}");
         }
         assert!(textures <= MAX_TEXTURES, "{name}: {textures} textures");
     }
@@ -213,16 +157,10 @@ fn limits_of_webgl2_are_kept() {
 fn loops_nest_at_most_three_deep() {
     fn depth(block: &Block) -> usize {
         let deepest = block.iter().map(|statement| match statement {
-            Statement::Loop {
-                body, continuing, ..
-            } => 1 + depth(body).max(depth(continuing)),
+            Statement::Loop { body, continuing, .. } => 1 + depth(body).max(depth(continuing)),
             Statement::If { accept, reject, .. } => depth(accept).max(depth(reject)),
             Statement::Block(block) => depth(block),
-            Statement::Switch { cases, .. } => cases
-                .iter()
-                .map(|case| depth(&case.body))
-                .max()
-                .unwrap_or(0),
+            Statement::Switch { cases, .. } => cases.iter().map(|case| depth(&case.body)).max().unwrap_or(0),
             _ => 0,
         });
         deepest.max().unwrap_or(0)

@@ -2,20 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use subsurf_decoder::bssrdf::Addressing;
+use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
+use subsurf_decoder::bssrdf::{Addressing, Header};
+use subsurf_decoder::container::crc32;
+use subsurf_decoder::{Bssrdf, Section};
+use subsurf_encoder::bssrdf::write_file;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
 use subsurf_encoder::synthetic::Shape;
 
 /// A small synthetic material of seven base materials.
 #[must_use]
 pub fn shape(size: [u32; 2], radius: u16, addressing: Addressing) -> Shape {
-    Shape {
-        size,
-        radius,
-        samples: radius + 2,
-        base_materials: 7,
-        addressing,
-    }
+    Shape { size, radius, samples: radius + 2, base_materials: 7, addressing }
 }
 
 /// Writes a capture whose entries come from `rd` (pixel, place in the window, channel), in mm⁻².
@@ -31,19 +29,8 @@ pub fn write_capture(
     rd: impl Fn(usize, usize, usize) -> f32,
 ) -> PathBuf {
     let path = folder.join(name);
-    let sidecar = Sidecar {
-        pitch_mm: 0.5,
-        addressing,
-        eta: 1.4,
-        simulated: None,
-    };
-    let writer = CaptureWriter {
-        path: &path,
-        size,
-        radius,
-        scalar: Scalar::F32,
-        sidecar: &sidecar,
-    };
+    let sidecar = Sidecar { pitch_mm: 0.5, addressing, eta: 1.4, simulated: None };
+    let writer = CaptureWriter { path: &path, size, radius, scalar: Scalar::F32, sidecar: &sidecar };
     let places = (2 * radius + 1).pow(2);
     let result = writer.write(|sink| {
         for pixel in 0..size[0] * size[1] {
@@ -63,4 +50,46 @@ pub fn write_capture(
 #[must_use]
 pub fn open(path: &Path) -> Capture {
     Capture::open(path, &Overrides::default()).expect("a capture of our own")
+}
+
+/// The example of `decoder/FORMAT.md`, section 3, with its profiles filled in.
+#[must_use]
+pub fn format_example() -> Vec<u8> {
+    let header = Header {
+        model: MODEL_2BMPP,
+        addressing: Addressing::Clamp,
+        width: 2,
+        height: 1,
+        window_radius: 1,
+        samples: 2,
+        base_materials: 2,
+        pitch_mm: 0.5,
+        r_max_mm: 1.0,
+        eta: 1.5,
+    };
+    let floats = |values: &[f32]| values.iter().flat_map(|value| value.to_le_bytes()).collect();
+    let profiles = [-1.0, -2.0, -3.0, -2.0, -4.0, -6.0, -3.0, -2.0, -1.0, -5.0, -5.0, -5.0];
+    let sections = [
+        (Section::BaseProfiles, floats(&profiles)),
+        (Section::MixtureRatios, floats(&[1.0, 0.25])),
+        (Section::BaseIndices, vec![0, 1, 1, 0]),
+    ];
+    write_file(&header, &sections)
+}
+
+/// CRC-32 of what reading a file gives: its header, the albedo of every pixel, and Rd between pixels in and around the
+/// patch, as little-endian bytes. `None` if it is refused.
+#[must_use]
+pub fn fingerprint(bytes: &[u8]) -> Option<u32> {
+    let material = Bssrdf::parse(bytes).ok()?;
+    let mut found = material.header().to_bytes().to_vec();
+    let [width, height] = [material.header().width, material.header().height].map(u32::cast_signed);
+    let mut add = |rgb: [f32; 3]| found.extend(rgb.iter().flat_map(|value| value.to_le_bytes()));
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        add(material.albedo([x, y]));
+        for step in [[0, 0], [1, 0], [0, -1], [-2, 1], [3, 3], [-9, 4]] {
+            add(material.rd([x + step[0], y + step[1]], [x, y]));
+        }
+    }
+    Some(crc32(&found))
 }

@@ -8,8 +8,7 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::synthetic::{Shape, capture_row, unit};
 use subsurf_runtime::scene::{Mapping, Mesh, Surface, sphere, torus};
 use subsurf_runtime::{
-    BACKGROUND, Backend, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchRenderer, Region,
-    Storage, View,
+    BACKGROUND, Backend, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchRenderer, Region, Storage, View,
 };
 use subsurf_shaders::cpu;
 use subsurf_tests::shape;
@@ -25,25 +24,13 @@ const DISPLAY_TOLERANCE: u8 = 1;
 const EDGE_PIXELS: f64 = 0.004;
 
 fn open(backend: Backend) -> Gpu {
-    let gpu = Gpu::open(backend)
-        .unwrap_or_else(|error| panic!("{error}: run `make test`, which installs one"));
+    let gpu = Gpu::open(backend).unwrap_or_else(|error| panic!("{error}: run `make test`, which installs one"));
     let info = gpu.info();
-    println!(
-        "{backend}: {}, {} {}",
-        info.name, info.driver, info.driver_info
-    );
+    println!("{backend}: {}, {} {}", info.name, info.driver, info.driver_info);
     if backend == Backend::Gl {
-        assert!(
-            info.driver_info.starts_with("OpenGL ES"),
-            "not GLES: {}",
-            info.driver_info
-        );
+        assert!(info.driver_info.starts_with("OpenGL ES"), "not GLES: {}", info.driver_info);
         if info.driver_info.contains("Mesa") {
-            assert!(
-                info.driver_info.starts_with("OpenGL ES 3.0"),
-                "not forced to 3.0: {}",
-                info.driver_info
-            );
+            assert!(info.driver_info.starts_with("OpenGL ES 3.0"), "not forced to 3.0: {}", info.driver_info);
         }
     }
     gpu
@@ -57,10 +44,7 @@ fn assert_close(found: &[[f32; 3]], expected: &[[f32; 3]], targets: f32, what: &
     for (at, (found, expected)) in found.iter().zip(expected).enumerate() {
         for c in 0..3 {
             let error = (found[c] - expected[c]).abs() / expected[c].abs().max(1e-4);
-            assert!(
-                error <= tolerance,
-                "{what}: {found:?} is not {expected:?} at {at}"
-            );
+            assert!(error <= tolerance, "{what}: {found:?} is not {expected:?} at {at}");
             worst = worst.max(error);
         }
     }
@@ -68,18 +52,12 @@ fn assert_close(found: &[[f32; 3]], expected: &[[f32; 3]], targets: f32, what: &
 }
 
 fn file(storage: Storage, shape: &Shape) -> Vec<u8> {
-    if storage == Storage::Bmpp {
-        shape.bmpp()
-    } else {
-        shape.per_pixel()
-    }
+    if storage == Storage::Bmpp { shape.bmpp() } else { shape.per_pixel() }
 }
 
 /// Bright here, dark there, coloured.
 fn patterned_light(size: [u32; 2]) -> Vec<[f32; 3]> {
-    (0..size[0] * size[1])
-        .map(|pixel| [0, 1, 2].map(|c| 2.0 * unit(7 * pixel + c).powi(2)))
-        .collect()
+    (0..size[0] * size[1]).map(|pixel| [0, 1, 2].map(|c| 2.0 * unit(7 * pixel + c).powi(2))).collect()
 }
 
 fn patch(backend: Backend) {
@@ -96,10 +74,7 @@ fn patch(backend: Backend) {
                 let what = format!("{backend}, {storage:?}, {addressing:?}, radius {radius}");
                 let uploaded = Material::upload(&gpu, &material).unwrap();
                 let light = renderer.light(&gpu, &uploaded, &irradiance).unwrap();
-                let region = Region {
-                    origin: [2, 1],
-                    size: [21, 16],
-                };
+                let region = Region { origin: [2, 1], size: [21, 16] };
                 let exitance = renderer.gather(&gpu, &uploaded, &light, region).unwrap();
                 let expected = cpu::gather(&material, &irradiance, region.origin, region.size);
                 let found = exitance.read(&gpu).unwrap();
@@ -108,16 +83,8 @@ fn patch(backend: Backend) {
                 let pixels = [64, 40];
                 let picture = renderer.picture(&gpu, &exitance, pixels, 3.0).unwrap();
                 let expected = cpu::present(&found, region.size, pixels, 3.0);
-                let worst = picture
-                    .iter()
-                    .flatten()
-                    .zip(expected.iter().flatten())
-                    .map(|(a, b)| a.abs_diff(*b))
-                    .max();
-                assert!(
-                    worst <= Some(DISPLAY_TOLERANCE),
-                    "{what}: pictures differ by {worst:?}"
-                );
+                let worst = picture.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| a.abs_diff(*b)).max();
+                assert!(worst <= Some(DISPLAY_TOLERANCE), "{what}: pictures differ by {worst:?}");
             }
         }
     }
@@ -145,15 +112,8 @@ fn capture_patch(backend: Backend) {
     let renderer = PatchRenderer::new(&gpu, Storage::Capture).unwrap();
     let uploaded = Material::upload_capture(&gpu, material.header(), &entries).unwrap();
     let light = renderer.light(&gpu, &uploaded, &irradiance).unwrap();
-    let region = Region {
-        origin: [0, 0],
-        size,
-    };
-    let found = renderer
-        .gather(&gpu, &uploaded, &light, region)
-        .unwrap()
-        .read(&gpu)
-        .unwrap();
+    let region = Region { origin: [0, 0], size };
+    let found = renderer.gather(&gpu, &uploaded, &light, region).unwrap().read(&gpu).unwrap();
     let expected = cpu::gather(&material, &irradiance, region.origin, size);
     assert_close(&found, &expected, 1.0, &format!("{backend}, capture"));
 }
@@ -174,17 +134,9 @@ fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, storage: Storage,
     let material = Bssrdf::parse(&file).unwrap();
     let what = format!("{backend}, {what}, {storage:?}");
     // A shadow over half of it, with a soft edge.
-    let visibility: Vec<f32> = mesh
-        .positions
-        .iter()
-        .map(|p| (0.5 + 0.2 * p.x).clamp(0.0, 1.0))
-        .collect();
+    let visibility: Vec<f32> = mesh.positions.iter().map(|p| (0.5 + 0.2 * p.x).clamp(0.0, 1.0)).collect();
     let surface = Surface::new(mesh, mapping, material.header(), &visibility);
-    let light = MeshLight {
-        direction: Vec3::new(0.5, 1.0, 0.8),
-        irradiance: [3.0, 2.8, 2.5],
-        sky: [0.2, 0.3, 0.4],
-    };
+    let light = MeshLight { direction: Vec3::new(0.5, 1.0, 0.8), irradiance: [3.0, 2.8, 2.5], sky: [0.2, 0.3, 0.4] };
 
     let renderer = MeshRenderer::new(&gpu, storage).unwrap();
     let uploaded = Material::upload(&gpu, &material).unwrap();
@@ -198,22 +150,11 @@ fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, storage: Storage,
     assert_close(&found, &expected, 2.0, &what);
 
     let size = [160, 120];
-    let view = View {
-        eye_mm: Vec3::new(10.0, 12.0, 25.0),
-        target_mm: Vec3::ZERO,
-        angle: 0.6,
-        exposure: 1.2,
-        sky: light.sky,
-    };
+    let view =
+        View { eye_mm: Vec3::new(10.0, 12.0, 25.0), target_mm: Vec3::ZERO, angle: 0.6, exposure: 1.2, sky: light.sky };
     let camera = view.block(size, material.header().eta);
-    let picture = renderer
-        .picture(&gpu, &on_gpu, &exitance, &camera, size)
-        .unwrap();
-    let of_vertices: Vec<[f32; 3]> = surface
-        .point_of()
-        .iter()
-        .map(|&point| found[point as usize])
-        .collect();
+    let picture = renderer.picture(&gpu, &on_gpu, &exitance, &camera, size).unwrap();
+    let of_vertices: Vec<[f32; 3]> = surface.point_of().iter().map(|&point| found[point as usize]).collect();
     let triangles = cpu::Triangles {
         positions: &mesh.positions,
         normals: &mesh.normals,
@@ -221,54 +162,19 @@ fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, storage: Storage,
         triangles: &mesh.triangles,
     };
     let expected = cpu::shade(&triangles, &camera, size, [BACKGROUND; 3]);
-    let differs =
-        |(a, b): (&[u8; 3], &[u8; 3])| (0..3).any(|c| a[c].abs_diff(b[c]) > DISPLAY_TOLERANCE);
-    let different = picture
-        .iter()
-        .zip(&expected)
-        .filter(|pair| differs(*pair))
-        .count();
-    let covered = expected
-        .iter()
-        .filter(|pixel| **pixel != [BACKGROUND; 3])
-        .count();
-    println!(
-        "{what}: {different} of {} pixels differ, {covered} are covered",
-        picture.len()
-    );
-    assert!(
-        covered * 10 > picture.len(),
-        "{what}: the mesh is in the picture"
-    );
-    assert!(
-        different as f64 <= EDGE_PIXELS * picture.len() as f64,
-        "{what}: {different} pixels differ"
-    );
+    let differs = |(a, b): (&[u8; 3], &[u8; 3])| (0..3).any(|c| a[c].abs_diff(b[c]) > DISPLAY_TOLERANCE);
+    let different = picture.iter().zip(&expected).filter(|pair| differs(*pair)).count();
+    let covered = expected.iter().filter(|pixel| **pixel != [BACKGROUND; 3]).count();
+    println!("{what}: {different} of {} pixels differ, {covered} are covered", picture.len());
+    assert!(covered * 10 > picture.len(), "{what}: the mesh is in the picture");
+    assert!(different as f64 <= EDGE_PIXELS * picture.len() as f64, "{what}: {different} pixels differ");
 }
 
 fn meshes(backend: Backend) {
     let ball = sphere(5.0, 24);
-    mesh_scene(
-        backend,
-        &ball,
-        Mapping::Box,
-        Storage::Bmpp,
-        "sphere, box mapping",
-    );
-    mesh_scene(
-        backend,
-        &ball,
-        Mapping::Uv([2.0, 1.0]),
-        Storage::PerPixel,
-        "sphere, texture coordinates",
-    );
-    mesh_scene(
-        backend,
-        &torus(5.0, 2.0, 20),
-        Mapping::Uv([4.0, 2.0]),
-        Storage::Bmpp,
-        "torus",
-    );
+    mesh_scene(backend, &ball, Mapping::Box, Storage::Bmpp, "sphere, box mapping");
+    mesh_scene(backend, &ball, Mapping::Uv([2.0, 1.0]), Storage::PerPixel, "sphere, texture coordinates");
+    mesh_scene(backend, &torus(5.0, 2.0, 20), Mapping::Uv([4.0, 2.0]), Storage::Bmpp, "torus");
 }
 
 #[test]
@@ -296,17 +202,9 @@ fn ledger(backend: Backend) {
 
     let other = PatchRenderer::new(&gpu, Storage::PerPixel).unwrap();
     let uploaded = Material::upload(&gpu, &material).unwrap();
-    let light = other
-        .light(&gpu, &uploaded, &patterned_light([40, 30]))
-        .unwrap();
-    let region = Region {
-        origin: [0, 0],
-        size: [4, 4],
-    };
-    assert!(
-        other.gather(&gpu, &uploaded, &light, region).is_err(),
-        "a renderer for another storage"
-    );
+    let light = other.light(&gpu, &uploaded, &patterned_light([40, 30])).unwrap();
+    let region = Region { origin: [0, 0], size: [4, 4] };
+    assert!(other.gather(&gpu, &uploaded, &light, region).is_err(), "a renderer for another storage");
 }
 
 #[test]

@@ -51,8 +51,7 @@ impl FromStr for CaseArg {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let wrong =
-            || format!("\"{text}\" is not WIDTHxHEIGHT,WINDOW,M,S such as 229x229,39,128,25");
+        let wrong = || format!("\"{text}\" is not WIDTHxHEIGHT,WINDOW,M,S such as 229x229,39,128,25");
         let parts: Vec<&str> = text.split(',').collect();
         let [size, window, base_materials, samples] = parts[..] else {
             return Err(wrong());
@@ -61,18 +60,9 @@ impl FromStr for CaseArg {
         let window: u16 = window.parse().map_err(|_| wrong())?;
         let base_materials: u8 = base_materials.parse().map_err(|_| wrong())?;
         let samples: u16 = samples.parse().map_err(|_| wrong())?;
-        let sound = window % 2 == 1
-            && window < 2_048
-            && base_materials > 0
-            && (2..=4_096).contains(&samples);
+        let sound = window % 2 == 1 && window < 2_048 && base_materials > 0 && (2..=4_096).contains(&samples);
         let sound = sound && size.0.iter().all(|side| *side <= 65_535);
-        let shape = Shape {
-            size: size.0,
-            radius: window / 2,
-            samples,
-            base_materials,
-            addressing: Addressing::Clamp,
-        };
+        let shape = Shape { size: size.0, radius: window / 2, samples, base_materials, addressing: Addressing::Clamp };
         sound.then_some(Self(shape)).ok_or_else(wrong)
     }
 }
@@ -95,17 +85,8 @@ pub(crate) struct Case {
 const NAMES: [&str; 3] = ["capture", "profiles", "bmpp"];
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let usual = || {
-        USUAL
-            .iter()
-            .map(|text| text.parse::<CaseArg>())
-            .collect::<Result<Vec<_>, _>>()
-    };
-    let cases = if args.cases.is_empty() {
-        usual().map_err(anyhow::Error::msg)?
-    } else {
-        args.cases.clone()
-    };
+    let usual = || USUAL.iter().map(|text| text.parse::<CaseArg>()).collect::<Result<Vec<_>, _>>();
+    let cases = if args.cases.is_empty() { usual().map_err(anyhow::Error::msg)? } else { args.cases.clone() };
     let folder = match &args.dir {
         Some(dir) => tempfile::tempdir_in(dir),
         None => tempfile::tempdir(),
@@ -125,10 +106,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         results.push(result);
     }
     if args.json {
-        println!(
-            "{:#}",
-            json!({ "runs": args.runs, "device": device(args.backend)?, "cases": results })
-        );
+        println!("{:#}", json!({ "runs": args.runs, "device": device(args.backend)?, "cases": results }));
     }
     Ok(())
 }
@@ -180,10 +158,7 @@ fn write_files(folder: &Path, shape: &Shape) -> anyhow::Result<Case> {
 /// Loads the three files, each in a process of its own.
 pub(crate) fn measure(case: &Case, runs: usize, backend: BackendArg) -> anyhow::Result<Value> {
     let bars = Bars::new();
-    bars.begin(
-        &format!("loading {} × {} pixels", case.size[0], case.size[1]),
-        3,
-    );
+    bars.begin(&format!("loading {} × {} pixels", case.size[0], case.size[1]), 3);
     let mut storages = Vec::new();
     for file in &case.files {
         storages.push(load_one(file, runs, backend)?);
@@ -203,11 +178,7 @@ pub(crate) fn measure(case: &Case, runs: usize, backend: BackendArg) -> anyhow::
             "total_warm": other.warm_us.total / bmpp.warm_us.total,
         })
     };
-    let parse_over_memcpy = bmpp
-        .parts_us
-        .get("checks_us")
-        .zip(bmpp.parts_us.get("memcpy_us"))
-        .map(|(a, b)| a / b);
+    let parse_over_memcpy = bmpp.parts_us.get("checks_us").zip(bmpp.parts_us.get("memcpy_us")).map(|(a, b)| a / b);
     let mut storage = serde_json::Map::new();
     for (name, result) in NAMES.iter().zip(&storages) {
         storage.insert((*name).to_owned(), serde_json::to_value(result)?);
@@ -229,14 +200,7 @@ pub(crate) fn measure(case: &Case, runs: usize, backend: BackendArg) -> anyhow::
 fn load_one(file: &Path, runs: usize, backend: BackendArg) -> anyhow::Result<Storage> {
     let backend = clap::ValueEnum::to_possible_value(&backend).context("backends have names")?;
     let output = Command::new(std::env::current_exe()?)
-        .args([
-            "bench",
-            "load-one",
-            "--runs",
-            &runs.to_string(),
-            "--backend",
-            backend.get_name(),
-        ])
+        .args(["bench", "load-one", "--runs", &runs.to_string(), "--backend", backend.get_name()])
         .arg(file)
         .stderr(Stdio::piped())
         .output()?;
@@ -250,12 +214,7 @@ fn load_one(file: &Path, runs: usize, backend: BackendArg) -> anyhow::Result<Sto
 /// A result as a table.
 pub(crate) fn markdown(result: &Value) -> String {
     let mut out = String::new();
-    let text = |path: &str| {
-        result
-            .pointer(path)
-            .map(ToString::to_string)
-            .unwrap_or_default()
-    };
+    let text = |path: &str| result.pointer(path).map(ToString::to_string).unwrap_or_default();
     let number = |path: String| result.pointer(&path).and_then(Value::as_f64);
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -268,25 +227,12 @@ pub(crate) fn markdown(result: &Value) -> String {
         text("/samples"),
         text("/source").trim_matches('"'),
     );
-    let _ = writeln!(
-        out,
-        "| | capture | per-pixel profiles | 2-BMPP |\n|---|---:|---:|---:|"
-    );
+    let _ = writeln!(out, "| | capture | per-pixel profiles | 2-BMPP |\n|---|---:|---:|---:|");
     let mut row = |name: &str, path: &str, show: fn(f64) -> String| {
-        let cells = NAMES.map(|storage| {
-            number(format!("/storage/{storage}{path}")).map_or("-".to_owned(), show)
-        });
-        let _ = writeln!(
-            out,
-            "| {name} | {} | {} | {} |",
-            cells[0], cells[1], cells[2]
-        );
+        let cells = NAMES.map(|storage| number(format!("/storage/{storage}{path}")).map_or("-".to_owned(), show));
+        let _ = writeln!(out, "| {name} | {} | {} | {} |", cells[0], cells[1], cells[2]);
     };
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "bytes"
-    )]
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bytes")]
     let bytes = |value: f64| human(value as u64);
     row("file", "/bytes", bytes);
     row("on the device", "/gpu_bytes", bytes);
@@ -294,20 +240,11 @@ pub(crate) fn markdown(result: &Value) -> String {
     row("of it before loading", "/baseline_rss_bytes", bytes);
     for (kind, label) in [("warm_us", "warm"), ("cold_us", "cold")] {
         for step in ["read", "parse", "upload", "first_frame", "total"] {
-            row(
-                &format!("{label}: {}", step.replace('_', " ")),
-                &format!("/{kind}/{step}"),
-                micros,
-            );
+            row(&format!("{label}: {}", step.replace('_', " ")), &format!("/{kind}/{step}"), micros);
         }
     }
-    for (name, path) in [
-        ("capture", "capture_over_bmpp"),
-        ("per-pixel profiles", "profiles_over_bmpp"),
-    ] {
-        let ratio = |key: &str| {
-            number(format!("/ratios/{path}/{key}")).map_or("-".to_owned(), |r| format!("{r:.0}"))
-        };
+    for (name, path) in [("capture", "capture_over_bmpp"), ("per-pixel profiles", "profiles_over_bmpp")] {
+        let ratio = |key: &str| number(format!("/ratios/{path}/{key}")).map_or("-".to_owned(), |r| format!("{r:.0}"));
         let _ = writeln!(
             out,
             "\n{name} over 2-BMPP: {} × the bytes; read, parse and upload take {} × as long warm, {} × cold",

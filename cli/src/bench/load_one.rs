@@ -34,18 +34,13 @@ const FRAME: u32 = 64;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let gpu = args.backend.open()?;
-    let is_capture = args
-        .file
-        .extension()
-        .is_some_and(|extension| extension == "npy");
+    let is_capture = args.file.extension().is_some_and(|extension| extension == "npy");
     let (header, storage) = describe(&args.file, is_capture)?;
     let bench = Bench::new(gpu.as_ref(), &args.file, header, storage)?;
     // One run that does not count: driver caches, page cache.
     bench.once()?;
     let baseline = bench.baseline;
-    let warm: Vec<Steps> = (0..args.runs)
-        .map(|_| bench.once())
-        .collect::<anyhow::Result<_>>()?;
+    let warm: Vec<Steps> = (0..args.runs).map(|_| bench.once()).collect::<anyhow::Result<_>>()?;
     let mut cold = Vec::new();
     for _ in 0..args.runs {
         if !drop_from_cache(&args.file)? {
@@ -61,11 +56,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         baseline_rss_bytes: baseline,
         warm_us: medians(&warm),
         cold_us: (!cold.is_empty()).then(|| medians(&cold)),
-        parts_us: if is_capture {
-            BTreeMap::new()
-        } else {
-            parts_of_parse(&bytes, args.runs)
-        },
+        parts_us: if is_capture { BTreeMap::new() } else { parts_of_parse(&bytes, args.runs) },
     };
     println!("{}", serde_json::to_string(&result)?);
     Ok(())
@@ -112,15 +103,8 @@ struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    fn new(
-        gpu: Option<&'a Gpu>,
-        path: &'a Path,
-        header: Header,
-        storage: GpuStorage,
-    ) -> anyhow::Result<Self> {
-        let renderer = gpu
-            .map(|gpu| PatchRenderer::new(gpu, storage))
-            .transpose()?;
+    fn new(gpu: Option<&'a Gpu>, path: &'a Path, header: Header, storage: GpuStorage) -> anyhow::Result<Self> {
+        let renderer = gpu.map(|gpu| PatchRenderer::new(gpu, storage)).transpose()?;
         let size = [header.width.min(FRAME), header.height.min(FRAME)];
         let origin = [(header.width - size[0]) / 2, (header.height - size[1]) / 2];
         Ok(Self {
@@ -136,10 +120,7 @@ impl<'a> Bench<'a> {
     }
 
     fn light(&self, gpu: &Gpu, material: &Material) -> anyhow::Result<Option<PatchLight>> {
-        let light = self
-            .renderer
-            .as_ref()
-            .map(|renderer| renderer.light(gpu, material, &self.irradiance));
+        let light = self.renderer.as_ref().map(|renderer| renderer.light(gpu, material, &self.irradiance));
         Ok(light.transpose()?)
     }
 
@@ -154,19 +135,13 @@ impl<'a> Bench<'a> {
             GpuStorage::Capture => Some(self.entries_of(&bytes)?),
             GpuStorage::Bmpp | GpuStorage::PerPixel => None,
         };
-        let material = if entries.is_none() {
-            Some(crate::info::parse(self.path, &bytes)?)
-        } else {
-            None
-        };
+        let material = if entries.is_none() { Some(crate::info::parse(self.path, &bytes)?) } else { None };
         let parse = clock.lap();
 
         let (upload, first_frame) = match (self.gpu, &self.renderer) {
             (Some(gpu), Some(renderer)) => {
                 let uploaded = self.upload(gpu, material.as_ref(), entries.unwrap_or(&[]))?;
-                let light = self
-                    .light(gpu, &uploaded)?
-                    .context("a renderer has a light")?;
+                let light = self.light(gpu, &uploaded)?.context("a renderer has a light")?;
                 gpu.finish()?;
                 let upload = clock.lap();
                 let exitance = renderer.gather(gpu, &uploaded, &light, self.region)?;
@@ -178,10 +153,7 @@ impl<'a> Bench<'a> {
                 let exitance = match &material {
                     Some(material) => cpu::gather(material, &self.irradiance, origin, size),
                     None => {
-                        let entries = Entries {
-                            header: self.header,
-                            entries: entries.unwrap_or(&[]),
-                        };
+                        let entries = Entries { header: self.header, entries: entries.unwrap_or(&[]) };
                         cpu::gather(&entries, &self.irradiance, origin, size)
                     }
                 };
@@ -189,21 +161,10 @@ impl<'a> Bench<'a> {
                 (0.0, clock.lap())
             }
         };
-        Ok(Steps {
-            read,
-            parse,
-            upload,
-            first_frame,
-            total: read + parse + upload + first_frame,
-        })
+        Ok(Steps { read, parse, upload, first_frame, total: read + parse + upload + first_frame })
     }
 
-    fn upload(
-        &self,
-        gpu: &Gpu,
-        material: Option<&Bssrdf<'_>>,
-        entries: &[u8],
-    ) -> anyhow::Result<Material> {
+    fn upload(&self, gpu: &Gpu, material: Option<&Bssrdf<'_>>, entries: &[u8]) -> anyhow::Result<Material> {
         Ok(match material {
             Some(material) => Material::upload(gpu, material)?,
             None => Material::upload_capture(gpu, &self.header, entries)?,
@@ -213,10 +174,7 @@ impl<'a> Bench<'a> {
     fn entries_of<'b>(&self, bytes: &'b [u8]) -> anyhow::Result<&'b [u8]> {
         let capture = Capture::open(self.path, &Overrides::default())?;
         let len = capture.pixels() * capture.window_len() * size_of::<f32>();
-        let start = bytes
-            .len()
-            .checked_sub(len)
-            .context("captures for timing are float32")?;
+        let start = bytes.len().checked_sub(len).context("captures for timing are float32")?;
         Ok(&bytes[start..])
     }
 
@@ -251,15 +209,11 @@ impl Reflectance for Entries<'_> {
         let d = 2 * radius + 1;
         let x = self.header.addressing.map(x_i[0], self.header.width) as usize;
         let y = self.header.addressing.map(x_i[1], self.header.height) as usize;
-        let place = usize::try_from((x_o[1] - x_i[1] + radius) * d + (x_o[0] - x_i[0] + radius))
-            .unwrap_or(0);
+        let place = usize::try_from((x_o[1] - x_i[1] + radius) * d + (x_o[0] - x_i[0] + radius)).unwrap_or(0);
         let window = usize::try_from(d * d).unwrap_or(0);
         let first = ((y * self.header.width as usize + x) * window + place) * 3;
         [0, 1, 2].map(|c| {
-            let bytes = self
-                .entries
-                .get((first + c) * 4..)
-                .and_then(|rest| rest.first_chunk::<4>());
+            let bytes = self.entries.get((first + c) * 4..).and_then(|rest| rest.first_chunk::<4>());
             let rd = bytes.map_or(0.0, |bytes| f32::from_le_bytes(*bytes));
             if rd > 0.0 { rd } else { 0.0 }
         })
@@ -304,20 +258,11 @@ fn parts_of_parse(bytes: &[u8], runs: usize) -> BTreeMap<String, f64> {
     let crc = time(&mut |_| {
         let container = Container::parse(std::hint::black_box(bytes));
         let sums = container.iter().flat_map(|container| {
-            container
-                .entries()
-                .filter_map(|entry| container.section(entry.section, Crc::Skip).ok())
+            container.entries().filter_map(|entry| container.section(entry.section, Crc::Skip).ok())
         });
-        sums.map(|(_, section)| crc32(section) as usize)
-            .fold(0, usize::wrapping_add)
+        sums.map(|(_, section)| crc32(section) as usize).fold(0, usize::wrapping_add)
     });
-    [
-        ("memcpy_us", memcpy),
-        ("checks_us", checks),
-        ("crc_us", crc),
-    ]
-    .map(|(name, us)| (name.to_owned(), us))
-    .into()
+    [("memcpy_us", memcpy), ("checks_us", checks), ("crc_us", crc)].map(|(name, us)| (name.to_owned(), us)).into()
 }
 
 /// Drops a file's pages from the page cache; false where the system has no way to.

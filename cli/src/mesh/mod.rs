@@ -31,11 +31,7 @@ pub(crate) enum Up {
 
 /// Reads a mesh and scales its longest side to `extent_mm`, its middle at the origin.
 pub(crate) fn load(path: &Path, extent_mm: f32, up: Up) -> anyhow::Result<Mesh> {
-    let extension = path
-        .extension()
-        .and_then(|extension| extension.to_str())
-        .unwrap_or("")
-        .to_ascii_lowercase();
+    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or("").to_ascii_lowercase();
     let raw = match extension.as_str() {
         "obj" => formats::obj(path),
         "ply" => formats::ply(path),
@@ -43,26 +39,15 @@ pub(crate) fn load(path: &Path, extent_mm: f32, up: Up) -> anyhow::Result<Mesh> 
         _ => Err("unknown kind of file".to_owned()),
     };
     let mut raw = raw.map_err(|reason| {
-        bad_request(format!(
-            "{}: {reason}; expected a mesh in .obj, .ply, .glb or .gltf",
-            path.display()
-        ))
+        bad_request(format!("{}: {reason}; expected a mesh in .obj, .ply, .glb or .gltf", path.display()))
     })?;
     if up == Up::Z {
         for v in raw.positions.iter_mut().chain(&mut raw.normals) {
             *v = Vec3::new(v.x, v.z, -v.y);
         }
     }
-    let low = raw
-        .positions
-        .iter()
-        .copied()
-        .fold(Vec3::INFINITY, Vec3::min);
-    let high = raw
-        .positions
-        .iter()
-        .copied()
-        .fold(Vec3::NEG_INFINITY, Vec3::max);
+    let low = raw.positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+    let high = raw.positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
     let middle = 0.5 * (low + high);
     for position in &mut raw.positions {
         *position -= middle;

@@ -16,9 +16,7 @@ struct Triangle {
 
 impl Bounded<f32, 3> for Triangle {
     fn aabb(&self) -> Aabb<f32, 3> {
-        self.corners
-            .iter()
-            .fold(Aabb::empty(), |aabb, corner| aabb.grow(corner))
+        self.corners.iter().fold(Aabb::empty(), |aabb, corner| aabb.grow(corner))
     }
 }
 
@@ -39,14 +37,8 @@ const OFFSET: f32 = 2e-3;
 pub(crate) fn visibility(mesh: &Mesh, direction: Vec3) -> Vec<f32> {
     let point = |v: Vec3| Point3::new(v.x, v.y, v.z);
     let corners = |triangle: &[u32; 3]| triangle.map(|k| point(mesh.positions[k as usize]));
-    let mut triangles: Vec<Triangle> = mesh
-        .triangles
-        .iter()
-        .map(|triangle| Triangle {
-            corners: corners(triangle),
-            node: 0,
-        })
-        .collect();
+    let mut triangles: Vec<Triangle> =
+        mesh.triangles.iter().map(|triangle| Triangle { corners: corners(triangle), node: 0 }).collect();
     let bvh = Bvh::build(&mut triangles);
     let [low, high] = mesh.bounds();
     let offset = OFFSET * (high - low).max_element();
@@ -60,20 +52,13 @@ pub(crate) fn visibility(mesh: &Mesh, direction: Vec3) -> Vec<f32> {
         let hit = bvh.traverse_iterator(&ray, &triangles).any(|triangle| {
             let [a, b, c] = &triangle.corners;
             // Rays meet triangles from either side: meshes are not always wound the same way.
-            [
-                ray.intersects_triangle(a, b, c),
-                ray.intersects_triangle(a, c, b),
-            ]
-            .iter()
-            .any(|hit| hit.distance.is_finite() && hit.distance > 0.0)
+            [ray.intersects_triangle(a, b, c), ray.intersects_triangle(a, c, b)]
+                .iter()
+                .any(|hit| hit.distance.is_finite() && hit.distance > 0.0)
         });
         f32::from(u8::from(!hit))
     };
-    mesh.positions
-        .par_iter()
-        .zip(&mesh.normals)
-        .map(sees)
-        .collect()
+    mesh.positions.par_iter().zip(&mesh.normals).map(sees).collect()
 }
 
 #[cfg(test)]
@@ -84,10 +69,7 @@ mod tests {
     #[test]
     fn a_sphere_does_not_shade_itself() {
         let ball = sphere(10.0, 16);
-        assert!(
-            visibility(&ball, Vec3::Y).iter().all(|&seen| seen == 1.0),
-            "convex"
-        );
+        assert!(visibility(&ball, Vec3::Y).iter().all(|&seen| seen == 1.0), "convex");
     }
 
     #[test]

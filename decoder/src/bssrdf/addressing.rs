@@ -43,8 +43,7 @@ impl Addressing {
             Self::Repeat => x.checked_rem_euclid(n).unwrap_or(0),
             Self::Mirror => {
                 let m = x.checked_rem_euclid(n.saturating_mul(2)).unwrap_or(0);
-                m.min(n.saturating_mul(2).saturating_sub(1).saturating_sub(m))
-                    .max(0)
+                m.min(n.saturating_mul(2).saturating_sub(1).saturating_sub(m)).max(0)
             }
         };
         u32::try_from(inside).unwrap_or(0)

@@ -21,17 +21,9 @@ pub struct LocalProfile<'a> {
 #[derive(Clone, Copy, Debug)]
 enum Source<'a> {
     /// t P̂_{b₁} + (1 − t) P̂_{b₂}, with the first value of either profile.
-    Blend {
-        profiles: F32Le<'a>,
-        start: [usize; 2],
-        t: f32,
-    },
+    Blend { profiles: F32Le<'a>, start: [usize; 2], t: f32 },
     /// The pixel's own values, one in every plane of `pixels`.
-    Own {
-        profiles: F32Le<'a>,
-        pixel: usize,
-        pixels: usize,
-    },
+    Own { profiles: F32Le<'a>, pixel: usize, pixels: usize },
 }
 
 impl LocalProfile<'_> {
@@ -40,15 +32,10 @@ impl LocalProfile<'_> {
     pub fn node(&self, h: usize) -> [f32; 3] {
         match self.source {
             Source::Blend { profiles, start, t } => {
-                let [p1, p2] =
-                    start.map(|start| profiles.rgb_at(start.saturating_add(h.saturating_mul(3))));
+                let [p1, p2] = start.map(|start| profiles.rgb_at(start.saturating_add(h.saturating_mul(3))));
                 lerp(p2, p1, t)
             }
-            Source::Own {
-                profiles,
-                pixel,
-                pixels,
-            } => {
+            Source::Own { profiles, pixel, pixels } => {
                 let channel = |c: usize| {
                     let plane = h.saturating_mul(3).saturating_add(c);
                     let at = plane.saturating_mul(pixels).saturating_add(pixel);
@@ -62,11 +49,7 @@ impl LocalProfile<'_> {
     /// P̂_x(r) = (1 − w) P̂_x^h + w P̂_x^{h+1} (eq. 3), natural log of mm⁻².
     #[must_use]
     pub fn at(&self, knot: Knot) -> [f32; 3] {
-        lerp(
-            self.node(knot.h),
-            self.node(knot.h.saturating_add(1)),
-            knot.w,
-        )
+        lerp(self.node(knot.h), self.node(knot.h.saturating_add(1)), knot.w)
     }
 }
 
@@ -94,10 +77,7 @@ impl<'a> Bssrdf<'a> {
             reason = "0 ≤ position ≤ 4095; the integer part is wanted"
         )]
         let h = (position as u16).min(intervals.saturating_sub(1));
-        Some(Knot {
-            h: h.into(),
-            w: position - f32::from(h),
-        })
+        Some(Knot { h: h.into(), w: position - f32::from(h) })
     }
 
     /// Profile P̂_x of the pixel at `x` = [column, row]; outside the patch the addressing mode decides.
@@ -107,9 +87,7 @@ impl<'a> Bssrdf<'a> {
         let [column, row] = x;
         let column = header.addressing.map(column, header.width) as usize;
         let row = header.addressing.map(row, header.height) as usize;
-        let pixel = row
-            .saturating_mul(header.width as usize)
-            .saturating_add(column);
+        let pixel = row.saturating_mul(header.width as usize).saturating_add(column);
         let source = match *self.model() {
             Model::BaseMaterials(planes) => {
                 let stride = usize::from(header.samples).saturating_mul(3);

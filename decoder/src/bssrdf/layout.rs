@@ -56,11 +56,7 @@ impl Header {
     #[must_use]
     pub fn to_bytes(&self) -> [u8; HEADER_BYTES] {
         let mut out = [0; HEADER_BYTES];
-        put(
-            &mut out,
-            0,
-            &[self.model, LINEAR_REC709, self.addressing.code(), 0],
-        );
+        put(&mut out, 0, &[self.model, LINEAR_REC709, self.addressing.code(), 0]);
         put(&mut out, 4, &self.width.to_le_bytes());
         put(&mut out, 8, &self.height.to_le_bytes());
         put(&mut out, 12, &self.window_radius.to_le_bytes());
@@ -111,12 +107,7 @@ impl Header {
             MODEL_2BMPP => 1..=MAX_BASE_MATERIALS,
             other => return Err(bad_field(0, other.into())),
         };
-        integer(
-            1,
-            colour_space.into(),
-            LINEAR_REC709.into(),
-            LINEAR_REC709.into(),
-        )?;
+        integer(1, colour_space.into(), LINEAR_REC709.into(), LINEAR_REC709.into())?;
         integer(3, reserved.into(), 0, 0)?;
         let window_radius = u16s(12)?;
         integer(12, window_radius.into(), 0, MAX_WINDOW_RADIUS.into())?;

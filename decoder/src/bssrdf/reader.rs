@@ -72,11 +72,7 @@ impl<'a> Bssrdf<'a> {
             if entry.length == need_bytes {
                 Ok((entry.offset, bytes))
             } else {
-                Err(ReadError::WrongSize {
-                    section,
-                    need_bytes,
-                    have_bytes: entry.length,
-                })
+                Err(ReadError::WrongSize { section, need_bytes, have_bytes: entry.length })
             }
         };
         let model = if header.model == MODEL_PER_PIXEL {
@@ -126,8 +122,6 @@ const MAX_LOG_BITS: i32 = MAX_LOG.to_bits().cast_signed();
 const ONE_BITS: i32 = 1.0_f32.to_bits().cast_signed();
 
 /// Refuses `values` if `outside` gives a negative number for the bits of any of them.
-///
-/// One branch for the whole plane: the loop over it compiles to vector code.
 fn check<'a>(
     section: Section,
     start: u64,
@@ -136,10 +130,10 @@ fn check<'a>(
     min: f32,
     max: f32,
 ) -> Result<F32Le<'a>, ReadError> {
-    let any = values.bits().fold(0, |any, bits| any | outside(bits));
-    if any >= 0 {
+    if !values.any_negative(&outside) {
         return Ok(values);
     }
+    // Something is wrong: now find out where.
     let at = values.bits().position(|bits| outside(bits) < 0);
     let at = at.unwrap_or(0);
     Err(ReadError::BadNumber {
@@ -153,9 +147,7 @@ fn check<'a>(
 
 /// Base-material indices, all less than `len`.
 fn indices((start, bytes): (u64, &[u8]), len: u32) -> Result<&[[u8; 2]], ReadError> {
-    let largest = bytes
-        .iter()
-        .fold(0, |largest: u8, &index| largest.max(index));
+    let largest = bytes.iter().fold(0, |largest: u8, &index| largest.max(index));
     if u32::from(largest) < len {
         return Ok(bytes.as_chunks().0);
     }

@@ -19,9 +19,7 @@ pub(crate) const PROFILES: [f32; 12] = [
 /// Bitwise CRC-32 of IEEE 802.3, to check the table-driven one against.
 pub(crate) fn crc32(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(!0, |crc, &byte| {
-        (0..8).fold(crc ^ u32::from(byte), |crc, _| {
-            (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg())
-        })
+        (0..8).fold(crc ^ u32::from(byte), |crc, _| (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg()))
     })
 }
 
@@ -32,9 +30,7 @@ pub(crate) fn seal(file: &mut [u8]) {
         let offset = usize::try_from(read(entry + 8)).ok();
         let end = read(entry + 8).checked_add(read(entry + 16));
         let end = end.and_then(|end| usize::try_from(end).ok());
-        let bytes = offset
-            .zip(end)
-            .and_then(|(offset, end)| file.get(offset..end));
+        let bytes = offset.zip(end).and_then(|(offset, end)| file.get(offset..end));
         let crc = crc32(bytes.unwrap_or(&[]));
         file[entry + 4..entry + 8].copy_from_slice(&crc.to_le_bytes());
     }

@@ -10,9 +10,7 @@ pub(super) struct Banded {
 
 impl Banded {
     pub(super) fn new(nodes: usize) -> Self {
-        Self {
-            diagonals: std::array::from_fn(|_| vec![ZERO; nodes]),
-        }
+        Self { diagonals: std::array::from_fn(|_| vec![ZERO; nodes]) }
     }
 
     pub(super) fn nodes(&self) -> usize {
@@ -82,11 +80,7 @@ impl Banded {
         for h in 0..nodes {
             for c in 0..4 {
                 let pivot = d0[h][c];
-                let (l1, l2) = if pivot > 0.0 {
-                    (d1[h][c] / pivot, d2[h][c] / pivot)
-                } else {
-                    (0.0, 0.0)
-                };
+                let (l1, l2) = if pivot > 0.0 { (d1[h][c] / pivot, d2[h][c] / pivot) } else { (0.0, 0.0) };
                 if h + 1 < nodes {
                     d0[h + 1][c] -= l1 * d1[h][c];
                     d1[h + 1][c] -= l1 * d2[h][c];
@@ -123,11 +117,7 @@ impl Factored {
         }
         for h in (0..nodes).rev() {
             for c in 0..4 {
-                let mut value = if d[h][c] > 0.0 {
-                    v[h][c] / d[h][c]
-                } else {
-                    0.0
-                };
+                let mut value = if d[h][c] > 0.0 { v[h][c] / d[h][c] } else { 0.0 };
                 if h + 1 < nodes {
                     value -= l1[h][c] * v[h + 1][c];
                 }
@@ -153,9 +143,7 @@ mod tests {
         }
         matrix.add_smoothness(0.1);
         matrix.add_ridge(0.01);
-        let x: Vec<Lanes> = (0..nodes)
-            .map(|h| [h as f32, 1.0 - h as f32, 0.5, 0.0])
-            .collect();
+        let x: Vec<Lanes> = (0..nodes).map(|h| [h as f32, 1.0 - h as f32, 0.5, 0.0]).collect();
         let mut v = vec![ZERO; nodes];
         matrix.multiply_add(&x, &mut v);
         matrix.factor().solve(&mut v);

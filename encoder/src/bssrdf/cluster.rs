@@ -20,13 +20,7 @@ pub(super) struct Clusters {
 
 /// Clusters the profiles of a field into at most `count` clusters: k-means++ (Arthur and Vassilvitskii 2007), then
 /// Lloyd's rounds. The distance of two profiles is what their difference costs in eq. 5: (p − q)ᵀ A (p − q).
-pub(super) fn cluster(
-    normal: &Normal,
-    profiles: &Field,
-    count: usize,
-    seed: u64,
-    progress: &dyn Progress,
-) -> Clusters {
+pub(super) fn cluster(normal: &Normal, profiles: &Field, count: usize, seed: u64, progress: &dyn Progress) -> Clusters {
     let nodes = normal.geometry.nodes;
     let pixels = normal.geometry.pixels();
     let metric = normal.mean_matrix();
@@ -35,10 +29,8 @@ pub(super) fn cluster(
     let mut centres = first_centres(&metric, profiles, pixels, count, seed);
     let mut cluster_of = vec![0; pixels];
     for round in 0..ROUNDS {
-        let nearest: Vec<usize> = (0..pixels)
-            .into_par_iter()
-            .map(|pixel| nearest(&metric, &centres, profiles.at(pixel)).0)
-            .collect();
+        let nearest: Vec<usize> =
+            (0..pixels).into_par_iter().map(|pixel| nearest(&metric, &centres, profiles.at(pixel)).0).collect();
         let settled = nearest == cluster_of;
         cluster_of = nearest;
         let mut sums = vec![[0.0_f64; 4]; centres.len()];
@@ -64,32 +56,20 @@ pub(super) fn cluster(
         }
         progress.advance(1);
     }
-    Clusters {
-        centres,
-        cluster_of,
-    }
+    Clusters { centres, cluster_of }
 }
 
 /// Seeds far apart: each next one drawn with probability proportional to its squared distance from those before.
-fn first_centres(
-    metric: &Banded,
-    profiles: &Field,
-    pixels: usize,
-    count: usize,
-    seed: u64,
-) -> Vec<Lanes> {
+fn first_centres(metric: &Banded, profiles: &Field, pixels: usize, count: usize, seed: u64) -> Vec<Lanes> {
     let mut rng = Pcg64::seed_from_u64(seed);
     let first = rng.random_range(0..pixels);
     let mut centres = profiles.at(first).to_vec();
     let mut distances = vec![f64::INFINITY; pixels];
     for _ in 1..count.min(pixels) {
         let newest = &centres[centres.len() - metric.nodes()..];
-        distances
-            .par_iter_mut()
-            .enumerate()
-            .for_each(|(pixel, distance)| {
-                *distance = distance.min(squared_distance(metric, newest, profiles.at(pixel)));
-            });
+        distances.par_iter_mut().enumerate().for_each(|(pixel, distance)| {
+            *distance = distance.min(squared_distance(metric, newest, profiles.at(pixel)));
+        });
         let total: f64 = distances.iter().sum();
         if total <= 0.0 {
             // Fewer distinct profiles than clusters.
@@ -108,9 +88,7 @@ fn first_centres(
 
 /// Number and squared distance of the centre nearest to `profile`; of equals the first.
 fn nearest(metric: &Banded, centres: &[Lanes], profile: &[Lanes]) -> (usize, f64) {
-    let distances = centres
-        .chunks(metric.nodes())
-        .map(|centre| squared_distance(metric, centre, profile));
+    let distances = centres.chunks(metric.nodes()).map(|centre| squared_distance(metric, centre, profile));
     let nearest = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
     nearest.expect("there is at least one centre")
 }
@@ -123,11 +101,7 @@ fn squared_distance(metric: &Banded, p: &[Lanes], q: &[Lanes]) -> f64 {
     for h in 0..p.len() {
         for c in 0..4 {
             let difference = p[h][c] - q[h][c];
-            let coupling = if h > 0 {
-                2.0 * d1[h - 1][c] * before[c]
-            } else {
-                0.0
-            };
+            let coupling = if h > 0 { 2.0 * d1[h - 1][c] * before[c] } else { 0.0 };
             sum[c] += difference * (d0[h][c] * difference + coupling);
             before[c] = difference;
         }

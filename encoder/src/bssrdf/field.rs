@@ -17,11 +17,7 @@ pub(super) struct Field {
 impl Field {
     pub(super) fn new(geometry: Geometry) -> Self {
         let [width, height] = geometry.size.map(|n| n + 2 * geometry.radius);
-        Self {
-            geometry,
-            stride: width,
-            values: vec![ZERO; width * height * geometry.nodes],
-        }
+        Self { geometry, stride: width, values: vec![ZERO; width * height * geometry.nodes] }
     }
 
     /// First value of a pixel.
@@ -48,9 +44,7 @@ impl Field {
     #[inline]
     pub(super) fn pair(&self, start: usize, delta: isize) -> &[Lanes; 2] {
         let at = start.wrapping_add_signed(delta);
-        self.values[at..]
-            .first_chunk()
-            .expect("windows end at the border")
+        self.values[at..].first_chunk().expect("windows end at the border")
     }
 
     /// The value `delta` values away.
@@ -76,20 +70,14 @@ impl Field {
             return;
         }
         let radius = i32::try_from(self.geometry.radius).expect("a window radius is below 1,024");
-        let [width, height] = self
-            .geometry
-            .size
-            .map(|n| i32::try_from(n).expect("a side is below 65,536"));
+        let [width, height] = self.geometry.size.map(|n| i32::try_from(n).expect("a side is below 65,536"));
         let nodes = self.geometry.nodes;
         for y in -radius..height + radius {
             for x in -radius..width + radius {
                 if (0..width).contains(&x) && (0..height).contains(&y) {
                     continue;
                 }
-                let from = self
-                    .geometry
-                    .neighbour(0, [x, y])
-                    .expect("patches that go on have no end");
+                let from = self.geometry.neighbour(0, [x, y]).expect("patches that go on have no end");
                 let from = self.start(from);
                 let [column, row] = [x, y].map(|k| usize::try_from(k + radius).expect("k ≥ −R"));
                 let to = (row * self.stride + column) * nodes;

@@ -47,15 +47,6 @@ pub(super) fn sum(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
 
 /// a / b rounded to f32, or 0 where b is not positive.
 pub(super) fn ratio(a: [f64; 4], b: [f64; 4]) -> Lanes {
-    #[allow(
-        clippy::cast_possible_truncation,
-        reason = "step lengths need no more than f32"
-    )]
-    [0, 1, 2, 3].map(|c| {
-        if b[c] > 0.0 {
-            (a[c] / b[c]) as f32
-        } else {
-            0.0
-        }
-    })
+    #[allow(clippy::cast_possible_truncation, reason = "step lengths need no more than f32")]
+    [0, 1, 2, 3].map(|c| if b[c] > 0.0 { (a[c] / b[c]) as f32 } else { 0.0 })
 }

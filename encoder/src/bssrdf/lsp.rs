@@ -35,18 +35,13 @@ pub(super) fn fit(normal: &Normal, progress: &dyn Progress) -> Field {
     let preconditioners: Vec<Factored> = normal.matrices.par_iter().map(own_block).collect();
     let precondition = |residual: &[Lanes]| {
         let mut out = residual.to_vec();
-        out.par_chunks_mut(nodes)
-            .enumerate()
-            .for_each(|(pixel, profile)| {
-                preconditioners[normal.matrix_of[pixel] as usize].solve(profile);
-            });
+        out.par_chunks_mut(nodes).enumerate().for_each(|(pixel, profile)| {
+            preconditioners[normal.matrix_of[pixel] as usize].solve(profile);
+        });
         out
     };
 
-    let mut residual: Vec<Lanes> = (0..normal.geometry.pixels())
-        .flat_map(|pixel| normal.b(pixel))
-        .copied()
-        .collect();
+    let mut residual: Vec<Lanes> = (0..normal.geometry.pixels()).flat_map(|pixel| normal.b(pixel)).copied().collect();
     let mut z = precondition(&residual);
     let mut rho = lanes::dot(&residual, &z);
     let limit = rho.map(|rho| rho * TOLERANCE * TOLERANCE);
@@ -63,17 +58,11 @@ pub(super) fn fit(normal: &Normal, progress: &dyn Progress) -> Field {
             direction.set(pixel, profile);
         }
         direction.fill_border();
-        image
-            .par_chunks_mut(nodes)
-            .enumerate()
-            .for_each(|(pixel, image)| {
-                normal.cross(&direction, &deltas, pixel, image);
-                normal
-                    .matrix(pixel)
-                    .all
-                    .multiply_add(direction.at(pixel), image);
-                regulariser.multiply_add(direction.at(pixel), image);
-            });
+        image.par_chunks_mut(nodes).enumerate().for_each(|(pixel, image)| {
+            normal.cross(&direction, &deltas, pixel, image);
+            normal.matrix(pixel).all.multiply_add(direction.at(pixel), image);
+            regulariser.multiply_add(direction.at(pixel), image);
+        });
         let alpha = lanes::ratio(rho, lanes::dot(&p, &image));
         for (pixel, step) in p.chunks(nodes).enumerate() {
             let mut profile = x.at(pixel).to_vec();

@@ -12,9 +12,7 @@ mod write;
 
 use subsurf_decoder::Section;
 use subsurf_decoder::bssrdf::Header;
-use subsurf_decoder::bssrdf::layout::{
-    MAX_BASE_MATERIALS, MAX_SAMPLES, MODEL_2BMPP, MODEL_PER_PIXEL,
-};
+use subsurf_decoder::bssrdf::layout::{MAX_BASE_MATERIALS, MAX_SAMPLES, MODEL_2BMPP, MODEL_PER_PIXEL};
 
 use crate::capture::Capture;
 use crate::error::{Error, Result};
@@ -51,12 +49,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self {
-            method: Method::Direct,
-            base_materials: 128,
-            samples: None,
-            seed: 1,
-        }
+        Self { method: Method::Direct, base_materials: 128, samples: None, seed: 1 }
     }
 }
 
@@ -89,19 +82,9 @@ pub fn encode(capture: &Capture, options: &Options, progress: &dyn Progress) -> 
     let normal = Normal::of(capture, geometry, progress)?;
     let profiles = lsp::fit(&normal, progress);
     let (sections, cost, bases) = match options.method {
-        Method::Lsp => (
-            vec![per_pixel(&normal, &profiles)],
-            normal.cost(&profiles),
-            0,
-        ),
+        Method::Lsp => (vec![per_pixel(&normal, &profiles)], normal.cost(&profiles), 0),
         Method::Clusters | Method::Direct => {
-            let clusters = cluster::cluster(
-                &normal,
-                &profiles,
-                options.base_materials,
-                options.seed,
-                progress,
-            );
+            let clusters = cluster::cluster(&normal, &profiles, options.base_materials, options.seed, progress);
             drop(profiles);
             let mut model = Model::of_clusters(clusters, geometry.nodes);
             if options.method == Method::Direct {
@@ -109,11 +92,7 @@ pub fn encode(capture: &Capture, options: &Options, progress: &dyn Progress) -> 
             }
             model.pad(options.base_materials);
             let cost = normal.cost(&model.field(&normal));
-            (
-                base_materials(&normal, &model),
-                cost,
-                options.base_materials,
-            )
+            (base_materials(&normal, &model), cost, options.base_materials)
         }
     };
     let header = header(capture, &geometry, bases);
@@ -130,17 +109,12 @@ pub fn encode(capture: &Capture, options: &Options, progress: &dyn Progress) -> 
 fn geometry(capture: &Capture, options: &Options) -> Result<Geometry> {
     let limit = MAX_BASE_MATERIALS as usize;
     if !(1..=limit).contains(&options.base_materials) {
-        let message = format!(
-            "{} base materials; a file holds 1 to {limit}",
-            options.base_materials
-        );
+        let message = format!("{} base materials; a file holds 1 to {limit}", options.base_materials);
         return Err(Error::Request(message));
     }
     let nodes = options.samples.unwrap_or(capture.radius() + 1).max(2);
     if nodes > MAX_SAMPLES.into() {
-        return Err(Error::Request(format!(
-            "{nodes} samples; a profile holds 2 to {MAX_SAMPLES}"
-        )));
+        return Err(Error::Request(format!("{nodes} samples; a profile holds 2 to {MAX_SAMPLES}")));
     }
     #[allow(clippy::cast_precision_loss, reason = "R < 1,024")]
     let corner = (capture.radius().max(1) as f64) * std::f64::consts::SQRT_2;
@@ -159,11 +133,7 @@ fn header(capture: &Capture, geometry: &Geometry, bases: usize) -> Header {
     #[allow(clippy::cast_possible_truncation, reason = "a radius in pixels")]
     let r_max_px = geometry.r_max_px as f32;
     Header {
-        model: if bases == 0 {
-            MODEL_PER_PIXEL
-        } else {
-            MODEL_2BMPP
-        },
+        model: if bases == 0 { MODEL_PER_PIXEL } else { MODEL_2BMPP },
         addressing: geometry.addressing,
         width: small(geometry.size[0]),
         height: small(geometry.size[1]),
@@ -189,29 +159,11 @@ fn per_pixel(normal: &Normal, profiles: &Field) -> (Section, Vec<u8>) {
 /// `PROF`, `MIXR`, `BIDX`.
 fn base_materials(normal: &Normal, model: &Model) -> Vec<(Section, Vec<u8>)> {
     let mean = normal.mean.iter().cycle();
-    let values = model
-        .bases
-        .iter()
-        .zip(mean)
-        .flat_map(|(p, mean)| [0, 1, 2].map(|c| p[c] + mean[c]));
+    let values = model.bases.iter().zip(mean).flat_map(|(p, mean)| [0, 1, 2].map(|c| p[c] + mean[c]));
     let byte = |base: usize| u8::try_from(base).expect("at most 256 base materials");
     vec![
         (Section::BaseProfiles, write::logs(values)),
-        (
-            Section::MixtureRatios,
-            model
-                .mixtures
-                .iter()
-                .flat_map(|mixture| mixture.t.to_le_bytes())
-                .collect(),
-        ),
-        (
-            Section::BaseIndices,
-            model
-                .mixtures
-                .iter()
-                .flat_map(|mixture| mixture.base.map(byte))
-                .collect(),
-        ),
+        (Section::MixtureRatios, model.mixtures.iter().flat_map(|mixture| mixture.t.to_le_bytes()).collect()),
+        (Section::BaseIndices, model.mixtures.iter().flat_map(|mixture| mixture.base.map(byte)).collect()),
     ]
 }

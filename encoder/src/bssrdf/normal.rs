@@ -86,11 +86,7 @@ struct Block {
 
 impl Normal {
     /// Reads a capture once.
-    pub(super) fn of(
-        capture: &Capture,
-        geometry: Geometry,
-        progress: &dyn Progress,
-    ) -> Result<Self> {
+    pub(super) fn of(capture: &Capture, geometry: Geometry, progress: &dyn Progress) -> Result<Self> {
         let rings = rings(&geometry);
         let mut b = vec![[0.0; 3]; geometry.pixels() * geometry.nodes];
         let mut exchange = vec![[0.0; 3]; geometry.pixels()];
@@ -101,10 +97,8 @@ impl Normal {
         progress.begin("reading the capture", geometry.pixels() as u64);
         let firsts: Vec<usize> = (0..geometry.size[1]).step_by(BLOCK_ROWS).collect();
         for firsts in firsts.chunks(BLOCKS_AT_ONCE) {
-            let blocks: Vec<Block> = firsts
-                .par_iter()
-                .map(|&first| Block::read(capture, &geometry, &rings, first, progress))
-                .collect();
+            let blocks: Vec<Block> =
+                firsts.par_iter().map(|&first| Block::read(capture, &geometry, &rings, first, progress)).collect();
             for block in blocks {
                 block.add_to(&geometry, &mut b, &mut exchange);
                 y2 += block.y2;
@@ -171,38 +165,28 @@ impl Normal {
 
         // b_i − 2 A_i p̄.
         let mut centred = vec![ZERO; b.len()];
-        centred
-            .par_chunks_mut(nodes)
-            .enumerate()
-            .for_each(|(pixel, out)| {
-                let [d0, d1, _] = &self.matrix(pixel).all.diagonals;
-                let b = &b[pixel * nodes..][..nodes];
-                for h in 0..nodes {
-                    for c in 0..3 {
-                        let a = |diagonal: &[Lanes], h: usize| f64::from(diagonal[h][c]);
-                        let p = |h: usize| f64::from(mean[h][c]);
-                        let mut product = a(d0, h) * p(h);
-                        if h > 0 {
-                            product += a(d1, h - 1) * p(h - 1);
-                        }
-                        if h + 1 < nodes {
-                            product += a(d1, h) * p(h + 1);
-                        }
-                        #[allow(
-                            clippy::cast_possible_truncation,
-                            reason = "small once the mean is gone"
-                        )]
-                        let value = (b[h][c] - 2.0 * product) as f32;
-                        out[h][c] = value;
+        centred.par_chunks_mut(nodes).enumerate().for_each(|(pixel, out)| {
+            let [d0, d1, _] = &self.matrix(pixel).all.diagonals;
+            let b = &b[pixel * nodes..][..nodes];
+            for h in 0..nodes {
+                for c in 0..3 {
+                    let a = |diagonal: &[Lanes], h: usize| f64::from(diagonal[h][c]);
+                    let p = |h: usize| f64::from(mean[h][c]);
+                    let mut product = a(d0, h) * p(h);
+                    if h > 0 {
+                        product += a(d1, h - 1) * p(h - 1);
                     }
+                    if h + 1 < nodes {
+                        product += a(d1, h) * p(h + 1);
+                    }
+                    #[allow(clippy::cast_possible_truncation, reason = "small once the mean is gone")]
+                    let value = (b[h][c] - 2.0 * product) as f32;
+                    out[h][c] = value;
                 }
-            });
+            }
+        });
         // Σ φ (y − 2 a·p̄)² = Σ φ y² − 2 p̄·Σ b_i + 2 p̄·(Σ A_i) p̄ .. with b_i' = b_i − 2 A_i p̄: Σ φ y² − p̄·Σ (b_i + b_i').
-        for (pixel, b) in b
-            .chunks(nodes)
-            .zip(centred.chunks(nodes))
-            .map(|(b, c)| (c, b))
-        {
+        for (pixel, b) in b.chunks(nodes).zip(centred.chunks(nodes)).map(|(b, c)| (c, b)) {
             for h in 0..nodes {
                 for c in 0..3 {
                     self.y2 -= f64::from(mean[h][c]) * (b[h][c] + f64::from(pixel[h][c]));
@@ -245,10 +229,7 @@ impl Normal {
     pub(super) fn cross(&self, field: &Field, deltas: &[isize], pixel: usize, out: &mut [Lanes]) {
         out.fill(ZERO);
         let window = deltas.len();
-        let counts = self
-            .counts
-            .as_ref()
-            .map(|counts| &counts[pixel * window..][..window]);
+        let counts = self.counts.as_ref().map(|counts| &counts[pixel * window..][..window]);
         let mut next = 0;
         for ring in &self.rings {
             let range = next..next + ring.offsets.len();
@@ -283,19 +264,10 @@ impl Normal {
     }
 
     /// Σ_j n_ij f_j of every ring, f a table with one node per ring.
-    pub(super) fn ring_sums(
-        &self,
-        table: &Field,
-        deltas: &[isize],
-        pixel: usize,
-        out: &mut [Lanes],
-    ) {
+    pub(super) fn ring_sums(&self, table: &Field, deltas: &[isize], pixel: usize, out: &mut [Lanes]) {
         out.fill(ZERO);
         let window = deltas.len();
-        let counts = self
-            .counts
-            .as_ref()
-            .map(|counts| &counts[pixel * window..][..window]);
+        let counts = self.counts.as_ref().map(|counts| &counts[pixel * window..][..window]);
         let mut next = 0;
         for (k, ring) in self.rings.iter().enumerate() {
             let range = next..next + ring.offsets.len();
@@ -304,11 +276,7 @@ impl Normal {
             let sum = &mut out[k];
             if let Some(counts) = counts {
                 for (delta, count) in deltas[range.clone()].iter().zip(&counts[range]) {
-                    lanes::add_product(
-                        sum,
-                        &COUNTS[usize::from(*count)],
-                        table.value(start, *delta),
-                    );
+                    lanes::add_product(sum, &COUNTS[usize::from(*count)], table.value(start, *delta));
                 }
             } else {
                 for delta in &deltas[range] {
@@ -323,10 +291,7 @@ impl Normal {
 
     /// Offsets in ring order as distances in a field's memory.
     pub(super) fn deltas(&self, field: &Field) -> Vec<isize> {
-        self.rings
-            .iter()
-            .flat_map(|ring| ring.offsets.iter().map(|offset| field.delta(offset.step)))
-            .collect()
+        self.rings.iter().flat_map(|ring| ring.offsets.iter().map(|offset| field.delta(offset.step))).collect()
     }
 
     /// ½ Σ_e φ (a·p_i + a·p_j − y_e)².
@@ -338,9 +303,7 @@ impl Normal {
             .map(|pixel| {
                 let mut image = vec![ZERO; nodes];
                 self.cross(field, &deltas, pixel, &mut image);
-                self.matrix(pixel)
-                    .all
-                    .multiply_add(field.at(pixel), &mut image);
+                self.matrix(pixel).all.multiply_add(field.at(pixel), &mut image);
                 let quadratic = lanes::dot(field.at(pixel), &image);
                 let linear = lanes::dot(field.at(pixel), self.b(pixel));
                 (0..3).map(|c| quadratic[c] - 2.0 * linear[c]).sum()
@@ -369,13 +332,7 @@ static COUNTS: [Lanes; 64] = {
 const ALL: u8 = 0b111;
 
 impl Block {
-    fn read(
-        capture: &Capture,
-        geometry: &Geometry,
-        rings: &[Ring],
-        first: usize,
-        progress: &dyn Progress,
-    ) -> Self {
+    fn read(capture: &Capture, geometry: &Geometry, rings: &[Ring], first: usize, progress: &dyn Progress) -> Self {
         let [width, height] = geometry.size;
         let rows = BLOCK_ROWS.min(height - first);
         let window_len = capture.window_len();
@@ -437,8 +394,7 @@ impl Block {
     /// First value in `b` of the pixel `step` away from column x of a row of the block.
     fn start(&self, geometry: &Geometry, row: usize, [x, _]: [usize; 2], step: [i32; 2]) -> usize {
         let [column, row] = [(x, step[0]), (row, step[1])].map(|(k, step)| {
-            (k + geometry.radius)
-                .wrapping_add_signed(isize::try_from(step).expect("windows are small"))
+            (k + geometry.radius).wrapping_add_signed(isize::try_from(step).expect("windows are small"))
         });
         (row * (geometry.size[0] + 2 * geometry.radius) + column) * geometry.nodes
     }
@@ -449,8 +405,7 @@ impl Block {
         let stride = geometry.size[0] + 2 * geometry.radius;
         let first = i32::try_from(self.first).expect("a side is below 65,536");
         for (k, profile) in self.b.chunks(geometry.nodes).enumerate() {
-            let [x, y] = [k % stride, k / stride]
-                .map(|k| i32::try_from(k).expect("a side is below 65,536") - radius);
+            let [x, y] = [k % stride, k / stride].map(|k| i32::try_from(k).expect("a side is below 65,536") - radius);
             let Some(pixel) = geometry.neighbour(0, [x, first + y]) else {
                 continue;
             };
@@ -476,26 +431,21 @@ fn counts(geometry: &Geometry, rings: &[Ring], measured: &[Option<Vec<u8>>]) -> 
     let channels = |pixel: usize, place: usize| {
         let (block, row) = (pixel / width / BLOCK_ROWS, pixel / width % BLOCK_ROWS);
         let at = (row * width + pixel % width) * places + place;
-        measured[block]
-            .as_ref()
-            .map_or(ALL, |measured| measured[at])
+        measured[block].as_ref().map_or(ALL, |measured| measured[at])
     };
     // Three bits spread to two bits each.
     let spread = |channels: u8| (channels & 1) | (channels & 2) << 1 | (channels & 4) << 2;
     let mut counts = vec![0; geometry.pixels() * places];
-    counts
-        .par_chunks_mut(places)
-        .enumerate()
-        .for_each(|(pixel, counts)| {
-            let offsets = rings.iter().flat_map(|ring| &ring.offsets);
-            for (count, offset) in counts.iter_mut().zip(offsets) {
-                if let Some(other) = geometry.neighbour(pixel, offset.step) {
-                    // The way back has the opposite place in the other window.
-                    let back = places - 1 - offset.place;
-                    *count = spread(channels(pixel, offset.place)) + spread(channels(other, back));
-                }
+    counts.par_chunks_mut(places).enumerate().for_each(|(pixel, counts)| {
+        let offsets = rings.iter().flat_map(|ring| &ring.offsets);
+        for (count, offset) in counts.iter_mut().zip(offsets) {
+            if let Some(other) = geometry.neighbour(pixel, offset.step) {
+                // The way back has the opposite place in the other window.
+                let back = places - 1 - offset.place;
+                *count = spread(channels(pixel, offset.place)) + spread(channels(other, back));
             }
-        });
+        }
+    });
     Some(counts)
 }
 
@@ -503,19 +453,14 @@ fn counts(geometry: &Geometry, rings: &[Ring], measured: &[Option<Vec<u8>>]) -> 
 fn matrices(geometry: &Geometry, rings: &[Ring], counts: Option<&[u8]>) -> (Vec<Matrix>, Vec<u32>) {
     let window = rings.iter().map(|ring| ring.offsets.len()).sum::<usize>();
     let matrix = |pixel: usize| {
-        let mut matrix = Matrix {
-            all: Banded::new(geometry.nodes),
-            own: Banded::new(geometry.nodes),
-        };
+        let mut matrix = Matrix { all: Banded::new(geometry.nodes), own: Banded::new(geometry.nodes) };
         let mut at = pixel * window;
         for ring in rings {
             let (mut all, mut own) = (ZERO, ZERO);
             for offset in &ring.offsets {
                 let other = geometry.neighbour(pixel, offset.step);
                 if other.is_some() {
-                    let n = counts.map_or([2.0, 2.0, 2.0, 0.0], |counts| {
-                        COUNTS[usize::from(counts[at])]
-                    });
+                    let n = counts.map_or([2.0, 2.0, 2.0, 0.0], |counts| COUNTS[usize::from(counts[at])]);
                     lanes::add_scaled(&mut all, ring.phi, &n);
                     if other == Some(pixel) {
                         lanes::add_scaled(&mut own, ring.phi, &n);
@@ -537,12 +482,10 @@ fn matrices(geometry: &Geometry, rings: &[Ring], counts: Option<&[u8]>) -> (Vec<
     let mut matrices = Vec::new();
     let matrix_of = (0..geometry.pixels())
         .map(|pixel| {
-            *known
-                .entry(border_class(geometry, pixel))
-                .or_insert_with(|| {
-                    matrices.push(matrix(pixel));
-                    u32::try_from(matrices.len() - 1).expect("no more matrices than pixels")
-                })
+            *known.entry(border_class(geometry, pixel)).or_insert_with(|| {
+                matrices.push(matrix(pixel));
+                u32::try_from(matrices.len() - 1).expect("no more matrices than pixels")
+            })
         })
         .collect();
     (matrices, matrix_of)

@@ -81,20 +81,11 @@ pub(super) fn rings(geometry: &Geometry) -> Vec<Ring> {
                 reason = "the integer part of a number from 0 to 4,095"
             )]
             let h = (position as usize).min(intervals - 1);
-            #[allow(
-                clippy::cast_precision_loss,
-                clippy::cast_possible_truncation,
-                reason = "w is in 0 to 1"
-            )]
+            #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "w is in 0 to 1")]
             let w = (position - h as f64) as f32;
             #[allow(clippy::cast_possible_truncation, reason = "φ is in 0 to 1")]
             let phi = (1.0 / (1.0 + r2)) as f32;
-            Ring {
-                h,
-                w,
-                phi,
-                offsets: ring.iter().map(|(_, offset)| *offset).collect(),
-            }
+            Ring { h, w, phi, offsets: ring.iter().map(|(_, offset)| *offset).collect() }
         })
         .collect()
 }

@@ -18,21 +18,14 @@ pub fn write_file(header: &Header, sections: &[(Section, Vec<u8>)]) -> Vec<u8> {
     let mut table = Vec::new();
     let mut body = Vec::new();
     for (section, bytes) in &all {
-        let entry = Entry {
-            section: *section,
-            crc: crc32(bytes),
-            offset: offset as u64,
-            length: bytes.len() as u64,
-        };
+        let entry = Entry { section: *section, crc: crc32(bytes), offset: offset as u64, length: bytes.len() as u64 };
         table.extend(entry.to_bytes());
         body.extend_from_slice(bytes);
         body.resize(body.len().next_multiple_of(4), 0);
         offset += bytes.len().next_multiple_of(4);
     }
     // Nothing follows the last section: it needs no fill.
-    let fill = all.last().map_or(0, |(_, bytes)| {
-        bytes.len().next_multiple_of(4) - bytes.len()
-    });
+    let fill = all.last().map_or(0, |(_, bytes)| bytes.len().next_multiple_of(4) - bytes.len());
     body.truncate(body.len() - fill);
 
     let sections = u32::try_from(all.len()).expect("a handful of sections");
@@ -45,7 +38,5 @@ pub fn write_file(header: &Header, sections: &[(Section, Vec<u8>)]) -> Vec<u8> {
 
 /// Little-endian bytes of log-scale profile values, clamped to what the format allows.
 pub(super) fn logs(values: impl Iterator<Item = f32>) -> Vec<u8> {
-    values
-        .flat_map(|value| value.clamp(-MAX_LOG, MAX_LOG).to_le_bytes())
-        .collect()
+    values.flat_map(|value| value.clamp(-MAX_LOG, MAX_LOG).to_le_bytes()).collect()
 }

@@ -33,20 +33,14 @@ impl Capture {
     /// # Errors
     /// [`Error::Input`] for a wrong type, order or shape, a cut file, a broken sidecar or a missing pitch.
     pub fn open(path: &Path, overrides: &Overrides) -> Result<Self> {
-        let file = File::open(path)
-            .map_err(|error| Error::input(path, error, "a capture (.npy) that can be read"))?;
+        let file = File::open(path).map_err(|error| Error::input(path, error, "a capture (.npy) that can be read"))?;
         // SAFETY: the mapping is read-only. Another process that truncates or rewrites the file meanwhile breaks
         // every reader of maps; captures are written under another name and renamed, never changed in place.
         let map = unsafe { Mmap::map(&file) }
             .map_err(|error| Error::input(path, error, "a capture (.npy) that can be mapped"))?;
         let array = npy::parse(path, &map)?;
         let sidecar = Sidecar::load(path, overrides)?;
-        Ok(Self {
-            path: path.to_owned(),
-            map,
-            array,
-            sidecar,
-        })
+        Ok(Self { path: path.to_owned(), map, array, sidecar })
     }
 
     /// The file.
@@ -122,23 +116,13 @@ impl Capture {
     /// beyond the border, else the patch goes on as the addressing says.
     #[must_use]
     pub fn neighbour(&self, x: usize, y: usize, dx: i32, dy: i32) -> Option<usize> {
-        neighbour(
-            self.addressing(),
-            [self.width(), self.height()],
-            [x, y],
-            [dx, dy],
-        )
+        neighbour(self.addressing(), [self.width(), self.height()], [x, y], [dx, dy])
     }
 }
 
 /// Number of the pixel at `from` + `step` in a patch of `size`; `None` beyond the border of a patch that clamps.
 #[must_use]
-pub fn neighbour(
-    addressing: Addressing,
-    size: [usize; 2],
-    from: [usize; 2],
-    step: [i32; 2],
-) -> Option<usize> {
+pub fn neighbour(addressing: Addressing, size: [usize; 2], from: [usize; 2], step: [i32; 2]) -> Option<usize> {
     let coordinate = |axis: usize| {
         let n = u32::try_from(size[axis]).ok()?;
         let x = i32::try_from(from[axis]).ok()? + step[axis];
@@ -154,10 +138,6 @@ pub(crate) fn check_side(path: &Path, what: &str, pixels: u64) -> Result<usize> 
     let limit = u64::from(layout::MAX_SIDE);
     match usize::try_from(pixels) {
         Ok(side) if (1..=limit).contains(&pixels) => Ok(side),
-        _ => Err(Error::input(
-            path,
-            format!("{what} {pixels}"),
-            format!("{what} from 1 to {limit} pixels"),
-        )),
+        _ => Err(Error::input(path, format!("{what} {pixels}"), format!("{what} from 1 to {limit} pixels"))),
     }
 }

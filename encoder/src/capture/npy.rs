@@ -40,13 +40,14 @@ pub(super) struct Array {
     start: usize,
 }
 
-const EXPECTED: &str = "a C-order little-endian f4 or f2 array of shape (H, W, D, D, 3), D odd, as numpy.save writes it";
+const EXPECTED: &str =
+    "a C-order little-endian f4 or f2 array of shape (H, W, D, D, 3), D odd, as numpy.save writes it";
 
 pub(super) fn parse(path: &Path, file: &[u8]) -> Result<Array> {
     let wrong = |found: String| Error::input(path, found, EXPECTED);
     let mut rest = file;
-    let header = NpyHeader::from_reader(&mut rest)
-        .map_err(|error| wrong(format!("not a readable .npy header ({error})")))?;
+    let header =
+        NpyHeader::from_reader(&mut rest).map_err(|error| wrong(format!("not a readable .npy header ({error})")))?;
     let start = file.len() - rest.len();
 
     let scalar = match header.dtype() {

@@ -75,8 +75,7 @@ impl From<Addressing> for AddressingName {
     }
 }
 
-const EXAMPLE: &str =
-    r#"{"pitch_mm": 0.6}, and if need be "addressing" (clamp, repeat, mirror) and "eta""#;
+const EXAMPLE: &str = r#"{"pitch_mm": 0.6}, and if need be "addressing" (clamp, repeat, mirror) and "eta""#;
 
 /// `NAME.json` for `NAME.npy`.
 #[must_use]
@@ -89,28 +88,21 @@ impl Sidecar {
     pub(super) fn load(capture: &Path, overrides: &Overrides) -> Result<Self> {
         let path = sidecar_path(capture);
         let fields: Fields = match std::fs::read(&path) {
-            Ok(text) => serde_json::from_slice(&text).map_err(|error| {
-                Error::input(&path, format!("unreadable sidecar ({error})"), EXAMPLE)
-            })?,
+            Ok(text) => serde_json::from_slice(&text)
+                .map_err(|error| Error::input(&path, format!("unreadable sidecar ({error})"), EXAMPLE))?,
             Err(error) if error.kind() == ErrorKind::NotFound => Fields::default(),
             Err(error) => return Err(Error::input(&path, error, EXAMPLE)),
         };
         let pitch_mm = overrides.pitch_mm.or(fields.pitch_mm).ok_or_else(|| {
             Error::input(
                 capture,
-                format!(
-                    "no pixel pitch: neither --pitch nor \"pitch_mm\" in {}",
-                    path.display()
-                ),
+                format!("no pixel pitch: neither --pitch nor \"pitch_mm\" in {}", path.display()),
                 EXAMPLE,
             )
         })?;
         let sidecar = Self {
             pitch_mm,
-            addressing: overrides
-                .addressing
-                .or(fields.addressing.map(Addressing::from))
-                .unwrap_or_default(),
+            addressing: overrides.addressing.or(fields.addressing.map(Addressing::from)).unwrap_or_default(),
             eta: overrides.eta.or(fields.eta).unwrap_or(DEFAULT_ETA),
             simulated: fields.simulated,
         };

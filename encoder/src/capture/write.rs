@@ -31,10 +31,7 @@ impl CaptureWriter<'_> {
     ///
     /// # Errors
     /// [`crate::Error::Output`]; a file is there whole or as it was before.
-    pub fn write(
-        &self,
-        rows: impl FnOnce(&mut dyn FnMut(&[f32]) -> io::Result<()>) -> io::Result<()>,
-    ) -> Result<()> {
+    pub fn write(&self, rows: impl FnOnce(&mut dyn FnMut(&[f32]) -> io::Result<()>) -> io::Result<()>) -> Result<()> {
         let [width, height] = self.size;
         let d = 2 * self.radius + 1;
         let shape = [height, width, d, d, 3].map(|n| n as u64);
@@ -52,11 +49,7 @@ fn write_as<T: npyz::AutoSerialize>(
     rows: impl FnOnce(&mut dyn FnMut(&[f32]) -> io::Result<()>) -> io::Result<()>,
     convert: impl Fn(f32) -> T,
 ) -> io::Result<()> {
-    let mut array = npyz::WriteOptions::new()
-        .default_dtype()
-        .shape(shape)
-        .writer(file)
-        .begin_nd()?;
+    let mut array = npyz::WriteOptions::new().default_dtype().shape(shape).writer(file).begin_nd()?;
     rows(&mut |values| array.extend(values.iter().map(|&value| convert(value))))?;
     array.finish()
 }

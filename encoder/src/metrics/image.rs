@@ -3,11 +3,7 @@
 /// Peak signal-to-noise ratio in dB over all pixels and channels, peak 1; infinite for equal images.
 #[must_use]
 pub fn psnr_db(reference: &[[f64; 3]], image: &[[f64; 3]]) -> f64 {
-    let squares = reference
-        .iter()
-        .flatten()
-        .zip(image.iter().flatten())
-        .map(|(a, b)| (a - b) * (a - b));
+    let squares = reference.iter().flatten().zip(image.iter().flatten()).map(|(a, b)| (a - b) * (a - b));
     #[allow(clippy::cast_precision_loss, reason = "pixels fit in 2⁵³")]
     let mean = squares.sum::<f64>() / (3 * reference.len()) as f64;
     -10.0 * mean.log10()
@@ -33,29 +29,17 @@ pub fn ssim(reference: &[[f64; 3]], image: &[[f64; 3]], width: usize) -> Option<
     for c in 0..3 {
         // Local means of x, y, x², y², xy.
         let blurred = |f: &dyn Fn(f64, f64) -> f64| {
-            let plane: Vec<f64> = reference
-                .iter()
-                .zip(image)
-                .map(|(x, y)| f(x[c], y[c]))
-                .collect();
+            let plane: Vec<f64> = reference.iter().zip(image).map(|(x, y)| f(x[c], y[c])).collect();
             blur(&plane, width, &kernel)
         };
         let (x, y) = (blurred(&|x, _| x), blurred(&|_, y| y));
-        let (xx, yy, xy) = (
-            blurred(&|x, _| x * x),
-            blurred(&|_, y| y * y),
-            blurred(&|x, y| x * y),
-        );
+        let (xx, yy, xy) = (blurred(&|x, _| x * x), blurred(&|_, y| y * y), blurred(&|x, y| x * y));
         let windows = x.len();
         let mut channel = 0.0;
         for k in 0..windows {
-            let (vx, vy, cov) = (
-                xx[k] - x[k] * x[k],
-                yy[k] - y[k] * y[k],
-                xy[k] - x[k] * y[k],
-            );
-            channel += (2.0 * x[k] * y[k] + C1) * (2.0 * cov + C2)
-                / ((x[k] * x[k] + y[k] * y[k] + C1) * (vx + vy + C2));
+            let (vx, vy, cov) = (xx[k] - x[k] * x[k], yy[k] - y[k] * y[k], xy[k] - x[k] * y[k]);
+            channel +=
+                (2.0 * x[k] * y[k] + C1) * (2.0 * cov + C2) / ((x[k] * x[k] + y[k] * y[k] + C1) * (vx + vy + C2));
         }
         #[allow(clippy::cast_precision_loss, reason = "pixels fit in 2⁵³")]
         let mean = channel / windows as f64;
@@ -77,17 +61,11 @@ fn kernel() -> [f64; SIDE] {
 /// Separable convolution, windows that lie wholly inside.
 fn blur(plane: &[f64], width: usize, kernel: &[f64; SIDE]) -> Vec<f64> {
     let inner = width - SIDE + 1;
-    let dot = |taps: &mut dyn Iterator<Item = &f64>| -> f64 {
-        taps.zip(kernel).map(|(v, k)| v * k).sum()
-    };
-    let rows: Vec<f64> = plane
-        .chunks(width)
-        .flat_map(|row| row.windows(SIDE).map(|taps| dot(&mut taps.iter())))
-        .collect();
+    let dot = |taps: &mut dyn Iterator<Item = &f64>| -> f64 { taps.zip(kernel).map(|(v, k)| v * k).sum() };
+    let rows: Vec<f64> =
+        plane.chunks(width).flat_map(|row| row.windows(SIDE).map(|taps| dot(&mut taps.iter()))).collect();
     let height = plane.len() / width - SIDE + 1;
-    (0..height * inner)
-        .map(|at| dot(&mut rows[at..].iter().step_by(inner)))
-        .collect()
+    (0..height * inner).map(|at| dot(&mut rows[at..].iter().step_by(inner))).collect()
 }
 
 #[cfg(test)]
@@ -95,19 +73,14 @@ mod tests {
     use super::*;
 
     fn ramp(width: usize, height: usize) -> Vec<[f64; 3]> {
-        (0..width * height)
-            .map(|k| [(k % width) as f64 / 40.0, (k / width) as f64 / 40.0, 0.5])
-            .collect()
+        (0..width * height).map(|k| [(k % width) as f64 / 40.0, (k / width) as f64 / 40.0, 0.5]).collect()
     }
 
     #[test]
     fn psnr_of_a_constant_difference() {
         let image = vec![[0.5; 3]; 10];
         let other = vec![[0.51; 3]; 10];
-        assert!(
-            (psnr_db(&image, &other) - 40.0).abs() < 1e-9,
-            "a difference of 0.01 is 40 dB"
-        );
+        assert!((psnr_db(&image, &other) - 40.0).abs() < 1e-9, "a difference of 0.01 is 40 dB");
         assert_eq!(psnr_db(&image, &image), f64::INFINITY);
     }
 
@@ -116,10 +89,7 @@ mod tests {
         let image = ramp(20, 15);
         let found = ssim(&image, &image, 20).unwrap();
         assert!((found - 1.0).abs() < 1e-12, "{found}");
-        assert!(
-            ssim(&image[..200], &image[..200], 20).is_none(),
-            "10 rows are no window"
-        );
+        assert!(ssim(&image[..200], &image[..200], 20).is_none(), "10 rows are no window");
     }
 
     #[test]
@@ -127,10 +97,7 @@ mod tests {
         let (x, y) = (0.4, 0.5);
         let found = ssim(&vec![[x; 3]; 144], &vec![[y; 3]; 144], 12).unwrap();
         let expected = (2.0 * x * y + C1) / (x * x + y * y + C1);
-        assert!(
-            (found - expected).abs() < 1e-12,
-            "{found} is not {expected}"
-        );
+        assert!((found - expected).abs() < 1e-12, "{found} is not {expected}");
     }
 
     #[test]
@@ -142,9 +109,6 @@ mod tests {
         let k = kernel()[5] * kernel()[5];
         let expected = C1 * C2 / ((k * k + C1) * (k - k * k + C2));
         let found = ssim(&reference, &image, 11).unwrap();
-        assert!(
-            (found - expected).abs() < 1e-12,
-            "{found} is not {expected}"
-        );
+        assert!((found - expected).abs() < 1e-12, "{found} is not {expected}");
     }
 }

@@ -59,10 +59,7 @@ pub struct Relit {
 
 impl Relit {
     fn new(pixels: usize) -> Self {
-        Self {
-            reference: vec![[0.0; 3]; pixels],
-            image: vec![[0.0; 3]; pixels],
-        }
+        Self { reference: vec![[0.0; 3]; pixels], image: vec![[0.0; 3]; pixels] }
     }
 
     fn add(&mut self, other: &Self) {
@@ -77,21 +74,9 @@ impl Relit {
     /// Both images divided by the largest value of the reference.
     #[must_use]
     pub fn normalised(&self) -> Self {
-        let peak = self
-            .reference
-            .iter()
-            .flatten()
-            .fold(0.0_f64, |peak, &value| peak.max(value));
-        let scale = |image: &[[f64; 3]]| {
-            image
-                .iter()
-                .map(|rgb| rgb.map(|value| value / peak))
-                .collect()
-        };
-        Self {
-            reference: scale(&self.reference),
-            image: scale(&self.image),
-        }
+        let peak = self.reference.iter().flatten().fold(0.0_f64, |peak, &value| peak.max(value));
+        let scale = |image: &[[f64; 3]]| image.iter().map(|rgb| rgb.map(|value| value / peak)).collect();
+        Self { reference: scale(&self.reference), image: scale(&self.image) }
     }
 
     /// Relative error ‖ρ − ρ'‖/‖ρ‖ of every pixel, over the three channels; 0 where the reference is black.
@@ -102,11 +87,7 @@ impl Relit {
         pairs
             .map(|(reference, image)| {
                 let difference = [0, 1, 2].map(|c| reference[c] - image[c]);
-                if norm(*reference) > 0.0 {
-                    norm(difference) / norm(*reference)
-                } else {
-                    0.0
-                }
+                if norm(*reference) > 0.0 { norm(difference) / norm(*reference) } else { 0.0 }
             })
             .collect()
     }
@@ -130,18 +111,10 @@ const BLOCKS_AT_ONCE: usize = 4;
 ///
 /// # Errors
 /// [`Error::Request`] if the file is of another size or window than the capture.
-pub fn compare(
-    capture: &Capture,
-    material: &Bssrdf<'_>,
-    progress: &dyn Progress,
-) -> Result<Comparison> {
+pub fn compare(capture: &Capture, material: &Bssrdf<'_>, progress: &dyn Progress) -> Result<Comparison> {
     let header = material.header();
     let ours = [capture.width(), capture.height(), capture.radius()];
-    let theirs = [
-        header.width as usize,
-        header.height as usize,
-        header.window_radius.into(),
-    ];
+    let theirs = [header.width as usize, header.height as usize, header.window_radius.into()];
     if ours != theirs {
         return Err(Error::Request(format!(
             "the capture has {} × {} pixels and a window radius of {}, the file {} × {} and {}: not the same material",
@@ -149,10 +122,7 @@ pub fn compare(
         )));
     }
     let pixels = capture.pixels();
-    let new = || Comparison {
-        albedo: Relit::new(pixels),
-        lit: std::array::from_fn(|_| Relit::new(pixels)),
-    };
+    let new = || Comparison { albedo: Relit::new(pixels), lit: std::array::from_fn(|_| Relit::new(pixels)) };
     let mut total = new();
     progress.begin("comparing", pixels as u64);
     let firsts: Vec<usize> = (0..capture.height()).step_by(BLOCK_ROWS).collect();
@@ -199,12 +169,9 @@ fn add_source(capture: &Capture, material: &Bssrdf<'_>, [x, y]: [usize; 2], sums
         let Some(target) = capture.neighbour(x, y, dx, dy) else {
             continue;
         };
-        let knot = material
-            .distance_mm(dx, dy)
-            .and_then(|r_mm| material.knot(r_mm));
-        let model = knot.map_or([0.0; 3], |knot| {
-            material.rd_at(&p_i, &material.profile([from[0] + dx, from[1] + dy]), knot)
-        });
+        let knot = material.distance_mm(dx, dy).and_then(|r_mm| material.knot(r_mm));
+        let model =
+            knot.map_or([0.0; 3], |knot| material.rd_at(&p_i, &material.profile([from[0] + dx, from[1] + dy]), knot));
         for c in 0..3 {
             if rd[c] <= 0.0 {
                 continue;

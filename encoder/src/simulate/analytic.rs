@@ -48,22 +48,16 @@ impl HalfSpace {
         let step = 2.0 * PI / period;
         let lobes = 2.0 * PI / pitch_mm * 20.0;
         let count = (lobes / step).ceil();
-        let frequencies =
-            || std::iter::successors(Some(0.5), |k| Some(k + 1.0)).take_while(|k| *k < count);
+        let frequencies = || std::iter::successors(Some(0.5), |k| Some(k + 1.0)).take_while(|k| *k < count);
         let factor = |k: f64, x: f64| {
             let half = 0.5 * k * pitch_mm;
             let sinc = half.sin() / half;
             sinc * sinc * (k * x * pitch_mm).cos()
         };
-        let columns: Vec<(f64, f64)> = frequencies()
-            .map(|k| (k * step, factor(k * step, dx)))
-            .collect();
+        let columns: Vec<(f64, f64)> = frequencies().map(|k| (k * step, factor(k * step, dx))).collect();
         let mut sum = 0.0;
         for ky in frequencies().map(|k| k * step) {
-            let row: f64 = columns
-                .iter()
-                .map(|&(kx, fx)| fx * self.spectrum(kx.hypot(ky)))
-                .sum();
+            let row: f64 = columns.iter().map(|&(kx, fx)| fx * self.spectrum(kx.hypot(ky))).sum();
             sum += row * factor(ky, dy);
         }
         // Four quadrants of the plane.

@@ -84,14 +84,8 @@ fn lateral(pitch_mm: f64, radius: usize, margin_mm: f64, scales: Scales, refine:
         let widest = NEAR * scales.mean_free_path + FAR * distance;
         let widest = widest.min(DECAY * scales.decay) / refine;
         // Even across the source pixel, of which this half has one half.
-        let count = (pitch_mm / widest)
-            .ceil()
-            .clamp(1.0, MAX_PER_PIXEL * refine);
-        let count = if k == 0 {
-            (count / 2.0).ceil() * 2.0
-        } else {
-            count
-        };
+        let count = (pitch_mm / widest).ceil().clamp(1.0, MAX_PER_PIXEL * refine);
+        let count = if k == 0 { (count / 2.0).ceil() * 2.0 } else { count };
         let start = if k == 0 { count / 2.0 } else { 0.0 };
         let mut cell = start + 1.0;
         while cell <= count {
@@ -109,22 +103,12 @@ fn lateral(pitch_mm: f64, radius: usize, margin_mm: f64, scales: Scales, refine:
         let middle = edge + 0.5 * width;
         edge += width;
         edges.push(edge);
-        #[allow(
-            clippy::cast_possible_truncation,
-            reason = "saturates; patches have at most 65,535 pixels"
-        )]
+        #[allow(clippy::cast_possible_truncation, reason = "saturates; patches have at most 65,535 pixels")]
         pixels.push((middle / pitch_mm).round() as i32);
     }
     let mirrored = edges.iter().skip(1).rev().map(|edge| -edge);
-    let pixel = pixels
-        .iter()
-        .rev()
-        .map(|pixel| -pixel)
-        .chain(pixels.iter().copied());
-    Axis {
-        edges: mirrored.chain(edges.iter().copied()).collect(),
-        pixel: pixel.collect(),
-    }
+    let pixel = pixels.iter().rev().map(|pixel| -pixel).chain(pixels.iter().copied());
+    Axis { edges: mirrored.chain(edges.iter().copied()).collect(), pixel: pixel.collect() }
 }
 
 fn depth(thickness_mm: f64, mfp_mm: f64, refine: f64) -> Axis {
@@ -132,16 +116,9 @@ fn depth(thickness_mm: f64, mfp_mm: f64, refine: f64) -> Axis {
     let mut width = DEPTH * mfp_mm / refine;
     let mut edge = 0.0;
     while edge < thickness_mm {
-        edge = if edge + 1.5 * width < thickness_mm {
-            edge + width
-        } else {
-            thickness_mm
-        };
+        edge = if edge + 1.5 * width < thickness_mm { edge + width } else { thickness_mm };
         edges.push(edge);
         width *= 1.0 + (DEPTH_GROWTH - 1.0) / refine;
     }
-    Axis {
-        edges,
-        pixel: Vec::new(),
-    }
+    Axis { edges, pixel: Vec::new() }
 }

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use image::codecs::hdr::HdrDecoder;
 use image::imageops::{FilterType, resize};
-use image::{ImageReader, Rgb32FImage};
+use image::{DynamicImage, ImageFormat, ImageReader, Rgb32FImage};
 
 use super::medium::{MEASURED, Medium};
 use super::slab::MediumMap;
-use crate::capture::check_side;
 use crate::error::{Error, Result};
 
 /// How much of a material there is at every pixel.
@@ -46,18 +46,13 @@ pub fn mixture(parts: &[(String, Weight)], size: [usize; 2], stretch: bool) -> R
     for (name, weight) in parts {
         let medium = Medium::measured(name).ok_or_else(|| {
             let known: Vec<&str> = MEASURED.iter().map(|(name, _)| *name).collect();
-            Error::Request(format!(
-                "no measured material \"{name}\"; there are {}",
-                known.join(", ")
-            ))
+            Error::Request(format!("no measured material \"{name}\"; there are {}", known.join(", ")))
         })?;
         let plane = match weight {
             Weight::Image(path) => grey(path, size, stretch)?,
             Weight::Constant(value) => vec![*value; size[0] * size[1]],
             Weight::Rest if rest.is_some() => {
-                return Err(Error::Request(
-                    "two materials ask for the rest; only one can have it".to_owned(),
-                ));
+                return Err(Error::Request("two materials ask for the rest; only one can have it".to_owned()));
             }
             Weight::Rest => {
                 rest = Some(planes.len());
@@ -67,9 +62,7 @@ pub fn mixture(parts: &[(String, Weight)], size: [usize; 2], stretch: bool) -> R
         planes.push((medium, plane));
     }
     let mix = |pixel: usize| {
-        let weights = planes
-            .iter()
-            .map(|(_, plane)| plane.get(pixel).copied().unwrap_or(0.0).max(0.0));
+        let weights = planes.iter().map(|(_, plane)| plane.get(pixel).copied().unwrap_or(0.0).max(0.0));
         let mut weights: Vec<f64> = weights.collect();
         let given: f64 = weights.iter().sum();
         if let Some(rest) = rest {
@@ -78,17 +71,10 @@ pub fn mixture(parts: &[(String, Weight)], size: [usize; 2], stretch: bool) -> R
         let sum: f64 = weights.iter().sum();
         if sum <= 0.0 {
             let [x, y] = [pixel % size[0], pixel / size[0]];
-            let message = format!(
-                "no material at pixel ({x}, {y}): all weights are 0; give one the value \"rest\""
-            );
+            let message = format!("no material at pixel ({x}, {y}): all weights are 0; give one the value \"rest\"");
             return Err(Error::Request(message));
         }
-        Ok(Medium::mix(
-            planes
-                .iter()
-                .zip(&weights)
-                .map(|((medium, _), weight)| (weight / sum, *medium)),
-        ))
+        Ok(Medium::mix(planes.iter().zip(&weights).map(|((medium, _), weight)| (weight / sum, *medium))))
     };
     let media = (0..size[0] * size[1]).map(mix).collect::<Result<_>>()?;
     Ok(MediumMap { size, media })
@@ -98,91 +84,55 @@ pub fn mixture(parts: &[(String, Weight)], size: [usize; 2], stretch: bool) -> R
 ///
 /// # Errors
 /// For unreadable images and lengths that are not positive.
-pub fn albedo(
-    image: &Path,
-    mean_free_path: &MeanFreePath,
-    size: [usize; 2],
-    eta: f64,
-) -> Result<MediumMap> {
+pub fn albedo(image: &Path, mean_free_path: &MeanFreePath, size: [usize; 2], eta: f64) -> Result<MediumMap> {
     let albedo = linear(image, size)?;
     let lengths: Vec<[f64; 3]> = match mean_free_path {
         MeanFreePath::Constant(lengths) => vec![*lengths; size[0] * size[1]],
         MeanFreePath::Image(path, [from, to]) => {
-            let stored = load(path, size)?;
+            let (stored, _) = load(path, size)?;
             let length = |value: f32| from + f64::from(value.clamp(0.0, 1.0)) * (to - from);
             stored.pixels().map(|rgb| rgb.0.map(length)).collect()
         }
     };
-    if let Some(length) = lengths
-        .iter()
-        .flatten()
-        .find(|length| !(length.is_finite() && **length > 0.0))
-    {
-        return Err(Error::Request(format!(
-            "a mean free path of {length} mm; it must be positive"
-        )));
+    if let Some(length) = lengths.iter().flatten().find(|length| !(length.is_finite() && **length > 0.0)) {
+        return Err(Error::Request(format!("a mean free path of {length} mm; it must be positive")));
     }
-    let media = albedo
-        .iter()
-        .zip(lengths)
-        .map(|(albedo, length)| Medium::from_albedo(*albedo, length, eta));
-    Ok(MediumMap {
-        size,
-        media: media.collect(),
-    })
-}
-
-/// Size in pixels of an image, from its header.
-///
-/// # Errors
-/// For files that are no image, or one too large for a capture.
-pub fn image_size(path: &Path) -> Result<[usize; 2]> {
-    let reader = ImageReader::open(path).map_err(|error| unreadable(path, error))?;
-    let reader = reader
-        .with_guessed_format()
-        .map_err(|error| unreadable(path, error))?;
-    let (width, height) = reader
-        .into_dimensions()
-        .map_err(|error| unreadable(path, error))?;
-    Ok([
-        check_side(path, "width", width.into())?,
-        check_side(path, "height", height.into())?,
-    ])
+    let media = albedo.iter().zip(lengths).map(|(albedo, length)| Medium::from_albedo(*albedo, length, eta));
+    Ok(MediumMap { size, media: media.collect() })
 }
 
 fn unreadable(path: &Path, error: impl std::fmt::Display) -> Error {
     Error::input(path, error, "an image (PNG, JPEG or Radiance HDR)")
 }
 
-/// An image's values as they are stored, 8-bit ones divided by 255, resampled to `size`.
-fn load(path: &Path, size: [usize; 2]) -> Result<Rgb32FImage> {
+/// An image's values as they are stored, 8-bit ones divided by 255, resampled to `size`; and whether they are linear.
+fn load(path: &Path, size: [usize; 2]) -> Result<(Rgb32FImage, bool)> {
     let reader = ImageReader::open(path).map_err(|error| unreadable(path, error))?;
-    let reader = reader
-        .with_guessed_format()
-        .map_err(|error| unreadable(path, error))?;
-    let image = reader
-        .decode()
-        .map_err(|error| unreadable(path, error))?
-        .into_rgb32f();
+    let reader = reader.with_guessed_format().map_err(|error| unreadable(path, error))?;
+    let is_linear = reader.format() == Some(ImageFormat::Hdr);
+    let image = if is_linear {
+        // Many programs sign their files "#?RGBE" instead of "#?RADIANCE".
+        HdrDecoder::new_nonstrict(reader.into_inner()).and_then(DynamicImage::from_decoder)
+    } else {
+        reader.decode()
+    };
+    let image = image.map_err(|error| unreadable(path, error))?.into_rgb32f();
     let [width, height] = size.map(|n| u32::try_from(n).expect("a side is below 65,536"));
     // A triangle as wide as a target pixel: averages when it shrinks, interpolates when it enlarges.
-    Ok(resize(&image, width, height, FilterType::Triangle))
+    Ok((resize(&image, width, height, FilterType::Triangle), is_linear))
 }
 
 /// Linear Rec. 709 values: 8- and 16-bit images are sRGB.
 fn linear(path: &Path, size: [usize; 2]) -> Result<Vec<[f64; 3]>> {
-    let format = ImageReader::open(path).map_err(|error| unreadable(path, error))?;
-    let format = format
-        .with_guessed_format()
-        .map_err(|error| unreadable(path, error))?
-        .format();
-    let stored = load(path, size)?;
+    let (stored, is_linear) = load(path, size)?;
     let decode = |value: f32| {
         let value = f64::from(value);
-        match format {
-            Some(image::ImageFormat::Hdr) => value,
-            _ if value <= 0.04045 => value / 12.92,
-            _ => ((value + 0.055) / 1.055).powf(2.4),
+        if is_linear {
+            value
+        } else if value <= 0.040_45 {
+            value / 12.92
+        } else {
+            ((value + 0.055) / 1.055).powf(2.4)
         }
     };
     Ok(stored.pixels().map(|rgb| rgb.0.map(decode)).collect())
@@ -190,11 +140,9 @@ fn linear(path: &Path, size: [usize; 2]) -> Result<Vec<[f64; 3]>> {
 
 /// Mean of the three channels as they are stored.
 fn grey(path: &Path, size: [usize; 2], stretch: bool) -> Result<Vec<f64>> {
-    let stored = load(path, size)?;
-    let mut values: Vec<f64> = stored
-        .pixels()
-        .map(|rgb| rgb.0.iter().map(|&v| f64::from(v)).sum::<f64>() / 3.0)
-        .collect();
+    let (stored, _) = load(path, size)?;
+    let mut values: Vec<f64> =
+        stored.pixels().map(|rgb| rgb.0.iter().map(|&v| f64::from(v)).sum::<f64>() / 3.0).collect();
     if stretch {
         let mut sorted = values.clone();
         sorted.sort_by(f64::total_cmp);
@@ -209,11 +157,7 @@ fn grey(path: &Path, size: [usize; 2], stretch: bool) -> Result<Vec<f64>> {
             sorted[at]
         });
         for value in &mut values {
-            *value = if high > low {
-                (*value - low) / (high - low)
-            } else {
-                0.0
-            };
+            *value = if high > low { (*value - low) / (high - low) } else { 0.0 };
         }
     }
     for value in &mut values {

@@ -6,12 +6,14 @@ mod grid;
 pub mod maps;
 pub mod medium;
 mod noise;
+mod run;
 mod scene;
 mod sensor;
 mod slab;
 mod solver;
 
 pub use medium::Medium;
+pub use run::{Finish, Summary, simulate};
 pub use scene::Scene;
 pub use sensor::Sensor;
 pub use slab::{MediumMap, Slab};

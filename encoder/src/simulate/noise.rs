@@ -35,17 +35,11 @@ impl Noise {
         #[allow(clippy::cast_precision_loss, reason = "frequencies are small")]
         let cells = frequency as f64;
         let (x, y) = (u * cells, v * cells);
-        #[allow(
-            clippy::cast_possible_truncation,
-            reason = "lattice coordinates are small"
-        )]
+        #[allow(clippy::cast_possible_truncation, reason = "lattice coordinates are small")]
         let (i, j) = (x.floor() as i64, y.floor() as i64);
         let (x, y) = (x - x.floor(), y - y.floor());
         let corner = |di: i64, dj: i64| {
-            let hash = self.hash(
-                (i + di).rem_euclid(frequency),
-                (j + dj).rem_euclid(frequency),
-            );
+            let hash = self.hash((i + di).rem_euclid(frequency), (j + dj).rem_euclid(frequency));
             let angle = f64::from(hash) / 256.0 * std::f64::consts::TAU;
             #[allow(clippy::cast_precision_loss, reason = "0 or 1")]
             let (dx, dy) = (x - di as f64, y - dj as f64);
@@ -60,9 +54,7 @@ impl Noise {
 
     /// `octaves` octaves from `frequency` up, each half as strong as the one before; about −1 to 1.
     pub(super) fn fractal(&self, u: f64, v: f64, frequency: i64, octaves: i32) -> f64 {
-        (0..octaves)
-            .map(|k| self.octave(u, v, frequency << k) * 0.5_f64.powi(k))
-            .sum()
+        (0..octaves).map(|k| self.octave(u, v, frequency << k) * 0.5_f64.powi(k)).sum()
     }
 
     /// Narrow ridges along the zeros of the noise: 1 on a ridge, falling to 0 over `width`.

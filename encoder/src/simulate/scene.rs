@@ -40,12 +40,8 @@ impl Scene {
     #[must_use]
     pub fn description(self) -> &'static str {
         match self {
-            Self::Onyx => {
-                "folded, cloudy layers of marble, apple, wholemilk and skin2, some stained with ketchup"
-            }
-            Self::Chessboard => {
-                "squares of marble, half of them dyed with ketchup, with a grain of apple"
-            }
+            Self::Onyx => "folded, cloudy layers of marble, apple, wholemilk and skin2, some stained with ketchup",
+            Self::Chessboard => "squares of marble, half of them dyed with ketchup, with a grain of apple",
             Self::Jade => "continuous blends of apple, marble and skin2",
             Self::Marble => "marble with clouds of wholemilk and veins of skin2 and ketchup",
         }
@@ -63,9 +59,7 @@ impl Scene {
             Self::Marble => marble,
         };
         let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
-        let media = pixels
-            .map(|(x, y)| recipe(&noise, &pattern, pattern.uv(x, y)))
-            .collect();
+        let media = pixels.map(|(x, y)| recipe(&noise, &pattern, pattern.uv(x, y))).collect();
         MediumMap { size, media }
     }
 }
@@ -93,10 +87,7 @@ impl Pattern {
             Addressing::Repeat => [width, height],
             Addressing::Clamp | Addressing::Mirror => [width.max(height).max(64.0); 2],
         };
-        Self {
-            period,
-            noise_period: period[0].max(period[1]),
-        }
+        Self { period, noise_period: period[0].max(period[1]) }
     }
 
     /// Pixel centre in periods.
@@ -108,10 +99,7 @@ impl Pattern {
 
     /// Lattice cells per period for features of about `pixels`.
     fn frequency(&self, pixels: f64) -> i64 {
-        #[allow(
-            clippy::cast_possible_truncation,
-            reason = "saturates, and sides are below 65,536"
-        )]
+        #[allow(clippy::cast_possible_truncation, reason = "saturates, and sides are below 65,536")]
         let cells = (self.noise_period / pixels).round() as i64;
         cells.max(1)
     }
@@ -151,8 +139,7 @@ fn onyx(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
         layer * (1.0 - cloud) + if k == 3 { cloud } else { 0.0 }
     };
     // Every third layer or so is stained.
-    let stain =
-        |layer: i64| 0.08 * smoothstep(0.5, 1.0, noise.value(1000 + layer.rem_euclid(layers)));
+    let stain = |layer: i64| 0.08 * smoothstep(0.5, 1.0, noise.value(1000 + layer.rem_euclid(layers)));
     let stain = stain(layer) + blend * (stain(layer + 1) - stain(layer));
     let pure = 1.0 - stain;
     mix([
@@ -175,11 +162,7 @@ fn chessboard(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
     let grain = (0.5 + 0.5 * noise.fractal(u, v, pattern.frequency(6.0), 3)).clamp(0.0, 1.0);
     let dye = (1.0 - white) * (0.05 + 0.05 * piece + 0.05 * grain);
     let cloud = 0.1 * piece + 0.2 * grain;
-    mix([
-        ((1.0 - dye) * (1.0 - cloud), "marble"),
-        ((1.0 - dye) * cloud, "apple"),
-        (dye, "ketchup"),
-    ])
+    mix([((1.0 - dye) * (1.0 - cloud), "marble"), ((1.0 - dye) * cloud, "apple"), (dye, "ketchup")])
 }
 
 fn jade(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
@@ -187,22 +170,14 @@ fn jade(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
     let streaks = noise.fractal(v + 0.3, u, pattern.frequency(20.0), 3);
     let a = smoothstep(-0.5, 0.5, clouds);
     let b = smoothstep(-0.6, 0.8, streaks) * 0.6;
-    mix([
-        (a * (1.0 - b), "apple"),
-        ((1.0 - a) * (1.0 - b), "marble"),
-        (b, "skin2"),
-    ])
+    mix([(a * (1.0 - b), "apple"), ((1.0 - a) * (1.0 - b), "marble"), (b, "skin2")])
 }
 
 fn marble(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
     let vein = noise.ridge(u, v, pattern.frequency(40.0), 5, 0.07).powi(2);
     let fine = noise.ridge(v, u, pattern.frequency(18.0), 3, 0.05).powi(2) * 0.4;
     let dark = (vein + fine).min(1.0) * 0.8;
-    let cloud = smoothstep(
-        -0.5,
-        0.5,
-        noise.fractal(u + 0.5, v, pattern.frequency(30.0), 4),
-    );
+    let cloud = smoothstep(-0.5, 0.5, noise.fractal(u + 0.5, v, pattern.frequency(30.0), 4));
     let bright = 1.0 - dark;
     mix([
         (bright * (1.0 - cloud), "marble"),

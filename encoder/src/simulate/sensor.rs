@@ -34,11 +34,7 @@ impl Sensor {
             let read = counted + read_out.sample(&mut rng);
             #[allow(clippy::cast_possible_truncation, reason = "captures are f32")]
             let measured = (read / photons_per_rd) as f32;
-            *rd = if read < FLOOR * READ_NOISE {
-                0.0
-            } else {
-                measured
-            };
+            *rd = if read < FLOOR * READ_NOISE { 0.0 } else { measured };
         }
     }
 }

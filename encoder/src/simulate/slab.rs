@@ -6,7 +6,6 @@ use subsurf_decoder::bssrdf::Addressing;
 use super::fresnel::boundary_a;
 use super::grid::{Grid, Scales};
 use super::medium::Medium;
-use super::sensor::Sensor;
 use super::solver::{Rgb, System};
 use crate::progress::Progress;
 
@@ -56,12 +55,7 @@ impl Slab<'_> {
     ///
     /// # Errors
     /// Whatever `sink` returns.
-    pub fn measure<E>(
-        &self,
-        sensor: Option<&Sensor>,
-        progress: &dyn Progress,
-        mut sink: impl FnMut(&[f32]) -> Result<(), E>,
-    ) -> Result<f64, E> {
+    pub fn measure<E>(&self, progress: &dyn Progress, mut sink: impl FnMut(&[f32]) -> Result<(), E>) -> Result<f64, E> {
         let [width, height] = self.map.size;
         let grid = self.grid();
         let d = 2 * self.radius + 1;
@@ -77,7 +71,7 @@ impl Slab<'_> {
             let shares: Vec<f64> = rows
                 .par_chunks_mut(row_len)
                 .enumerate()
-                .map(|(k, row)| self.measure_row(&grid, first + k, sensor, row, progress))
+                .map(|(k, row)| self.measure_row(&grid, first + k, row, progress))
                 .collect();
             share += shares.iter().sum::<f64>();
             sink(rows)?;
@@ -94,40 +88,19 @@ impl Slab<'_> {
     }
 
     fn grid(&self) -> Grid {
-        let channels = self
-            .map
-            .media
-            .iter()
-            .flat_map(|medium| [0, 1, 2].map(|c| (medium, c)));
-        let infinite = Scales {
-            mean_free_path: f64::INFINITY,
-            decay: f64::INFINITY,
-        };
+        let channels = self.map.media.iter().flat_map(|medium| [0, 1, 2].map(|c| (medium, c)));
+        let infinite = Scales { mean_free_path: f64::INFINITY, decay: f64::INFINITY };
         let shortest = channels.fold(infinite, |shortest, (medium, c)| Scales {
             mean_free_path: shortest.mean_free_path.min(medium.mean_free_path_mm(c)),
             decay: shortest.decay.min(medium.decay_length_mm(c)),
         });
         let margin_mm = MARGIN * self.thickness_mm;
-        Grid::new(
-            self.pitch_mm,
-            self.radius,
-            self.thickness_mm,
-            margin_mm,
-            shortest,
-            self.refine,
-        )
+        Grid::new(self.pitch_mm, self.radius, self.thickness_mm, margin_mm, shortest, self.refine)
     }
 
     /// The windows of one row; returns the sum of their shares. A solution is the first guess for the pixel beside it,
     /// whose surroundings differ little.
-    fn measure_row(
-        &self,
-        grid: &Grid,
-        y: usize,
-        sensor: Option<&Sensor>,
-        out: &mut [f32],
-        progress: &dyn Progress,
-    ) -> f64 {
+    fn measure_row(&self, grid: &Grid, y: usize, out: &mut [f32], progress: &dyn Progress) -> f64 {
         let lateral = grid.lateral.cells();
         let mut system = System::new([grid.depth.cells(), lateral, lateral]);
         let window_len = out.len() / self.map.size[0];
@@ -137,9 +110,6 @@ impl Slab<'_> {
             self.assemble(grid, &media, &mut system);
             system.solve(TOLERANCE);
             share += self.read_surface(grid, &media, &system, [x, y], window);
-            if let Some(sensor) = sensor {
-                sensor.expose(x + y * self.map.size[0], self.pitch_mm, window);
-            }
             progress.advance(1);
         }
         share
@@ -149,10 +119,7 @@ impl Slab<'_> {
     fn media_below(&self, grid: &Grid, x: usize, y: usize) -> Vec<Medium> {
         let at = |from: usize, step: i32, n: usize| {
             let (from, n) = (i32::try_from(from), u32::try_from(n));
-            let (from, n) = (
-                from.expect("a side is below 65,536"),
-                n.expect("a side is below 65,536"),
-            );
+            let (from, n) = (from.expect("a side is below 65,536"), n.expect("a side is below 65,536"));
             self.addressing.map(from.saturating_add(step), n) as usize
         };
         let [width, height] = self.map.size;
@@ -160,11 +127,7 @@ impl Slab<'_> {
         let mut media = Vec::with_capacity(pixels.len() * pixels.len());
         for &py in pixels {
             let row = at(y, py, height) * width;
-            media.extend(
-                pixels
-                    .iter()
-                    .map(|&px| self.map.media[row + at(x, px, width)]),
-            );
+            media.extend(pixels.iter().map(|&px| self.map.media[row + at(x, px, width)]));
         }
         media
     }
@@ -174,10 +137,8 @@ impl Slab<'_> {
         let n = lateral.cells();
         let bottom = depth.cells() - 1;
         let boundary = 2.0 * boundary_a(self.eta);
-        let diffusion: Vec<Rgb> = media
-            .iter()
-            .map(|medium| [0, 1, 2].map(|c| medium.mean_free_path_mm(c) / 3.0))
-            .collect();
+        let diffusion: Vec<Rgb> =
+            media.iter().map(|medium| [0, 1, 2].map(|c| medium.mean_free_path_mm(c) / 3.0)).collect();
         let pixel_area = self.pitch_mm * self.pitch_mm;
 
         for y in 0..n {
@@ -190,27 +151,16 @@ impl Slab<'_> {
                 let series = |wide: f64, w: f64, next: usize, w_next: f64| {
                     [0, 1, 2].map(|c| wide / (0.5 * w / d[c] + 0.5 * w_next / diffusion[next][c]))
                 };
-                let to_x = if x + 1 < n {
-                    series(wy, wx, column + 1, lateral.width(x + 1))
-                } else {
-                    [0.0; 3]
-                };
-                let to_y = if y + 1 < n {
-                    series(wx, wy, column + n, lateral.width(y + 1))
-                } else {
-                    [0.0; 3]
-                };
+                let to_x = if x + 1 < n { series(wy, wx, column + 1, lateral.width(x + 1)) } else { [0.0; 3] };
+                let to_y = if y + 1 < n { series(wx, wy, column + n, lateral.width(y + 1)) } else { [0.0; 3] };
                 let lit = lateral.pixel[x] == 0 && lateral.pixel[y] == 0;
                 let medium = &media[column];
                 for z in 0..=bottom {
                     let i = system.index(z, x, y);
                     let dz = depth.width(z);
                     for c in 0..3 {
-                        system.g[0][i][c] = if z < bottom {
-                            area * d[c] / (0.5 * (dz + depth.width(z + 1)))
-                        } else {
-                            0.0
-                        };
+                        system.g[0][i][c] =
+                            if z < bottom { area * d[c] / (0.5 * (dz + depth.width(z + 1))) } else { 0.0 };
                         system.g[1][i][c] = to_x[c] * dz;
                         system.g[2][i][c] = to_y[c] * dz;
                         let faces = f64::from(u8::from(z == 0) + u8::from(z == bottom));
@@ -220,8 +170,7 @@ impl Slab<'_> {
                             // ∫ σ_s' exp(−σ_t' z) dz over the cell, of a beam of one watt over the pixel.
                             let sigma_t = medium.sigma_s[c] + medium.sigma_a[c];
                             let beam = |z: usize| (-sigma_t * depth.edges[z]).exp();
-                            medium.sigma_s[c] / sigma_t * (beam(z) - beam(z + 1)) * area
-                                / pixel_area
+                            medium.sigma_s[c] / sigma_t * (beam(z) - beam(z + 1)) * area / pixel_area
                         } else {
                             0.0
                         };
@@ -261,8 +210,7 @@ impl Slab<'_> {
                     outside += power.iter().sum::<f64>();
                     continue;
                 }
-                let [dx, dy] =
-                    step.map(|step| usize::try_from(step + radius).expect("step ≥ −radius"));
+                let [dx, dy] = step.map(|step| usize::try_from(step + radius).expect("step ≥ −radius"));
                 for c in 0..3 {
                     sums[dx + dy * d][c] += power[c];
                 }
@@ -272,8 +220,7 @@ impl Slab<'_> {
         let pixel_area = self.pitch_mm * self.pitch_mm;
         for (k, sum) in sums.iter().enumerate() {
             let step = [k % d, k / d].map(|k| i32::try_from(k).expect("k < D") - radius);
-            let inside =
-                crate::capture::neighbour(self.addressing, self.map.size, from, step).is_some();
+            let inside = crate::capture::neighbour(self.addressing, self.map.size, from, step).is_some();
             for c in 0..3 {
                 #[allow(clippy::cast_possible_truncation, reason = "captures are f32")]
                 let rd = (sum[c] / pixel_area) as f32;

@@ -75,9 +75,7 @@ impl System {
     /// the preconditioner defines. Uses up `g`, `loss` and `q`. Returns the iterations taken.
     pub(super) fn solve(&mut self, tolerance: f64) -> usize {
         self.factorise();
-        let limit = self
-            .scale_system()
-            .map(|source| source * tolerance * tolerance);
+        let limit = self.scale_system().map(|source| source * tolerance * tolerance);
         // q holds r̂ = L⁻¹ E^½ (q − A φ), phi holds φ̂ = Lᵀ E^−½ φ.
         self.direction.copy_from_slice(&self.q);
         let mut norm = dot(&self.q, &self.q);
@@ -105,10 +103,7 @@ impl System {
             iteration += 1;
         }
         // φ = E^½ L⁻ᵀ φ̂.
-        let unscaled = Triangle {
-            stride: self.stride,
-            g: &self.g,
-        };
+        let unscaled = Triangle { stride: self.stride, g: &self.g };
         for i in (self.pad..self.pad + self.cells).rev() {
             let later = unscaled.later(&self.phi, i);
             for c in 0..3 {
@@ -134,15 +129,10 @@ impl System {
                 let diagonal = self.loss[i][c] + gz[i][c] + az + gx[i][c] + ax + gy[i][c] + ay;
                 let [ez, ex, ey] = [z, x, y].map(|j| self.scale[j][c] * self.scale[j][c]);
                 let squares = az * az * ez + ax * ax * ex + ay * ay * ey;
-                let fill = az * (gx[z][c] + gy[z][c]) * ez
-                    + ax * (gz[x][c] + gy[x][c]) * ex
-                    + ay * (gz[y][c] + gx[y][c]) * ey;
+                let fill =
+                    az * (gx[z][c] + gy[z][c]) * ez + ax * (gz[x][c] + gy[x][c]) * ex + ay * (gz[y][c] + gx[y][c]) * ey;
                 let pivot = diagonal - squares - TAU * fill;
-                let pivot = if pivot < SAFETY * diagonal {
-                    diagonal
-                } else {
-                    pivot
-                };
+                let pivot = if pivot < SAFETY * diagonal { diagonal } else { pivot };
                 self.scale[i][c] = 1.0 / pivot.sqrt();
                 self.excess[i][c] = diagonal;
             }
@@ -159,10 +149,7 @@ impl System {
                 }
             }
         }
-        let triangle = Triangle {
-            stride: self.stride,
-            g: &self.g,
-        };
+        let triangle = Triangle { stride: self.stride, g: &self.g };
         for i in cells.clone() {
             for c in 0..3 {
                 let scale = self.scale[i][c];
@@ -212,15 +199,8 @@ impl System {
         for start in columns.clone().rev() {
             let (here, behind) = self.upper.split_at_mut(start + depth);
             let here = &mut here[start..];
-            let (ux, uy) = (
-                &behind[sx - depth..][..depth],
-                &behind[sy - depth..][..depth],
-            );
-            let (gz, gx, gy) = (
-                &gz[start..][..depth],
-                &gx[start..][..depth],
-                &gy[start..][..depth],
-            );
+            let (ux, uy) = (&behind[sx - depth..][..depth], &behind[sy - depth..][..depth]);
+            let (gz, gx, gy) = (&gz[start..][..depth], &gx[start..][..depth], &gy[start..][..depth]);
             let direction = &self.direction[start..][..depth];
             let mut u = [0.0; 3];
             for z in (0..depth).rev() {
@@ -235,16 +215,10 @@ impl System {
         for start in columns.clone() {
             let (before, here) = self.image.split_at_mut(start);
             let here = &mut here[..depth];
-            let (wx, wy) = (
-                &before[start - sx..][..depth],
-                &before[start - sy..][..depth],
-            );
+            let (wx, wy) = (&before[start - sx..][..depth], &before[start - sy..][..depth]);
             let (gx, gy) = (&gx[start - sx..][..depth], &gy[start - sy..][..depth]);
             let gz = &gz[start - 1..][..depth];
-            let (direction, excess) = (
-                &self.direction[start..][..depth],
-                &self.excess[start..][..depth],
-            );
+            let (direction, excess) = (&self.direction[start..][..depth], &self.excess[start..][..depth]);
             let upper = &self.upper[start..][..depth];
             let mut w = [0.0; 3];
             for z in 0..depth {

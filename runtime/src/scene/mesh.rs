@@ -41,62 +41,29 @@ impl Mesh {
         if !(mm_per_unit.is_finite() && mm_per_unit > 0.0) {
             return wrong(format!("a scale of {mm_per_unit} mm per unit"));
         }
-        if let Some(index) = triangles
-            .iter()
-            .flatten()
-            .find(|&&index| index as usize >= positions.len())
-        {
-            return wrong(format!(
-                "a triangle names vertex {index}, but there are {}",
-                positions.len()
-            ));
+        if let Some(index) = triangles.iter().flatten().find(|&&index| index as usize >= positions.len()) {
+            return wrong(format!("a triangle names vertex {index}, but there are {}", positions.len()));
         }
         if let Some(at) = positions.iter().position(|position| !position.is_finite()) {
             return wrong(format!("vertex {at} is at {}", positions[at]));
         }
-        if uvs
-            .as_ref()
-            .is_some_and(|uvs| uvs.len() != positions.len() || uvs.iter().any(|uv| !uv.is_finite()))
-        {
-            return wrong(
-                "texture coordinates that are not finite, or not one for each vertex".to_owned(),
-            );
+        if uvs.as_ref().is_some_and(|uvs| uvs.len() != positions.len() || uvs.iter().any(|uv| !uv.is_finite())) {
+            return wrong("texture coordinates that are not finite, or not one for each vertex".to_owned());
         }
         for position in &mut positions {
             *position *= mm_per_unit;
         }
-        let given =
-            normals.len() == positions.len() && normals.iter().all(|normal| normal.is_finite());
-        let normals = if given {
-            normals
-        } else {
-            smooth_normals(&positions, &triangles)
-        };
-        let normals = normals
-            .into_iter()
-            .map(|normal| normal.try_normalize().unwrap_or(Vec3::Y))
-            .collect();
-        Ok(Self {
-            positions,
-            normals,
-            uvs,
-            triangles,
-        })
+        let given = normals.len() == positions.len() && normals.iter().all(|normal| normal.is_finite());
+        let normals = if given { normals } else { smooth_normals(&positions, &triangles) };
+        let normals = normals.into_iter().map(|normal| normal.try_normalize().unwrap_or(Vec3::Y)).collect();
+        Ok(Self { positions, normals, uvs, triangles })
     }
 
     /// Lowest and highest corner of the box around all vertices.
     #[must_use]
     pub fn bounds(&self) -> [Vec3; 2] {
-        let low = self
-            .positions
-            .iter()
-            .copied()
-            .fold(Vec3::INFINITY, Vec3::min);
-        let high = self
-            .positions
-            .iter()
-            .copied()
-            .fold(Vec3::NEG_INFINITY, Vec3::max);
+        let low = self.positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+        let high = self.positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
         [low, high]
     }
 
@@ -110,8 +77,7 @@ impl Mesh {
             for triangle in std::mem::take(&mut self.triangles) {
                 let middle = [0, 1, 2].map(|k| {
                     let edge = [triangle[k], triangle[(k + 1) % 3]];
-                    self.is_long(edge, longest_mm)
-                        .then(|| self.middle(edge, &mut middles))
+                    self.is_long(edge, longest_mm).then(|| self.middle(edge, &mut middles))
                 });
                 split(triangle, middle, &mut triangles);
             }
@@ -130,16 +96,13 @@ impl Mesh {
     fn middle(&mut self, [a, b]: [u32; 2], middles: &mut HashMap<[u32; 2], u32>) -> u32 {
         *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
             let (a, b) = (a as usize, b as usize);
-            self.positions
-                .push(0.5 * (self.positions[a] + self.positions[b]));
+            self.positions.push(0.5 * (self.positions[a] + self.positions[b]));
             let normal = self.normals[a] + self.normals[b];
-            self.normals
-                .push(normal.try_normalize().unwrap_or(self.normals[a]));
+            self.normals.push(normal.try_normalize().unwrap_or(self.normals[a]));
             if let Some(uvs) = &mut self.uvs {
                 uvs.push(0.5 * (uvs[a] + uvs[b]));
             }
-            u32::try_from(self.positions.len() - 1)
-                .expect("subdivision stops long before 2³² vertices")
+            u32::try_from(self.positions.len() - 1).expect("subdivision stops long before 2³² vertices")
         })
     }
 }
@@ -154,9 +117,7 @@ fn split([a, b, c]: [u32; 3], middle: [Option<u32>; 3], out: &mut Vec<[u32; 3]>)
         [Some(ab), Some(bc), None] => out.extend([[a, ab, c], [ab, bc, c], [ab, b, bc]]),
         [None, Some(bc), Some(ca)] => out.extend([[a, b, ca], [b, bc, ca], [bc, c, ca]]),
         [Some(ab), None, Some(ca)] => out.extend([[a, ab, ca], [ab, b, ca], [b, c, ca]]),
-        [Some(ab), Some(bc), Some(ca)] => {
-            out.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]])
-        }
+        [Some(ab), Some(bc), Some(ca)] => out.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]),
     }
 }
 
@@ -178,16 +139,8 @@ mod tests {
     use super::*;
 
     fn square(side: f32) -> Mesh {
-        let positions = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
-            .map(|[x, y]| Vec3::new(x, y, 0.0) * side);
-        Mesh::new(
-            positions.to_vec(),
-            Vec::new(),
-            None,
-            vec![[0, 1, 2], [0, 2, 3]],
-            1.0,
-        )
-        .unwrap()
+        let positions = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.0) * side);
+        Mesh::new(positions.to_vec(), Vec::new(), None, vec![[0, 1, 2], [0, 2, 3]], 1.0).unwrap()
     }
 
     #[test]
@@ -199,10 +152,7 @@ mod tests {
                 let [a, b, c] = triangle.map(|k| mesh.positions[k as usize]);
                 area += 0.5 * (b - a).cross(c - a).z;
                 let edges = [a.distance(b), b.distance(c), c.distance(a)];
-                assert!(
-                    edges.iter().all(|edge| *edge <= longest),
-                    "{edges:?} > {longest}"
-                );
+                assert!(edges.iter().all(|edge| *edge <= longest), "{edges:?} > {longest}");
             }
             assert!((area - 4.0).abs() < 1e-4, "{area}");
         }
@@ -214,13 +164,7 @@ mod tests {
         let new = |positions, triangles| Mesh::new(positions, Vec::new(), None, triangles, 1.0);
         assert!(new(corner(), vec![]).is_err(), "no triangles");
         assert!(new(corner(), vec![[0, 1, 3]]).is_err(), "an index outside");
-        assert!(
-            new(vec![Vec3::NAN; 3], vec![[0, 1, 2]]).is_err(),
-            "no number"
-        );
-        assert_eq!(
-            new(corner(), vec![[0, 1, 2]]).unwrap().normals,
-            [Vec3::Z; 3]
-        );
+        assert!(new(vec![Vec3::NAN; 3], vec![[0, 1, 2]]).is_err(), "no number");
+        assert_eq!(new(corner(), vec![[0, 1, 2]]).unwrap().normals, [Vec3::Z; 3]);
     }
 }

@@ -47,16 +47,12 @@ impl Surface {
         let cell_mm = (0.5 * header.r_max_mm).max(extent / MAX_CELLS);
         let cells = ((high - low) / cell_mm).floor().as_uvec3() + 1;
         let cell_of = |position: Vec3| {
-            let cell = ((position - low) / cell_mm)
-                .floor()
-                .as_uvec3()
-                .min(cells - 1);
+            let cell = ((position - low) / cell_mm).floor().as_uvec3().min(cells - 1);
             (cell.z * cells.y + cell.y) * cells.x + cell.x
         };
 
         // Points by cell, and within a cell in the order of the mesh.
-        let vertices =
-            u32::try_from(mesh.positions.len()).expect("meshes have fewer than 2³² vertices");
+        let vertices = u32::try_from(mesh.positions.len()).expect("meshes have fewer than 2³² vertices");
         let mut order: Vec<u32> = (0..vertices).collect();
         order.sort_by_key(|&vertex| cell_of(mesh.positions[vertex as usize]));
         let mut cell_starts = vec![0_u32; (cells.x * cells.y * cells.z) as usize + 1];
@@ -74,21 +70,10 @@ impl Surface {
         let areas = vertex_areas(mesh);
         let by_point = || order.iter().map(|&vertex| vertex as usize);
         Self {
-            grid: uniform::Surface {
-                origin_mm: low.into(),
-                cell_mm,
-                cells: cells.into(),
-                points: vertices,
-            },
-            positions: by_point()
-                .map(|v| mesh.positions[v].extend(areas[v]))
-                .collect(),
-            normals: by_point()
-                .map(|v| mesh.normals[v].extend(visibility[v]))
-                .collect(),
-            pixels: by_point()
-                .map(|v| pixel_of(mesh, v, mapping, header))
-                .collect(),
+            grid: uniform::Surface { origin_mm: low.into(), cell_mm, cells: cells.into(), points: vertices },
+            positions: by_point().map(|v| mesh.positions[v].extend(areas[v])).collect(),
+            normals: by_point().map(|v| mesh.normals[v].extend(visibility[v])).collect(),
+            pixels: by_point().map(|v| pixel_of(mesh, v, mapping, header)).collect(),
             cell_starts,
             point_of,
         }
@@ -121,12 +106,7 @@ impl Surface {
     /// The points as the CPU twin of the pass takes them.
     #[must_use]
     pub fn points(&self) -> Points<'_> {
-        Points {
-            surface: self.grid,
-            positions: &self.positions,
-            pixels: &self.pixels,
-            cell_starts: &self.cell_starts,
-        }
+        Points { surface: self.grid, positions: &self.positions, pixels: &self.pixels, cell_starts: &self.cell_starts }
     }
 
     /// Cells of the grid in x, y and z.
@@ -174,13 +154,7 @@ fn pixel_of(mesh: &Mesh, vertex: usize, mapping: Mapping, header: &Header) -> [u
         Addressing::Clamp => Addressing::Mirror,
         other => other,
     };
-    #[allow(
-        clippy::cast_possible_truncation,
-        reason = "saturates; meshes are not billions of pixels large"
-    )]
-    let pixel = [
-        (at.x.floor() as i32, header.width),
-        (at.y.floor() as i32, header.height),
-    ];
+    #[allow(clippy::cast_possible_truncation, reason = "saturates; meshes are not billions of pixels large")]
+    let pixel = [(at.x.floor() as i32, header.width), (at.y.floor() as i32, header.height)];
     pixel.map(|(x, n)| u16::try_from(addressing.map(x, n)).unwrap_or(0))
 }

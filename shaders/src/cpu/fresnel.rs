@@ -29,30 +29,14 @@ mod tests {
     #[test]
     fn known_values() {
         // ((η − 1)/(η + 1))² = 0.04 is reflected at normal incidence, everything at grazing incidence.
-        assert!(
-            (fresnel_transmittance(1.0, 1.5) - 0.96).abs() < 1e-6,
-            "normal incidence"
-        );
-        assert!(
-            fresnel_transmittance(0.0, 1.5).abs() < 1e-6,
-            "grazing incidence"
-        );
-        assert!(
-            (fresnel_transmittance(0.3, 1.0) - 1.0).abs() < 1e-6,
-            "no boundary"
-        );
+        assert!((fresnel_transmittance(1.0, 1.5) - 0.96).abs() < 1e-6, "normal incidence");
+        assert!(fresnel_transmittance(0.0, 1.5).abs() < 1e-6, "grazing incidence");
+        assert!((fresnel_transmittance(0.3, 1.0) - 1.0).abs() < 1e-6, "no boundary");
         // Brewster's angle: only perpendicular light is reflected, ((η² − 1)/(η² + 1))² of it.
         let brewster = 1.5_f32.atan().cos();
         let expected = 1.0 - 0.5 * (1.25_f32 / 3.25).powi(2);
-        assert!(
-            (fresnel_transmittance(brewster, 1.5) - expected).abs() < 1e-6,
-            "Brewster"
-        );
+        assert!((fresnel_transmittance(brewster, 1.5) - expected).abs() < 1e-6, "Brewster");
         // Walsh (1926): F_dr of η = 1.5 from outside is 0.0918.
-        assert!(
-            (diffuse_transmittance(1.5) - (1.0 - 0.0918)).abs() < 2e-4,
-            "{}",
-            diffuse_transmittance(1.5)
-        );
+        assert!((diffuse_transmittance(1.5) - (1.0 - 0.0918)).abs() < 2e-4, "{}", diffuse_transmittance(1.5));
     }
 }

@@ -31,12 +31,7 @@ impl Reflectance for Bssrdf<'_> {
 /// # Panics
 /// If `irradiance` is shorter than the patch.
 #[must_use]
-pub fn gather(
-    material: &dyn Reflectance,
-    irradiance: &[Rgb],
-    origin: [u32; 2],
-    size: [u32; 2],
-) -> Vec<Rgb> {
+pub fn gather(material: &dyn Reflectance, irradiance: &[Rgb], origin: [u32; 2], size: [u32; 2]) -> Vec<Rgb> {
     let header = material.header();
     let radius = i32::from(header.window_radius);
     let area = header.pitch_mm * header.pitch_mm;

@@ -8,8 +8,7 @@ use super::{Rgb, display, neutral, srgb};
 /// If `exitance` has fewer than `texels` entries.
 #[must_use]
 pub fn present(exitance: &[Rgb], texels: [u32; 2], size: [u32; 2], exposure: f32) -> Vec<[u8; 3]> {
-    let texel =
-        |at: u32, axis: usize| (at * texels[axis] / size[axis]).min(texels[axis] - 1) as usize;
+    let texel = |at: u32, axis: usize| (at * texels[axis] / size[axis]).min(texels[axis] - 1) as usize;
     let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
     pixels
         .map(|(x, y)| {

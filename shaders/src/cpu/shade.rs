@@ -23,25 +23,13 @@ pub struct Triangles<'a> {
 /// # Panics
 /// If an index leads outside the vertices.
 #[must_use]
-pub fn shade(
-    mesh: &Triangles<'_>,
-    camera: &Camera,
-    size: [u32; 2],
-    background: [u8; 3],
-) -> Vec<[u8; 3]> {
+pub fn shade(mesh: &Triangles<'_>, camera: &Camera, size: [u32; 2], background: [u8; 3]) -> Vec<[u8; 3]> {
     let [width, height] = size.map(|n| n as usize);
     let mut picture = vec![background; width * height];
     let mut depth = vec![1.0_f32; width * height];
     let clip_from_world = Mat4::from_cols_array_2d(&camera.clip_from_world);
-    let clip: Vec<Vec4> = mesh
-        .positions
-        .iter()
-        .map(|p| clip_from_world * p.extend(1.0))
-        .collect();
-    #[allow(
-        clippy::cast_precision_loss,
-        reason = "pictures are a few thousand pixels wide"
-    )]
+    let clip: Vec<Vec4> = mesh.positions.iter().map(|p| clip_from_world * p.extend(1.0)).collect();
+    #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
     let half = Vec2::new(width as f32, height as f32) * 0.5;
     // Pixels, y down.
     let screen = |v: Vec4| (v.xy() / v.w * Vec2::new(1.0, -1.0) + 1.0) * half;
@@ -60,21 +48,14 @@ pub fn shade(
         }
         let low = a.min(b).min(c).max(Vec2::ZERO);
         let high = a.max(b).max(c).min(2.0 * half - 1.0);
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "clamped to the picture"
-        )]
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the picture")]
         let range = |low: f32, high: f32| low.floor() as usize..=high.ceil().max(0.0) as usize;
         for y in range(low.y, high.y) {
             for x in range(low.x, high.x) {
                 if x >= width || y >= height {
                     continue;
                 }
-                #[allow(
-                    clippy::cast_precision_loss,
-                    reason = "pictures are a few thousand pixels wide"
-                )]
+                #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
                 let centre = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
                 let weights = [
                     (c - b).perp_dot(centre - b) / area,
@@ -95,15 +76,12 @@ pub fn shade(
                 let sum: f32 = perspective.iter().sum();
                 perspective = perspective.map(|w| w / sum);
                 let blend = |values: &[Vec3]| -> Vec3 {
-                    (0..3)
-                        .map(|k| values[corners[k]] * perspective[k])
-                        .fold(Vec3::ZERO, |sum, v| sum + v)
+                    (0..3).map(|k| values[corners[k]] * perspective[k]).fold(Vec3::ZERO, |sum, v| sum + v)
                 };
                 let exitance: Vec3 = (0..3)
                     .map(|k| Vec3::from(mesh.exitances[corners[k]]) * perspective[k])
                     .fold(Vec3::ZERO, |sum, v| sum + v);
-                picture[at] =
-                    radiance(camera, blend(mesh.positions), blend(mesh.normals), exitance);
+                picture[at] = radiance(camera, blend(mesh.positions), blend(mesh.normals), exitance);
             }
         }
     }

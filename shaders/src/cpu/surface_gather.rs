@@ -45,10 +45,7 @@ pub fn surface_gather(material: &Bssrdf<'_>, points: &Points<'_>, irradiance: &[
     let exitance = |point: usize| {
         let x_o = points.positions[point].xyz();
         let p_o = profile(point);
-        let (low, high) = (
-            points.cell_of(x_o - r_max_mm),
-            points.cell_of(x_o + r_max_mm),
-        );
+        let (low, high) = (points.cell_of(x_o - r_max_mm), points.cell_of(x_o + r_max_mm));
         let mut sum = [0.0; 3];
         for z in low.z..=high.z {
             for y in low.y..=high.y {
@@ -68,8 +65,5 @@ pub fn surface_gather(material: &Bssrdf<'_>, points: &Points<'_>, irradiance: &[
         }
         sum
     };
-    (0..points.surface.points as usize)
-        .into_par_iter()
-        .map(exitance)
-        .collect()
+    (0..points.surface.points as usize).into_par_iter().map(exitance).collect()
 }

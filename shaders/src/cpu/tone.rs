@@ -10,11 +10,7 @@ pub fn neutral(light: Rgb) -> Rgb {
     const START: f32 = 0.8 - 0.04;
     let light = Vec3::from(light);
     let least = light.min_element();
-    let offset = if least < 0.08 {
-        least - 6.25 * least * least
-    } else {
-        0.04
-    };
+    let offset = if least < 0.08 { least - 6.25 * least * least } else { 0.04 };
     let colour = light - offset;
     let peak = colour.max_element();
     if peak < START {
@@ -23,9 +19,7 @@ pub fn neutral(light: Rgb) -> Rgb {
     let span = 1.0 - START;
     let new_peak = 1.0 - span * span / (peak + span - START);
     let grey = 1.0 - 1.0 / (0.15 * (peak - new_peak) + 1.0);
-    (colour * new_peak / peak)
-        .lerp(Vec3::splat(new_peak), grey)
-        .into()
+    (colour * new_peak / peak).lerp(Vec3::splat(new_peak), grey).into()
 }
 
 /// IEC 61966-2-1, clamped to 0 .. 1.
@@ -33,21 +27,13 @@ pub fn neutral(light: Rgb) -> Rgb {
 pub fn srgb(linear: Rgb) -> Rgb {
     linear.map(|c| {
         let c = c.clamp(0.0, 1.0);
-        if c <= 0.003_130_8 {
-            12.92 * c
-        } else {
-            1.055 * c.powf(1.0 / 2.4) - 0.055
-        }
+        if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }
     })
 }
 
 /// The byte that a display gets for a tone-mapped, encoded value.
 #[must_use]
 pub fn display(encoded: Rgb) -> [u8; 3] {
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 to 255 after the clamp"
-    )]
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255 after the clamp")]
     encoded.map(|c| (c.clamp(0.0, 1.0) * 255.0).round() as u8)
 }

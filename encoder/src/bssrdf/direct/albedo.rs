@@ -27,10 +27,7 @@ pub(super) struct Constraint {
 
 impl Albedo {
     pub(super) fn new(normal: &Normal, profiles: &Field) -> Self {
-        let mut roots = Field::new(Geometry {
-            nodes: normal.rings.len(),
-            ..normal.geometry
-        });
+        let mut roots = Field::new(Geometry { nodes: normal.rings.len(), ..normal.geometry });
         let rows: Vec<Vec<Lanes>> = (0..normal.geometry.pixels())
             .into_par_iter()
             .map(|pixel| square_roots(normal, profiles.at(pixel)))
@@ -54,12 +51,7 @@ impl Albedo {
 
     /// With Rd_j = f_x f_j at ring r and weights a(r): ε = Σ_j Rd_j / ρ − 1 has the derivative Σ_j ½ Rd_j a / ρ, ρ being
     /// what the capture says. No constraint where the capture says nothing.
-    pub(super) fn constraint(
-        &self,
-        normal: &Normal,
-        profile: &[Lanes],
-        pixel: usize,
-    ) -> Constraint {
+    pub(super) fn constraint(&self, normal: &Normal, profile: &[Lanes], pixel: usize) -> Constraint {
         let mut sums = vec![ZERO; normal.rings.len()];
         normal.ring_sums(&self.roots, &self.deltas, pixel, &mut sums);
         let mut k = vec![ZERO; profile.len()];
@@ -88,17 +80,7 @@ impl Albedo {
 
 fn square_roots(normal: &Normal, profile: &[Lanes]) -> Vec<Lanes> {
     let log = |h: usize, c: usize| profile[h][c] + normal.mean[h][c];
-    let root =
-        |h: usize, w: f32, c: usize| (0.5 * ((1.0 - w) * log(h, c) + w * log(h + 1, c))).exp();
+    let root = |h: usize, w: f32, c: usize| (0.5 * ((1.0 - w) * log(h, c) + w * log(h + 1, c))).exp();
     let rings = normal.rings.iter();
-    rings
-        .map(|ring| {
-            [
-                root(ring.h, ring.w, 0),
-                root(ring.h, ring.w, 1),
-                root(ring.h, ring.w, 2),
-                0.0,
-            ]
-        })
-        .collect()
+    rings.map(|ring| [root(ring.h, ring.w, 0), root(ring.h, ring.w, 1), root(ring.h, ring.w, 2), 0.0]).collect()
 }

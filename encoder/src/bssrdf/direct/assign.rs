@@ -22,20 +22,13 @@ const ALBEDO_WEIGHT: f32 = 1e4;
 
 /// Improves every pixel once, Gauss-Seidel fashion: each sees the latest profiles of all but its own colour. With
 /// `albedo` the error of the pixel's albedo counts too.
-pub(super) fn search(
-    normal: &Normal,
-    model: &mut Model,
-    field: &mut Field,
-    mut albedo: Option<&mut Albedo>,
-) {
+pub(super) fn search(normal: &Normal, model: &mut Model, field: &mut Field, mut albedo: Option<&mut Albedo>) {
     let deltas = normal.deltas(field);
     let tables: Vec<Option<Curvatures>> = normal
         .matrices
         .par_iter()
         .zip(normal.matrix_users())
-        .map(|(matrix, users)| {
-            (users >= SHARED).then(|| Curvatures::new(&matrix.curvature(), model))
-        })
+        .map(|(matrix, users)| (users >= SHARED).then(|| Curvatures::new(&matrix.curvature(), model)))
         .collect();
 
     let [width, height] = normal.geometry.size;
@@ -75,31 +68,18 @@ pub(super) fn search(
 }
 
 /// u_b = Σ_c P̂_bᵀ d of every base, with d = b_i − Σ_{j≠i} φ n a aᵀ p_j: half the slope of the pixel's cost along P̂_b.
-fn slopes(
-    normal: &Normal,
-    model: &Model,
-    field: &Field,
-    deltas: &[isize],
-    pixel: usize,
-) -> Vec<f32> {
+fn slopes(normal: &Normal, model: &Model, field: &Field, deltas: &[isize], pixel: usize) -> Vec<f32> {
     let mut d = vec![ZERO; model.nodes];
     normal.cross(field, deltas, pixel, &mut d);
     // The sum has the pixel's own old profile in it; take that out again.
     let mut own = vec![ZERO; model.nodes];
-    normal
-        .matrix(pixel)
-        .own
-        .multiply_add(field.at(pixel), &mut own);
+    normal.matrix(pixel).own.multiply_add(field.at(pixel), &mut own);
     for ((d, own), b) in d.iter_mut().zip(&own).zip(normal.b(pixel)) {
         for c in 0..4 {
             d[c] = b[c] - (d[c] - own[c]);
         }
     }
-    model
-        .bases
-        .chunks(model.nodes)
-        .map(|base| product(base, &d))
-        .collect()
+    model.bases.chunks(model.nodes).map(|base| product(base, &d)).collect()
 }
 
 /// Σ_h Σ_c p q.
@@ -136,11 +116,7 @@ impl Curvatures {
                 image
             })
             .collect();
-        let pure: Vec<f32> = bases
-            .iter()
-            .zip(&images)
-            .map(|(base, image)| product(base, image))
-            .collect();
+        let pure: Vec<f32> = bases.iter().zip(&images).map(|(base, image)| product(base, image)).collect();
         let mut e = Vec::with_capacity(bases.len() * bases.len() / 2);
         for b in 0..bases.len() {
             for other in 0..b {
@@ -153,31 +129,20 @@ impl Curvatures {
 
     /// The best pair and ratio for slopes `u`; of equals the first.
     fn best(&self, u: &[f32], tilt: Option<&Tilt>) -> Mixture {
-        let mut cost: Vec<f32> = self
-            .pure
-            .iter()
-            .zip(u)
-            .map(|(pure, u)| pure - 2.0 * u)
-            .collect();
+        let mut cost: Vec<f32> = self.pure.iter().zip(u).map(|(pure, u)| pure - 2.0 * u).collect();
         if let Some(tilt) = tilt {
             for (cost, tilt) in cost.iter_mut().zip(&tilt.pure) {
                 *cost += tilt;
             }
         }
-        let mut best = Mixture {
-            base: [0, 0],
-            t: 1.0,
-        };
+        let mut best = Mixture { base: [0, 0], t: 1.0 };
         let mut lowest = f32::INFINITY;
         let mut rows = &self.e[..];
         let mut tilted = Vec::with_capacity(cost.len());
         for (b, &at_b) in cost.iter().enumerate() {
             if at_b < lowest {
                 lowest = at_b;
-                best = Mixture {
-                    base: [b, b],
-                    t: 1.0,
-                };
+                best = Mixture { base: [b, b], t: 1.0 };
             }
             let (row, rest) = rows.split_at(b);
             rows = rest;
@@ -192,13 +157,8 @@ impl Curvatures {
             if lowest_here < lowest {
                 lowest = lowest_here;
                 let found = (0..b).map(|other| (other, minimum(cost[other], at_b, row[other])));
-                if let Some((other, (_, t))) =
-                    found.into_iter().find(|(_, found)| found.0 == lowest)
-                {
-                    best = Mixture {
-                        base: [b, other],
-                        t,
-                    };
+                if let Some((other, (_, t))) = found.into_iter().find(|(_, found)| found.0 == lowest) {
+                    best = Mixture { base: [b, other], t };
                 }
             }
         }
@@ -218,26 +178,14 @@ impl Tilt {
     fn new(constraint: &Constraint, model: &Model) -> Self {
         let root = ALBEDO_WEIGHT.sqrt();
         let kappa = [0, 1, 2].map(|c| {
-            let along = |base: &[Lanes]| {
-                base.iter()
-                    .zip(&constraint.k)
-                    .map(|(p, k)| p[c] * k[c])
-                    .sum::<f32>()
-            };
-            model
-                .bases
-                .chunks(model.nodes)
-                .map(|base| root * along(base))
-                .collect::<Vec<f32>>()
+            let along = |base: &[Lanes]| base.iter().zip(&constraint.k).map(|(p, k)| p[c] * k[c]).sum::<f32>();
+            model.bases.chunks(model.nodes).map(|base| root * along(base)).collect::<Vec<f32>>()
         });
         let pure = (0..kappa[0].len()).map(|b| {
             let term = |c: usize| kappa[c][b] * (kappa[c][b] - 2.0 * root * constraint.tau[c]);
             term(0) + term(1) + term(2)
         });
-        Self {
-            pure: pure.collect(),
-            kappa,
-        }
+        Self { pure: pure.collect(), kappa }
     }
 
     /// e of base `b` with all before it, tilt included: w Σ_c (k·(P̂_b − P̂_b'))² more.
@@ -264,10 +212,7 @@ fn lowest_of_row(cost: &[f32], at_b: f32, e: &[f32]) -> f32 {
             lowest[k] = lowest[k].min(minimum(cost[k], at_b, e[k]).0);
         }
     }
-    let rest = cost_rest
-        .iter()
-        .zip(e_rest)
-        .map(|(&cost, &e)| minimum(cost, at_b, e).0);
+    let rest = cost_rest.iter().zip(e_rest).map(|(&cost, &e)| minimum(cost, at_b, e).0);
     lowest.into_iter().chain(rest).fold(f32::INFINITY, f32::min)
 }
 

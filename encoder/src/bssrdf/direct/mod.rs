@@ -44,19 +44,8 @@ pub(super) struct Model {
 impl Model {
     /// Every pixel is its cluster.
     pub(super) fn of_clusters(clusters: Clusters, nodes: usize) -> Self {
-        let mixtures = clusters
-            .cluster_of
-            .iter()
-            .map(|&cluster| Mixture {
-                base: [cluster; 2],
-                t: 1.0,
-            })
-            .collect();
-        Self {
-            nodes,
-            bases: clusters.centres,
-            mixtures,
-        }
+        let mixtures = clusters.cluster_of.iter().map(|&cluster| Mixture { base: [cluster; 2], t: 1.0 }).collect();
+        Self { nodes, bases: clusters.centres, mixtures }
     }
 
     /// Fills up to `count` bases with the mean profile: a capture may have fewer distinct profiles than were asked for.
@@ -70,14 +59,9 @@ impl Model {
 
     /// P̂_x = t P̂_{b₁} + (1 − t) P̂_{b₂} of one pixel (eq. 4).
     fn profile(&self, pixel: usize) -> Vec<Lanes> {
-        let Mixture {
-            base: [first, second],
-            t,
-        } = self.mixtures[pixel];
+        let Mixture { base: [first, second], t } = self.mixtures[pixel];
         let pairs = self.base(first).iter().zip(self.base(second));
-        pairs
-            .map(|(p, q)| [0, 1, 2, 3].map(|c| q[c] + t * (p[c] - q[c])))
-            .collect()
+        pairs.map(|(p, q)| [0, 1, 2, 3].map(|c| q[c] + t * (p[c] - q[c]))).collect()
     }
 
     /// All pixels' profiles.
@@ -88,10 +72,8 @@ impl Model {
     }
 
     fn write_to(&self, field: &mut Field) {
-        let profiles: Vec<Vec<Lanes>> = (0..self.mixtures.len())
-            .into_par_iter()
-            .map(|pixel| self.profile(pixel))
-            .collect();
+        let profiles: Vec<Vec<Lanes>> =
+            (0..self.mixtures.len()).into_par_iter().map(|pixel| self.profile(pixel)).collect();
         for (pixel, profile) in profiles.iter().enumerate() {
             field.set(pixel, profile);
         }

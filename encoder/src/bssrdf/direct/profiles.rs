@@ -22,9 +22,7 @@ pub(super) fn solve(normal: &Normal, model: &mut Model, field: &mut Field) {
     let preconditioners = preconditioners(normal, model);
     let precondition = |residual: &[Lanes]| {
         let mut out = residual.to_vec();
-        out.par_chunks_mut(nodes)
-            .zip(&preconditioners)
-            .for_each(|(base, matrix)| matrix.solve(base));
+        out.par_chunks_mut(nodes).zip(&preconditioners).for_each(|(base, matrix)| matrix.solve(base));
         out
     };
 
@@ -46,16 +44,10 @@ pub(super) fn solve(normal: &Normal, model: &mut Model, field: &mut Field) {
     let mut z = precondition(&residual);
     let mut rho = lanes::dot(&residual, &z);
     // Directions live in a model of their own, which has the same ratios.
-    let mut direction = Model {
-        nodes,
-        bases: z.clone(),
-        mixtures: model.mixtures.clone(),
-    };
+    let mut direction = Model { nodes, bases: z.clone(), mixtures: model.mixtures.clone() };
     for _ in 0..ITERATIONS {
         direction.write_to(field);
-        let mut image = gather(normal, model, |pixel, out| {
-            image_of(normal, field, &deltas, pixel, out)
-        });
+        let mut image = gather(normal, model, |pixel, out| image_of(normal, field, &deltas, pixel, out));
         for (image, smooth) in image.iter_mut().zip(regularised(&direction.bases, nodes)) {
             lanes::add(image, &smooth);
         }

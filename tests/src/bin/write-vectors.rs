@@ -1,0 +1,64 @@
+//! Writes `tests/vectors/` anew: small files of every kind, broken ones, and what reading them must give.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use subsurf_decoder::bssrdf::Addressing;
+use subsurf_decoder::container::crc32;
+use subsurf_encoder::synthetic::Shape;
+use subsurf_tests::{fingerprint, format_example, shape};
+
+fn main() -> std::io::Result<()> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("vectors");
+    let mut results = String::new();
+    let mut write = |name: &str, bytes: &[u8]| -> std::io::Result<()> {
+        std::fs::write(folder.join(name), bytes)?;
+        let found = fingerprint(bytes).map_or("refused".to_owned(), |crc| format!("{crc:08x}"));
+        // Writing to a string cannot fail.
+        let _ = writeln!(results, "{name}: {found}");
+        Ok(())
+    };
+
+    let example = format_example();
+    write("format_example.subsurf", &example)?;
+    let odd = |addressing| shape([7, 5], 3, addressing);
+    write("bmpp_clamp.subsurf", &odd(Addressing::Clamp).bmpp())?;
+    write("bmpp_repeat.subsurf", &odd(Addressing::Repeat).bmpp())?;
+    write("bmpp_mirror.subsurf", &odd(Addressing::Mirror).bmpp())?;
+    write("per_pixel_clamp.subsurf", &odd(Addressing::Clamp).per_pixel())?;
+    let one = Shape { size: [1, 1], radius: 0, samples: 2, base_materials: 1, addressing: Addressing::Clamp };
+    write("one_pixel.subsurf", &one.bmpp())?;
+    let full = Shape { base_materials: 255, ..shape([16, 16], 2, Addressing::Repeat) };
+    write("many_bases.subsurf", &full.bmpp())?;
+
+    // Broken, each in one way.
+    let broken = |at: usize, value: u8| {
+        let mut bytes = example.clone();
+        bytes[at] = value;
+        bytes
+    };
+    write("x_magic.subsurf", &broken(1, b'X'))?;
+    write("x_newer_major.subsurf", &reseal(broken(8, 2)))?;
+    write("x_header_crc.subsurf", &broken(120, example[120] ^ 1))?;
+    write("x_profile_crc.subsurf", &broken(156, example[156] ^ 1))?;
+    write("x_cut.subsurf", &example[..example.len() - 1])?;
+    write("x_model.subsurf", &reseal(broken(124, 9)))?;
+    write("x_index.subsurf", &reseal(broken(213, 2)))?;
+    write("x_ratio.subsurf", &reseal(broken(207, 0x40)))?;
+    write("x_profile_infinite.subsurf", &reseal(broken(159, 0xFF)))?;
+    write("x_overlap.subsurf", &reseal(broken(24 + 24 + 8, 150)))?;
+    std::fs::write(folder.join("results.txt"), results)
+}
+
+/// Makes the CRCs right again, so that only what was changed is wrong.
+fn reseal(mut file: Vec<u8>) -> Vec<u8> {
+    for entry in (0..4).map(|k| 24 + 24 * k) {
+        let at = |offset: usize| usize::from(u16::from_le_bytes([file[offset], file[offset + 1]]));
+        let (offset, length) = (at(entry + 8), at(entry + 16));
+        let crc = crc32(&file[offset..(offset + length).min(file.len())]);
+        file[entry + 4..entry + 8].copy_from_slice(&crc.to_le_bytes());
+    }
+    let crc = crc32(&file[..120]);
+    file[120..124].copy_from_slice(&crc.to_le_bytes());
+    file
+}

@@ -1,0 +1,174 @@
+//! Captures of all kinds through the encoder.
+
+use std::path::{Path, PathBuf};
+
+use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::{Addressing, Model};
+use subsurf_encoder::bssrdf::{Encoded, Method, Options, encode};
+use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
+use subsurf_encoder::metrics::{compare, psnr_db};
+use subsurf_encoder::synthetic::{capture_row, unit};
+use subsurf_tests::{open, shape, write_capture};
+
+const METHODS: [Method; 3] = [Method::Lsp, Method::Clusters, Method::Direct];
+
+/// A capture of what a synthetic 2-BMPP file stands for.
+fn capture_of_bmpp(folder: &Path, size: [u32; 2], radius: u16, addressing: Addressing) -> PathBuf {
+    let file = shape(size, radius, addressing).bmpp();
+    let material = Bssrdf::parse(&file).unwrap();
+    let path = folder.join("bmpp.npy");
+    let sidecar = Sidecar { pitch_mm: 0.5, addressing, eta: 1.4, simulated: None };
+    let writer = CaptureWriter {
+        path: &path,
+        size: size.map(|side| side as usize),
+        radius: radius.into(),
+        scalar: Scalar::F32,
+        sidecar: &sidecar,
+    };
+    writer.write(|sink| (0..size[1]).try_for_each(|y| sink(&capture_row(&material, y)))).unwrap();
+    path
+}
+
+fn fit(path: &Path, method: Method, base_materials: usize) -> Encoded {
+    let options = Options { method, base_materials, ..Options::default() };
+    encode(&open(path), &options, &()).unwrap()
+}
+
+/// Mean relative albedo error, and PSNR under uniform light in dB.
+fn quality(path: &Path, file: &[u8]) -> (f64, f64) {
+    let material = Bssrdf::parse(file).unwrap();
+    let comparison = compare(&open(path), &material, &()).unwrap();
+    let errors = comparison.albedo.relative_errors();
+    let uniform = comparison.lit[0].normalised();
+    (errors.iter().sum::<f64>() / errors.len() as f64, psnr_db(&uniform.reference, &uniform.image))
+}
+
+#[test]
+fn finds_a_model_that_is_there() {
+    // Seven base materials mixed at random pixel by pixel: nothing to lean on but the entries themselves.
+    let folder = tempfile::tempdir().unwrap();
+    for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
+        let path = capture_of_bmpp(folder.path(), [26, 20], 4, addressing);
+        let (lsp, _) = quality(&path, &fit(&path, Method::Lsp, 1).bytes);
+        let (clusters, _) = quality(&path, &fit(&path, Method::Clusters, 24).bytes);
+        let (direct, psnr) = quality(&path, &fit(&path, Method::Direct, 24).bytes);
+        println!("{addressing:?}: LSP {lsp:.5}, clusters {clusters:.5}, direct {direct:.5} and {psnr:.1} dB");
+        assert!(lsp < 0.01, "{addressing:?}: per-pixel profiles can hold it: {lsp}");
+        assert!(direct < 0.25 * clusters, "{addressing:?}: {direct} against {clusters}");
+        assert!(psnr > 40.0, "{addressing:?}: {psnr} dB");
+    }
+}
+
+#[test]
+fn bytes_do_not_depend_on_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let full = capture_of_bmpp(folder.path(), [30, 27], 3, Addressing::Clamp);
+    let holes = with_holes(folder.path(), &full, |_| 0.0);
+    for path in [&full, &holes] {
+        for method in METHODS {
+            let with = |threads| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                pool.install(|| fit(path, method, 12).bytes)
+            };
+            let one = with(1);
+            assert_eq!(one, with(2), "{method:?}");
+            assert_eq!(one, with(8), "{method:?}");
+        }
+    }
+}
+
+/// A copy of a capture in which some entries, and some single channels, are replaced by no measurement.
+fn with_holes(folder: &Path, path: &Path, hole: impl Fn(u32) -> f32) -> PathBuf {
+    let capture = open(path);
+    let mut windows = vec![0.0; capture.pixels() * capture.window_len()];
+    for (pixel, window) in windows.chunks_mut(capture.window_len()).enumerate() {
+        capture.read_window(pixel, window);
+    }
+    let size = [capture.width(), capture.height()];
+    let len = capture.window_len();
+    write_capture(folder, "holes.npy", size, capture.radius(), capture.addressing(), |pixel, place, c| {
+        let n = u32::try_from(pixel * len + place * 3).unwrap();
+        let (entry, channel) = (unit(n) < 0.2, unit(0x5000_0000 + n) < 0.1 && c == 2);
+        // A pixel needs something: its own exitance stays.
+        if (entry || channel) && place != len / 6 { hole(n) } else { windows[pixel * len + place * 3 + c] }
+    })
+}
+
+#[test]
+fn missing_entries_weigh_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let full = capture_of_bmpp(folder.path(), [26, 20], 4, Addressing::Repeat);
+    for method in METHODS {
+        // However a hole is written, it is the same hole.
+        let by_hole = [0.0, -1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY].map(|hole| {
+            let holes = with_holes(folder.path(), &full, |_| hole);
+            fit(&holes, method, 24)
+        });
+        for other in &by_hole[1..] {
+            assert_eq!(by_hole[0].bytes, other.bytes, "{method:?}");
+        }
+        let missing = 1.0 - by_hole[0].measured as f64 / by_hole[0].entries as f64;
+        assert!((0.15..0.3).contains(&missing), "{missing}");
+        // And what is left is enough: judged by the whole capture, the fit is hardly worse.
+        let (whole, _) = quality(&full, &fit(&full, method, 24).bytes);
+        let (holes, _) = quality(&full, &by_hole[0].bytes);
+        println!("{method:?}: relative error {whole:.5}, with {:.0} % missing {holes:.5}", 100.0 * missing);
+        assert!(holes < 1.3 * whole + 0.002, "{method:?}: {holes} against {whole}");
+    }
+}
+
+#[test]
+fn odd_captures_give_sound_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let falling = |place: usize, d: usize| {
+        let (dx, dy) = ((place % d).abs_diff(d / 2), (place / d).abs_diff(d / 2));
+        0.2 * (-((dx * dx + dy * dy) as f32).sqrt()).exp()
+    };
+    for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
+        for (name, size, radius) in [
+            ("one pixel, no window", [1, 1], 0),
+            ("one pixel", [1, 1], 2),
+            ("one row, smaller than the window", [5, 1], 4),
+            ("constant", [9, 8], 2),
+        ] {
+            let path = write_capture(folder.path(), "odd.npy", size, radius, addressing, |_, place, c| {
+                // One colour channel measured nothing at all.
+                if c == 1 { f32::NAN } else { falling(place, 2 * radius + 1) }
+            });
+            for method in METHODS {
+                // More base materials than there are distinct profiles.
+                let encoded = fit(&path, method, 40);
+                let material = Bssrdf::parse(&encoded.bytes).unwrap();
+                let rd = material.rd([0, 0], [0, 0]);
+                assert!((rd[0] - 0.2).abs() < 0.01 && (rd[2] - 0.2).abs() < 0.01, "{name}, {addressing:?}: {rd:?}");
+                if let Model::BaseMaterials(planes) = material.model() {
+                    assert_eq!(planes.profiles.len(), 40 * usize::from(material.header().samples) * 3);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_capture_without_measurements_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = write_capture(folder.path(), "empty.npy", [3, 3], 1, Addressing::Clamp, |pixel, place, _| {
+        // Only an entry that leads out of the material is positive.
+        if pixel == 0 && place == 0 { 1.0 } else { -1.0 }
+    });
+    let error = encode(&open(&path), &Options::default(), &()).unwrap_err().to_string();
+    assert!(error.contains("empty.npy") && error.contains("nothing measured"), "{error}");
+}
+
+#[test]
+fn options_out_of_range_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = capture_of_bmpp(folder.path(), [6, 6], 1, Addressing::Clamp);
+    for options in [
+        Options { base_materials: 0, ..Options::default() },
+        Options { base_materials: 257, ..Options::default() },
+        Options { samples: Some(5_000), ..Options::default() },
+    ] {
+        assert!(encode(&open(&path), &options, &()).is_err(), "{options:?}");
+    }
+}
