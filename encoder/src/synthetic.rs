@@ -88,7 +88,7 @@ impl Shape {
     }
 }
 
-/// The entries of one row of windows that a material stands for, [x][dy][dx][rgb] in mm⁻²; beyond the border of a patch
+/// The entries of one row of windows that a material stands for, `[x][dy][dx][rgb]` in mm⁻²; beyond the border of a patch
 /// that clamps they are NaN.
 #[must_use]
 pub fn capture_row(material: &Bssrdf<'_>, y: u32) -> Vec<f32> {

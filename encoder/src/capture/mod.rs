@@ -17,7 +17,7 @@ pub use write::CaptureWriter;
 
 /// A capture on disk, memory-mapped: a NumPy array of shape (H, W, D, D, 3), D = 2 R + 1.
 ///
-/// Entry [y, x, dy, dx, c] is the diffuse reflectance Rd in mm⁻², linear Rec. 709, from the pixel (x, y), where light
+/// Entry `[y, x, dy, dx, c]` is the diffuse reflectance Rd in mm⁻², linear Rec. 709, from the pixel (x, y), where light
 /// enters, to (x + dx − R, y + dy − R), where it leaves. Entries that are NaN, infinite, zero or negative were not
 /// measured.
 pub struct Capture {
@@ -103,7 +103,7 @@ impl Capture {
         self.array.window_len()
     }
 
-    /// Copies the window of pixel number `pixel`, [dy][dx][rgb] in mm⁻²; what was not measured becomes 0.
+    /// Copies the window of pixel number `pixel`, `[dy][dx][rgb]` in mm⁻²; what was not measured becomes 0.
     ///
     /// # Panics
     /// If `pixel` ≥ N or `out` is shorter than a window.

@@ -27,7 +27,7 @@ pub struct CaptureWriter<'a> {
 
 impl CaptureWriter<'_> {
     /// Writes array and sidecar. `rows` is called once with a sink that takes whole rows of windows in order,
-    /// [x][dy][dx][rgb] in mm⁻², as many at a time as the caller likes.
+    /// `[x][dy][dx][rgb]` in mm⁻², as many at a time as the caller likes.
     ///
     /// # Errors
     /// [`crate::Error::Output`]; a file is there whole or as it was before.

@@ -48,7 +48,7 @@ const MARGIN: f64 = 1.5;
 
 impl Slab<'_> {
     /// Measures the windows of all pixels, some rows at a time, and hands them on in order:
-    /// [y][x][dy][dx][rgb] in mm⁻². Entries beyond the border of a patch that clamps are NaN: not measured.
+    /// `[y][x][dy][dx][rgb]` in mm⁻². Entries beyond the border of a patch that clamps are NaN: not measured.
     ///
     /// Returns the share of the light leaving the upper face that leaves within the window, mean over pixels and
     /// channels.

@@ -1,0 +1,211 @@
+//! The commands as their users call them.
+
+mod common;
+
+use std::process::Stdio;
+use std::time::Duration;
+
+use common::{assert_refused, command, files, finish, json, run, simulate, succeed};
+
+#[test]
+fn from_simulation_to_judgement() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let capture = simulate(folder, "a");
+    let capture_bytes = std::fs::metadata(&capture).unwrap().len();
+    let sidecar: serde_json::Value = serde_json::from_slice(&std::fs::read(folder.join("a.json")).unwrap()).unwrap();
+    assert_eq!(sidecar["pitch_mm"], 0.5);
+    assert_eq!(sidecar["simulated"]["source"]["scene"], "chessboard");
+
+    for (method, bytes) in
+        [("direct", 12 * 4 * 3 + 6 * 63 + 156), ("clusters", 12 * 4 * 3 + 6 * 63 + 156), ("lsp", 12 * 63 * 3 + 108)]
+    {
+        let report = json(folder, &format!("encode a.npy -M 4 --method {method} -o {method}.subsurf --json"));
+        assert_eq!(report["bytes"], bytes, "{method}");
+        assert_eq!(report["measured"], report["entries"], "{method}");
+        assert!(report["seconds"].is_number() && report["peak_rss_bytes"].is_number(), "{method}: {report}");
+
+        let judgement = json(folder, &format!("compare a.npy {method}.subsurf --json"));
+        assert_eq!(judgement["bytes"], bytes, "{method}");
+        assert_eq!(judgement["capture_bytes"], capture_bytes, "{method}");
+        assert!(judgement["relative_error_mean"].as_f64().unwrap() < 0.05, "{method}: {judgement}");
+        for light in ["uniform", "disc", "line"] {
+            assert!(judgement["psnr_db"][light].as_f64().unwrap() > 25.0, "{method}, {light}: {judgement}");
+            // Nine by seven pixels are less than the index's window.
+            assert!(judgement["ssim"][light].is_null(), "{method}, {light}: {judgement}");
+        }
+        for key in ["relative_error_mean", "psnr_db", "ssim"] {
+            assert_eq!(report[key], judgement[key], "{method}: encode and compare agree");
+        }
+    }
+    succeed(folder, "compare a.npy direct.subsurf --images pictures");
+    assert_eq!(files(&folder.join("pictures")), ["comparison.png", "disc.png", "line.png", "uniform.png"]);
+    let sheet = image::open(folder.join("pictures/comparison.png")).unwrap();
+    // Three by three pictures of 9 × 7 pixels, 28 times enlarged, with gaps of 6.
+    assert_eq!((sheet.width(), sheet.height()), (3 * (9 * 28 + 6) + 6, 3 * (7 * 28 + 6) + 6));
+
+    succeed(folder, "simulate --scene jade --size 5x5 --window 5 --thickness 5 -o other.npy");
+    assert_refused(&run(folder, "compare other.npy direct.subsurf"), &["5 × 5", "9 × 7", "not the same material"]);
+}
+
+#[test]
+fn simulations_depend_on_their_seed_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let args = "simulate --scene marble --size 8 --window 5 --thickness 5 --noise 1e5 -o";
+    let with = |threads: &str, name: &str, more: &str| {
+        let mut command = command(folder);
+        let words = args.split_whitespace().chain([name]).chain(more.split_whitespace());
+        let run = finish(command.args(words).env("RAYON_NUM_THREADS", threads));
+        assert_eq!(run.code, 0, "{}", run.err);
+        std::fs::read(folder.join(name)).unwrap()
+    };
+    let one = with("1", "one.npy", "");
+    assert_eq!(one, with("2", "two.npy", ""));
+    assert_eq!(one, with("8", "eight.npy", ""));
+    assert_ne!(one, with("2", "other.npy", "--seed 2"));
+}
+
+#[test]
+fn images_drive_simulations() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    // Left half black, right half white.
+    let picture = image::RgbImage::from_fn(16, 16, |x, _| image::Rgb([if x < 8 { 0 } else { 255 }; 3]));
+    picture.save(folder.join("mask.png")).unwrap();
+    let grey = image::RgbImage::from_pixel(16, 16, image::Rgb([188; 3]));
+    grey.save(folder.join("grey.png")).unwrap();
+    let small = "--size 6 --window 3 --thickness 5";
+
+    succeed(folder, &format!("simulate --maps skin2=mask.png --maps marble=rest {small} -o mix.npy"));
+    succeed(folder, "encode mix.npy -M 8");
+    let report =
+        succeed(folder, &format!("simulate --maps albedo=grey.png --maps mfp=1.5,1,0.6 {small} -o albedo.npy"));
+    assert!(report.out.contains("synthetic capture"), "{}", report.out);
+    succeed(folder, &format!("simulate --maps albedo=grey.png --maps mfp=mask.png:0.5:2 {small} -o map.npy"));
+
+    let refused = |maps: &str, words: &[&str]| {
+        assert_refused(&run(folder, &format!("simulate {maps} {small} -o no.npy")), words);
+    };
+    refused("--maps granite=rest", &["\"granite\"", "marble"]);
+    refused("--maps marble=missing.png", &["missing.png", "an image"]);
+    refused("--maps marble=mask.png", &["no material at pixel (0, 0)", "rest"]);
+    refused("--maps marble=rest --maps skin1=rest", &["only one"]);
+    refused("--maps albedo=grey.png", &["mfp"]);
+    refused("--maps mfp=1", &["albedo"]);
+    refused("--maps albedo=grey.png --maps mfp=far", &["mfp=far", "IMAGE:FROM:TO"]);
+    refused("--maps albedo=grey.png --maps mfp=0", &["mean free path of 0 mm"]);
+    refused("--maps marble", &["NAME=VALUE"]);
+    assert_refused(&run(folder, "simulate --scene onyx --window 4 -o no.npy"), &["--window is 4", "odd"]);
+    assert_refused(&run(folder, "simulate --scene onyx --pitch 0 -o no.npy"), &["--pitch is 0", "positive"]);
+    assert!(!folder.join("no.npy").exists(), "nothing is written");
+}
+
+#[test]
+fn draws_on_everything_there_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    simulate(folder, "a");
+    succeed(folder, "encode a.npy -M 4");
+    // A tetrahedron without normals or texture coordinates.
+    std::fs::write(folder.join("t.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+        .unwrap();
+    std::fs::write(
+        folder.join("t.ply"),
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float s\n\
+         property float t\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n",
+    )
+    .unwrap();
+
+    for backend in ["vulkan", "gl", "cpu"] {
+        let flat =
+            json(folder, &format!("render a.subsurf --light line --size 90x90 --backend {backend} -o f.png --json"));
+        assert_eq!(flat["size"], serde_json::json!([90, 70]), "the patch keeps its shape");
+        let picture = image::open(folder.join("f.png")).unwrap().into_rgb8();
+        assert_eq!(picture.dimensions(), (90, 70));
+        assert!(picture.get_pixel(45, 35)[0] > 100, "{backend}: lit in the middle");
+
+        for mesh in ["t.obj", "t.ply"] {
+            let args = format!(
+                "render a.subsurf --mesh {mesh} --extent 4 --light 0,0,1 --view 0,0 --size 60x50 --backend {backend}"
+            );
+            let report = json(folder, &format!("{args} -o m.png --json"));
+            let picture = image::open(folder.join("m.png")).unwrap().into_rgb8();
+            assert_eq!(picture.dimensions(), (60, 50));
+            let lit = picture.pixels().filter(|pixel| pixel[0] > 100).count();
+            assert!(lit > 100, "{backend}, {mesh}: {lit} lit pixels, {report}");
+        }
+    }
+    assert_refused(
+        &run(folder, "render a.subsurf --mesh t.obj --mapping uv -o x.png"),
+        &["no texture coordinates", "unwrap"],
+    );
+    assert_refused(&run(folder, "render a.subsurf --mesh a.npy -o x.png"), &["a.npy", ".obj"]);
+    assert_refused(&run(folder, "render a.subsurf --light 0,0,1 -o x.png"), &["for meshes"]);
+    assert_refused(&run(folder, "render a.subsurf --mesh t.obj --light disc -o x.png"), &["direction"]);
+    assert_refused(&run(folder, "render a.npy -o x.png"), &["a.npy", "not a .subsurf file"]);
+    let mut damaged = std::fs::read(folder.join("a.subsurf")).unwrap();
+    damaged[200] ^= 1;
+    std::fs::write(folder.join("damaged.subsurf"), damaged).unwrap();
+    assert_refused(&run(folder, "render damaged.subsurf -o x.png"), &["damaged.subsurf", "PROF", "CRC-32"]);
+    assert!(!folder.join("x.png").exists(), "nothing is drawn");
+}
+
+#[test]
+fn without_a_driver_the_exit_code_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    simulate(folder, "a");
+    succeed(folder, "encode a.npy -M 4");
+    let mut no_vulkan = command(folder);
+    no_vulkan.env("VK_DRIVER_FILES", "/nowhere").env("VK_ICD_FILENAMES", "/nowhere");
+    let refused = finish(no_vulkan.args(["render", "a.subsurf", "--backend", "vulkan", "-o", "x.png"]));
+    assert_eq!(refused.code, 3, "{}", refused.err);
+    assert!(refused.err.contains("no Vulkan device"), "{}", refused.err);
+}
+
+#[test]
+fn an_interrupted_run_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut long = command(folder.path());
+    long.args(["simulate", "--scene", "onyx", "--size", "200", "-o", "a.npy"]).stderr(Stdio::null());
+    let mut child = long.spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(1_500));
+    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(kill.success(), "the run was still going");
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(files(folder.path()), [""; 0], "no file, no half file");
+}
+
+#[test]
+fn loading_is_timed() {
+    let folder = tempfile::tempdir().unwrap();
+    for backend in ["auto", "cpu"] {
+        let report =
+            json(folder.path(), &format!("bench load --case 20x16,5,8,4 --runs 2 --dir . --backend {backend} --json"));
+        let case = &report["cases"][0];
+        assert_eq!((&case["pixels"], &case["window"]), (&320.into(), &5.into()));
+        let entries = 320 * 25 * 3 * 4;
+        for (name, bytes) in
+            [("capture", entries + 128), ("profiles", 12 * 320 * 4 + 108), ("bmpp", 12 * 8 * 4 + 6 * 320 + 156)]
+        {
+            let storage = &case["storage"][name];
+            assert_eq!(storage["bytes"], bytes, "{name}");
+            assert!(
+                storage["peak_rss_bytes"].as_u64() > storage["baseline_rss_bytes"].as_u64().map(|b| b / 2),
+                "{name}"
+            );
+            let on_device = storage["gpu_bytes"].as_u64().unwrap();
+            assert_eq!(on_device > 0, backend == "auto", "{name}: {on_device}");
+            for kind in ["warm_us", "cold_us"] {
+                let steps = &storage[kind];
+                let step = |step: &str| steps[step].as_f64().unwrap_or_else(|| panic!("{name}: {steps}"));
+                let sum = step("read") + step("parse") + step("upload") + step("first_frame");
+                assert!(sum > 0.0 && step("total") > 0.5 * sum && step("total") < 2.0 * sum, "{name}: {steps}");
+            }
+        }
+        assert!(case["ratios"]["capture_over_bmpp"]["load_warm"].is_number(), "{case}");
+    }
+    assert_eq!(files(folder.path()), [""; 0], "the files are gone");
+    assert_refused(&run(folder.path(), "encode a.npy --pitch 1 --threads 0"), &["--threads"]);
+}
