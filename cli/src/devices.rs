@@ -27,7 +27,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
     }
     match failed {
-        Some(error) if opened == 0 => Err(error.into()),
+        Some(error) if opened == 0 => {
+            Err(anyhow::Error::new(error)
+                .context("nothing to draw with; `subsurf render --backend cpu` needs no driver"))
+        }
         _ => Ok(()),
     }
 }

@@ -19,7 +19,7 @@ use crate::progress::Bars;
 /// Fit a material to a capture and write a .subsurf file.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The capture: a .npy array [height][width][D][D][3] of Rd in mm⁻², and its sidecar .json with the pixel pitch
+    /// The capture: a .npy array of shape (height, width, D, D, 3) of Rd in mm⁻², and its sidecar .json with the pixel pitch
     capture: PathBuf,
     /// The .subsurf file to write; NAME.subsurf beside the capture if not given
     #[arg(long, short)]

@@ -18,7 +18,7 @@ use crate::progress::Bars;
 /// Simulate a capture: light diffusing in a slab of given media, measured pixel by pixel.
 ///
 /// Solves −∇·(D∇φ) + σ_a φ = Q below every pixel in turn, lit by a beam as wide as the pixel, and writes what leaves
-/// the surface within the window: NAME.npy, float [height][width][D][D][3] in mm⁻², and NAME.json beside it.
+/// the surface within the window: NAME.npy, floats of shape (height, width, D, D, 3) in mm⁻², and NAME.json beside it.
 #[derive(clap::Args)]
 #[command(after_help = MAPS_HELP)]
 pub(crate) struct Args {

@@ -42,7 +42,8 @@ pub struct Material {
 }
 
 impl Material {
-    /// Uploads the planes of a file, each as one texture, as they stand in the file.
+    /// Uploads the planes of a file, each as one texture, as they stand in the file. Only the small table of base
+    /// profiles is widened from three channels to four, so that a node is one load instead of three.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no texture of that size.
@@ -52,12 +53,14 @@ impl Material {
         let channels = 3 * u32::from(header.samples);
         match material.model() {
             Model::BaseMaterials(planes) => {
-                let profiles = [channels, header.base_materials];
-                let profiles = TextureSpec::table("base profiles", profiles, TextureFormat::R32Float);
+                let profiles = [u32::from(header.samples), header.base_materials];
+                let profiles = TextureSpec::table("base profiles", profiles, TextureFormat::Rgba32Float);
+                let nodes = planes.profiles.as_bytes().as_chunks::<12>().0;
+                let nodes: Vec<u8> = nodes.iter().flat_map(|rgb| rgb.iter().copied().chain([0; 4])).collect();
                 let ratios = TextureSpec::table("mixture ratios", size, TextureFormat::R32Float);
                 let indices = TextureSpec::table("base indices", size, TextureFormat::Rg8Uint);
                 let textures = vec![
-                    gpu.filled(&profiles, planes.profiles.as_bytes())?,
+                    gpu.filled(&profiles, &nodes)?,
                     gpu.filled(&ratios, planes.ratios.as_bytes())?,
                     gpu.filled(&indices, planes.indices.as_flattened())?,
                 ];

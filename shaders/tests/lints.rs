@@ -119,12 +119,12 @@ fn texture_loads_are_accounted_for() {
     assert_eq!(
         counts,
         [
-            // Indices, ratio, three channels; irradiance at an addressed texel.
-            ("gather, 2-BMPP", 6),
+            // Indices, ratio, node; irradiance at an addressed texel.
+            ("gather, 2-BMPP", 4),
             ("gather, per-pixel profiles", 4),
             ("gather, capture", 2),
             // Cell starts clamped to the number of points, pixels to the patch; the points' tables have equal sizes.
-            ("surface gather, 2-BMPP", 11),
+            ("surface gather, 2-BMPP", 9),
             ("surface gather, per-pixel profiles", 9),
             ("irradiance", 1),
             ("shade", 1),

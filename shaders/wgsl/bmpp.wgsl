@@ -1,6 +1,6 @@
 // 2-BMPP: two base materials per pixel (Yatagawa et al. 2020, eq. 1-4).
 
-// 3 S x M, log-scale base scattering profiles [material][node, rgb].
+// S x M, log-scale base scattering profiles: node across, material down, rgb in a texel.
 @group(0) @binding(1) var profiles: texture_2d<f32>;
 // Mixture ratio t of the first base material.
 @group(0) @binding(2) var ratios: texture_2d<f32>;
@@ -19,12 +19,7 @@ fn load_pixel(texel: vec2<u32>) -> Pixel {
 }
 
 fn base_node(base: u32, h: u32) -> vec3<f32> {
-    let x = 3u * h;
-    return vec3<f32>(
-        textureLoad(profiles, vec2<u32>(x, base), 0).x,
-        textureLoad(profiles, vec2<u32>(x + 1u, base), 0).x,
-        textureLoad(profiles, vec2<u32>(x + 2u, base), 0).x,
-    );
+    return textureLoad(profiles, vec2<u32>(h, base), 0).xyz;
 }
 
 fn base_profile(base: u32, knot: Knot) -> vec3<f32> {
@@ -36,8 +31,18 @@ fn log_profile(pixel: Pixel, knot: Knot) -> vec3<f32> {
     return mix(base_profile(pixel.base.y, knot), base_profile(pixel.base.x, knot), pixel.t);
 }
 
-// Rd in mm^-2 from pixel i to pixel o at distance r; step = x_i - x_o in pixels.
-fn reflectance(i: Pixel, o: Pixel, step: vec2<i32>, r_mm: f32) -> vec3<f32> {
+// What pixel o contributes to every pair at distance r.
+struct Partner {
+    knot: Knot,
+    log_profile: vec3<f32>,
+}
+
+fn partner_at(o: Pixel, r_mm: f32) -> Partner {
     let knot = knot_at(r_mm);
-    return exp(0.5 * (log_profile(i, knot) + log_profile(o, knot)));
+    return Partner(knot, log_profile(o, knot));
+}
+
+// Rd in mm^-2 from pixel i to o, the partner at their distance; step = x_i - x_o in pixels.
+fn reflectance(i: Pixel, o: Partner, step: vec2<i32>) -> vec3<f32> {
+    return exp(0.5 * (log_profile(i, o.knot) + o.log_profile));
 }

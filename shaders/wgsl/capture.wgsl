@@ -18,8 +18,17 @@ fn entry(index: u32) -> f32 {
     return select(0.0, rd, rd > 0.0);
 }
 
+// The entries of a pair are with the pixel where light enters; the other one contributes nothing.
+struct Partner {
+    r_mm: f32,
+}
+
+fn partner_at(o: Pixel, r_mm: f32) -> Partner {
+    return Partner(r_mm);
+}
+
 // Rd in mm^-2 from pixel i to pixel o; step = x_i - x_o in pixels, so that o lies at -step in the window of i.
-fn reflectance(i: Pixel, o: Pixel, step: vec2<i32>, r_mm: f32) -> vec3<f32> {
+fn reflectance(i: Pixel, o: Partner, step: vec2<i32>) -> vec3<f32> {
     let radius = i32(material.window_radius);
     let d = 2u * material.window_radius + 1u;
     let place = vec2<u32>(vec2<i32>(radius) - step);

@@ -10,20 +10,35 @@ struct View {
 // Irradiance that has entered the material, after Fresnel transmission; linear rgb.
 @group(1) @binding(1) var irradiance: texture_2d<f32>;
 
+// The eight steps of the same length that mirror (a, b), a >= b >= 0, at the axes and at the diagonals.
+fn mirrored(a: i32, b: i32, k: u32) -> vec2<i32> {
+    let swapped = select(vec2<i32>(a, b), vec2<i32>(b, a), (k & 4u) != 0u);
+    return swapped * vec2<i32>(1 - i32(k & 2u), 1 - 2 * i32(k & 1u));
+}
+
 @fragment
 fn gather(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     let x_o = vec2<i32>(at.xy) + vec2<i32>(view.origin);
     let o = load_pixel(address(x_o));
     let radius = i32(material.window_radius);
     var sum = vec3<f32>(0.0);
-    for (var dy = -radius; dy <= radius; dy++) {
-        for (var dx = -radius; dx <= radius; dx++) {
-            let step = vec2<i32>(dx, dy);
-            let r_mm = sqrt(f32(dx * dx + dy * dy)) * material.pitch_mm;
-            if r_mm <= material.r_max_mm {
+    for (var a = 0; a <= radius; a++) {
+        for (var b = 0; b <= a; b++) {
+            let r_mm = sqrt(f32(a * a + b * b)) * material.pitch_mm;
+            if r_mm > material.r_max_mm {
+                continue;
+            }
+            let partner = partner_at(o, r_mm);
+            for (var k = 0u; k < 8u; k++) {
+                // Mirror images that fall together count once.
+                let twice = (a == 0 && k > 0u) || (b == 0 && (k == 1u || k == 3u || k == 6u || k == 7u)) || (a == b && k > 3u);
+                if twice {
+                    continue;
+                }
+                let step = mirrored(a, b, k);
                 let x_i = address(x_o + step);
                 let e = textureLoad(irradiance, x_i, 0).xyz;
-                sum += reflectance(load_pixel(x_i), o, step, r_mm) * e;
+                sum += reflectance(load_pixel(x_i), partner, step) * e;
             }
         }
     }

@@ -51,7 +51,8 @@ fn surface_gather(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
                 if r_mm <= material.r_max_mm {
                     let pixel = min(textureLoad(pixels, texel_i, 0).xy, material.size - 1u);
                     let e = textureLoad(irradiances, texel_i, 0).xyz;
-                    sum += reflectance(load_pixel(pixel), o, vec2<i32>(0), r_mm) * e * x_i.w;
+                    let partner = partner_at(o, r_mm);
+                    sum += reflectance(load_pixel(pixel), partner, vec2<i32>(0)) * e * x_i.w;
                 }
             }
         }

@@ -193,8 +193,8 @@ fn ledger(backend: Backend) {
     let material = Bssrdf::parse(&file).unwrap();
     assert_eq!(gpu.ledger().bytes(), 0, "nothing yet");
     let uploaded = Material::upload(&gpu, &material).unwrap();
-    // Planes as they stand in the file, and 48 bytes of uniforms.
-    let planes = 12 * 7 * 7 + 6 * 40 * 30;
+    // Profiles in four channels, planes as they stand in the file, and 48 bytes of uniforms.
+    let planes = 16 * 7 * 7 + 6 * 40 * 30;
     assert_eq!(uploaded.gpu_bytes(), planes + 48, "of the material");
     assert_eq!(gpu.ledger().bytes(), planes + 48, "of everything");
     drop(uploaded);
