@@ -38,8 +38,12 @@ Try it:
   subsurf compare onyx.npy onyx.subsurf --images out      how far off, in numbers and pictures
   subsurf render onyx.subsurf --mesh bunny.ply -o b.png   draw it
 
-Exit codes: 0 done; 1 this machine failed (disk full, driver crashed); 2 the input or the request is wrong;
-3 there is no device that can do it; 130 interrupted.";
+Exit codes:
+  0   done
+  1   this machine failed: disk full, driver crashed
+  2   the input or the request is wrong
+  3   there is no device that can do it
+  130 interrupted";
 
 #[derive(Subcommand)]
 enum Command {
