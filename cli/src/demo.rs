@@ -35,9 +35,9 @@ pub(crate) struct Args {
     dir: PathBuf,
 }
 
-const SIZE: usize = 64;
+const SIZE: usize = 56;
 const WINDOW: u32 = 25;
-const BASE_MATERIALS: usize = 64;
+const BASE_MATERIALS: usize = 48;
 const PITCH_MM: f64 = 0.5;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {

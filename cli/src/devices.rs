@@ -4,22 +4,12 @@ use subsurf_runtime::{Backend, Gpu, devices};
 
 use crate::failure::bad_request;
 
-/// List the devices that can draw, Vulkan and OpenGL ES.
-#[derive(clap::Args)]
-pub(crate) struct Args {
-    /// Say nothing; exit with 3 if there is no device
-    #[arg(long, short)]
-    quiet: bool,
-}
-
-pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+pub(crate) fn run() -> anyhow::Result<()> {
     let mut opened = 0;
     let mut failed = None;
     for backend in Backend::ALL {
         for info in devices(backend) {
-            if !args.quiet {
-                println!("{backend:<10} {} ({:?}; {} {})", info.name, info.device_type, info.driver, info.driver_info);
-            }
+            println!("{backend:<10} {} ({:?}; {} {})", info.name, info.device_type, info.driver, info.driver_info);
         }
         match Gpu::open(backend) {
             Ok(_) => opened += 1,

@@ -52,7 +52,8 @@ enum Command {
     Compare(compare::Args),
     Render(render::Args),
     Info(info::Args),
-    Devices(devices::Args),
+    /// List the devices that can draw, Vulkan and OpenGL ES; exit with 3 if there is none
+    Devices,
     #[command(subcommand)]
     Bench(bench::Command),
     Demo(demo::Args),
@@ -78,7 +79,7 @@ fn main() -> ExitCode {
         Command::Compare(args) => compare::run(&args),
         Command::Render(args) => render::run(&args),
         Command::Info(args) => info::run(&args),
-        Command::Devices(args) => devices::run(&args),
+        Command::Devices => devices::run(),
         Command::Bench(command) => bench::run(&command),
         Command::Demo(args) => demo::run(&args),
     };

@@ -2,12 +2,8 @@
 
 /// How a patch's reflectance is stored; each has the functions `load_pixel` and `reflectance`.
 macro_rules! with_model {
-    ($model:literal, $($part:literal),+) => {
-        concat!(
-            include_str!("../wgsl/material.wgsl"),
-            include_str!(concat!("../wgsl/", $model)),
-            $(include_str!(concat!("../wgsl/", $part))),+
-        )
+    ($($part:literal),+) => {
+        concat!(include_str!("../wgsl/material.wgsl"), $(include_str!(concat!("../wgsl/", $part))),+)
     };
 }
 
@@ -24,16 +20,17 @@ pub struct ByModel {
 
 /// Exitance of a flat patch; entry points `cover` and `gather`.
 pub const GATHER: ByModel = ByModel {
-    bmpp: with_model!("bmpp.wgsl", "cover.wgsl", "gather.wgsl"),
-    per_pixel: with_model!("per_pixel.wgsl", "cover.wgsl", "gather.wgsl"),
+    bmpp: with_model!("bmpp.wgsl", "pair.wgsl", "cover.wgsl", "gather.wgsl"),
+    per_pixel: with_model!("per_pixel.wgsl", "pair.wgsl", "cover.wgsl", "gather.wgsl"),
     capture: with_model!("capture.wgsl", "cover.wgsl", "gather.wgsl"),
 };
 
 /// Exitance of 2-BMPP at the points of a surface; entry points `cover` and `surface_gather`.
-pub const SURFACE_GATHER_BMPP: &str = with_model!("bmpp.wgsl", "cover.wgsl", "surface_gather.wgsl");
+pub const SURFACE_GATHER_BMPP: &str = with_model!("bmpp.wgsl", "pair.wgsl", "cover.wgsl", "surface_gather.wgsl");
 
 /// Exitance of per-pixel profiles at the points of a surface; entry points `cover` and `surface_gather`.
-pub const SURFACE_GATHER_PER_PIXEL: &str = with_model!("per_pixel.wgsl", "cover.wgsl", "surface_gather.wgsl");
+pub const SURFACE_GATHER_PER_PIXEL: &str =
+    with_model!("per_pixel.wgsl", "pair.wgsl", "cover.wgsl", "surface_gather.wgsl");
 
 /// Irradiance at the points of a surface; entry points `cover` and `irradiance`.
 pub const IRRADIANCE: &str = concat!(

@@ -30,19 +30,3 @@ fn base_profile(base: u32, knot: Knot) -> vec3<f32> {
 fn log_profile(pixel: Pixel, knot: Knot) -> vec3<f32> {
     return mix(base_profile(pixel.base.y, knot), base_profile(pixel.base.x, knot), pixel.t);
 }
-
-// What pixel o contributes to every pair at distance r.
-struct Partner {
-    knot: Knot,
-    log_profile: vec3<f32>,
-}
-
-fn partner_at(o: Pixel, r_mm: f32) -> Partner {
-    let knot = knot_at(r_mm);
-    return Partner(knot, log_profile(o, knot));
-}
-
-// Rd in mm^-2 from pixel i to o, the partner at their distance; step = x_i - x_o in pixels.
-fn reflectance(i: Pixel, o: Partner, step: vec2<i32>) -> vec3<f32> {
-    return exp(0.5 * (log_profile(i, o.knot) + o.log_profile));
-}

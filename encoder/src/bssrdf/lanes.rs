@@ -45,6 +45,24 @@ pub(super) fn sum(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
     [0, 1, 2, 3].map(|c| a[c] + b[c])
 }
 
+/// r − α A p, the residual after a conjugate-gradient step.
+pub(super) fn subtract_image(residual: &mut [Lanes], alpha: &Lanes, image: &[Lanes]) {
+    for (residual, image) in residual.iter_mut().zip(image) {
+        for c in 0..4 {
+            residual[c] -= alpha[c] * image[c];
+        }
+    }
+}
+
+/// z + β p, the next conjugate direction.
+pub(super) fn turn(direction: &mut [Lanes], beta: &Lanes, z: &[Lanes]) {
+    for (direction, z) in direction.iter_mut().zip(z) {
+        for c in 0..4 {
+            direction[c] = z[c] + beta[c] * direction[c];
+        }
+    }
+}
+
 /// a / b rounded to f32, or 0 where b is not positive.
 pub(super) fn ratio(a: [f64; 4], b: [f64; 4]) -> Lanes {
     #[allow(clippy::cast_possible_truncation, reason = "step lengths need no more than f32")]

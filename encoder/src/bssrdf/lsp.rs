@@ -71,19 +71,11 @@ pub(super) fn fit(normal: &Normal, progress: &dyn Progress) -> Field {
             }
             x.set(pixel, &profile);
         }
-        for (residual, image) in residual.iter_mut().zip(&image) {
-            for c in 0..4 {
-                residual[c] -= alpha[c] * image[c];
-            }
-        }
+        lanes::subtract_image(&mut residual, &alpha, &image);
         z = precondition(&residual);
         let next = lanes::dot(&residual, &z);
         let beta = lanes::ratio(next, rho);
-        for (p, z) in p.iter_mut().zip(&z) {
-            for c in 0..4 {
-                p[c] = z[c] + beta[c] * p[c];
-            }
-        }
+        lanes::turn(&mut p, &beta, &z);
         rho = next;
         progress.advance(1);
     }

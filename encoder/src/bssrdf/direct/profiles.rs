@@ -55,19 +55,11 @@ pub(super) fn solve(normal: &Normal, model: &mut Model, field: &mut Field) {
         for (base, step) in model.bases.iter_mut().zip(&direction.bases) {
             lanes::add_product(base, &alpha, step);
         }
-        for (residual, image) in residual.iter_mut().zip(&image) {
-            for c in 0..4 {
-                residual[c] -= alpha[c] * image[c];
-            }
-        }
+        lanes::subtract_image(&mut residual, &alpha, &image);
         z = precondition(&residual);
         let next = lanes::dot(&residual, &z);
         let beta = lanes::ratio(next, rho);
-        for (direction, z) in direction.bases.iter_mut().zip(&z) {
-            for c in 0..4 {
-                direction[c] = z[c] + beta[c] * direction[c];
-            }
-        }
+        lanes::turn(&mut direction.bases, &beta, &z);
         rho = next;
     }
     model.write_to(field);
