@@ -14,6 +14,7 @@ use crate::memory::human;
 use crate::options::CaptureArgs;
 use crate::picture::{montage, triptych, write_png};
 use crate::progress::Bars;
+use crate::say::say;
 
 /// Judge a file against the capture it was made from.
 ///
@@ -40,8 +41,10 @@ pub(crate) struct Judgement {
     pub(crate) comparison: Comparison,
     pub(crate) relative_error_mean: f64,
     /// By light, in the order of [`Light::ALL`].
-    pub(crate) psnr_db: [f64; 3],
-    /// `None` for patches smaller than the window of the index.
+    ///
+    /// `None` where the light meets nothing that was measured.
+    pub(crate) psnr_db: [Option<f64>; 3],
+    /// `None` there, too, and for patches smaller than the window of the index.
     pub(crate) ssim: [Option<f64>; 3],
     pub(crate) bytes: u64,
     pub(crate) capture_bytes: u64,
@@ -55,14 +58,12 @@ pub(crate) fn judge(
     progress: &dyn Progress,
 ) -> anyhow::Result<Judgement> {
     let comparison = metrics::compare(capture, material, progress)?;
-    let errors = comparison.albedo.relative_errors();
-    #[allow(clippy::cast_precision_loss, reason = "pixels fit in 2⁵³")]
-    let relative_error_mean = errors.iter().sum::<f64>() / errors.len() as f64;
+    let relative_error_mean = comparison.albedo.mean_relative_error();
     let lit = comparison.lit.each_ref().map(metrics::Relit::normalised);
     Ok(Judgement {
         relative_error_mean,
-        psnr_db: lit.each_ref().map(|lit| psnr_db(&lit.reference, &lit.image)),
-        ssim: lit.each_ref().map(|lit| ssim(&lit.reference, &lit.image, capture.width())),
+        psnr_db: lit.each_ref().map(|lit| lit.as_ref().map(|lit| psnr_db(&lit.reference, &lit.image))),
+        ssim: lit.each_ref().map(|lit| ssim(&lit.as_ref()?.reference, &lit.as_ref()?.image, capture.width())),
         bytes,
         capture_bytes: capture.file_bytes(),
         comparison,
@@ -85,11 +86,12 @@ impl Judgement {
     pub(crate) fn print(&self) {
         #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
         let ratio = self.capture_bytes as f64 / self.bytes as f64;
-        println!("  {} of {}: 1:{ratio:.0}", human(self.bytes), human(self.capture_bytes));
-        println!("  mean relative error of the diffuse albedo {:.4}", self.relative_error_mean);
+        say!("  {} of {}: 1:{ratio:.0}", human(self.bytes), human(self.capture_bytes));
+        say!("  mean relative error of the diffuse albedo {:.4}", self.relative_error_mean);
         for ((light, psnr), ssim) in Light::ALL.iter().zip(self.psnr_db).zip(self.ssim) {
             let ssim = ssim.map_or_else(|| "- (patch too small)".to_owned(), |ssim| format!("{ssim:.4}"));
-            println!("  {:<8} PSNR {psnr:5.1} dB   SSIM {ssim}", light.name());
+            let psnr = psnr.map_or_else(|| "- (nothing is lit)".to_owned(), |psnr| format!("{psnr:5.1} dB"));
+            say!("  {:<8} PSNR {psnr}   SSIM {ssim}", light.name());
         }
     }
 }
@@ -100,9 +102,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let material = parse(&args.file, &bytes)?;
     let judgement = judge(&capture, &material, bytes.len() as u64, &Bars::new())?;
     if args.json {
-        println!("{:#}", judgement.to_json());
+        say!("{:#}", judgement.to_json());
     } else {
-        println!("{} against {}", args.file.display(), args.capture.display());
+        say!("{} against {}", args.file.display(), args.capture.display());
         judgement.print();
     }
     if let Some(folder) = &args.images {
@@ -116,7 +118,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
         write_png(&folder.join("comparison.png"), &montage(&rows))?;
         if !args.json {
-            println!("pictures (original, file, 10 × difference) in {}", folder.display());
+            say!("pictures (original, file, 10 × difference) in {}", folder.display());
         }
     }
     Ok(())

@@ -25,6 +25,7 @@ use crate::memory::human;
 use crate::picture::{montage, triptych, write_png};
 use crate::progress::Bars;
 use crate::render::{MappingArg, Shot, draw_mesh, draw_patch, patch_irradiance, storage_of};
+use crate::say::say;
 use crate::simulate::Request;
 
 /// Simulate, encode, judge, draw and time one material, and leave pictures and tables in a folder.
@@ -46,9 +47,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         .map_err(|error| bad_request(format!("{}: cannot make the folder: {error}", dir.display())))?;
     let path = |name: &str| dir.join(name);
 
-    println!(
-        "1. Simulating a capture of a synthetic onyx, {SIZE} × {SIZE} pixels, window {WINDOW} (under a minute) .."
-    );
+    say!("1. Simulating a capture of a synthetic onyx, {SIZE} × {SIZE} pixels, window {WINDOW} (under a minute) ..");
     let start = Instant::now();
     let map = Scene::Onyx.map([SIZE; 2], Addressing::Repeat, 1);
     let request = Request {
@@ -65,9 +64,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         scalar: Scalar::F32,
     };
     request.write(&path("onyx.npy"))?;
-    println!("   {:.1} s", start.elapsed().as_secs_f64());
+    say!("   {:.1} s", start.elapsed().as_secs_f64());
 
-    println!("2. Encoding it: per-pixel profiles, and 2-BMPP with {BASE_MATERIALS} base materials ..");
+    say!("2. Encoding it: per-pixel profiles, and 2-BMPP with {BASE_MATERIALS} base materials ..");
     let capture = Capture::open(&path("onyx.npy"), &Overrides::default())?;
     let mut judgements = Vec::new();
     let mut files = Vec::new();
@@ -75,7 +74,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let start = Instant::now();
         let options = Options { method, base_materials: BASE_MATERIALS, ..Options::default() };
         let encoded = encode(&capture, &options, &path(name))?;
-        println!("   {name}: {} in {:.1} s", human(encoded.bytes.len() as u64), start.elapsed().as_secs_f64());
+        say!("   {name}: {} in {:.1} s", human(encoded.bytes.len() as u64), start.elapsed().as_secs_f64());
         let material = Bssrdf::parse(&encoded.bytes)?;
         judgements.push(judge(&capture, &material, encoded.bytes.len() as u64, &Bars::new())?);
         files.push(encoded.bytes);
@@ -85,16 +84,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let rows: Vec<_> = judgements[1].comparison.lit.iter().map(|relit| triptych(relit, SIZE)).collect();
     write_png(&path("comparison.png"), &montage(&rows))?;
 
-    println!("3. Drawing it ..");
+    say!("3. Drawing it ..");
     let drawn = draw(dir, &material)?;
 
-    println!("4. Timing how it loads ..");
+    say!("4. Timing how it loads ..");
     let backend = if drawn.devices.is_empty() { BackendArg::Cpu } else { BackendArg::Auto };
     let case = Case {
-        #[allow(clippy::cast_possible_truncation, reason = "64")]
+        #[allow(clippy::cast_possible_truncation, reason = "small")]
         size: [SIZE as u32; 2],
         window: WINDOW,
-        #[allow(clippy::cast_possible_truncation, reason = "64")]
+        #[allow(clippy::cast_possible_truncation, reason = "small")]
         base_materials: BASE_MATERIALS as u32,
         samples: material.header().samples.into(),
         source: "synthetic onyx, simulated",
@@ -108,16 +107,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         if drawn.devices.is_empty() { devices::name(None) } else { drawn.devices.join("; ") },
         drawn.agreement,
     );
-    println!("\n{table}");
+    say!("\n{table}");
     write_bytes(&path("table.md"), table.as_bytes())?;
     write_bytes(&path("loading.json"), format!("{loading:#}\n").as_bytes())?;
 
-    println!("Look at these, in {}:", std::path::absolute(dir)?.display());
-    println!("  comparison.png   original, 2-BMPP, and ten times their difference, under three lights");
-    println!("  patch.png        the patch lit by a disc, from the file");
-    println!("  mesh.png         a torus made of the material");
-    println!("  table.md         the tables above; loading.json has their numbers");
-    println!("  onyx.npy, onyx.subsurf   the capture and the file, to try the other commands on");
+    say!("Look at these, in {}:", std::path::absolute(dir)?.display());
+    say!("  comparison.png   original, 2-BMPP, and ten times their difference, under three lights");
+    say!("  patch.png        the patch lit by a disc, from the file");
+    say!("  mesh.png         a torus made of the material");
+    say!("  table.md         the tables above; loading.json has their numbers");
+    say!("  onyx.npy, onyx.subsurf   the capture and the file, to try the other commands on");
     Ok(())
 }
 
@@ -131,7 +130,7 @@ struct Drawn {
 fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
     let gpus: Vec<Gpu> = Backend::ALL.into_iter().filter_map(|backend| Gpu::open(backend).ok()).collect();
     if gpus.is_empty() {
-        println!("   no device found: the CPU draws");
+        say!("   no device found: the CPU draws");
     }
     let header = material.header();
     let whole = Region { origin: [0, 0], size: [header.width, header.height] };
@@ -149,7 +148,7 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
         let worst = differences.fold(0.0, f32::max);
         let name = devices::name(Some(gpu));
         let line = format!("{name}: at most {worst:.1e} of the brightest value from the CPU's exitance");
-        println!("   {line}");
+        say!("   {line}");
         // Writing to a string cannot fail.
         let _ = writeln!(agreement, "- {line}");
         devices.push(name);
@@ -170,10 +169,11 @@ fn quality_table(capture: &Capture, judgements: &[Judgement]) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(out, "| capture | {} | | | |", human(capture.file_bytes()));
     for (name, judgement) in ["per-pixel profiles", "2-BMPP"].iter().zip(judgements) {
-        let [uniform, disc, line] = judgement.psnr_db;
+        let db = |psnr: Option<f64>| psnr.map_or("-".to_owned(), |psnr| format!("{psnr:.1}"));
+        let [uniform, disc, line] = judgement.psnr_db.map(db);
         let _ = writeln!(
             out,
-            "| {name} | {} | {:.4} | {uniform:.1} / {disc:.1} / {line:.1} | {} |",
+            "| {name} | {} | {:.4} | {uniform} / {disc} / {line} | {} |",
             human(judgement.bytes),
             judgement.relative_error_mean,
             judgement.ssim[0].map_or("-".to_owned(), |ssim| format!("{ssim:.4}")),

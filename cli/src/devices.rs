@@ -3,13 +3,14 @@
 use subsurf_runtime::{Backend, Gpu, devices};
 
 use crate::failure::bad_request;
+use crate::say::say;
 
 pub(crate) fn run() -> anyhow::Result<()> {
     let mut opened = 0;
     let mut failed = None;
     for backend in Backend::ALL {
         for info in devices(backend) {
-            println!("{backend:<10} {} ({:?}; {} {})", info.name, info.device_type, info.driver, info.driver_info);
+            say!("{backend:<10} {} ({:?}; {} {})", info.name, info.device_type, info.driver, info.driver_info);
         }
         match Gpu::open(backend) {
             Ok(_) => opened += 1,

@@ -7,14 +7,15 @@ use clap::ValueEnum;
 use serde_json::json;
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::bssrdf::{self, Encoded, Method, Options};
-use subsurf_encoder::capture::Capture;
-use subsurf_encoder::write_bytes;
+use subsurf_encoder::capture::{Capture, sidecar_path};
+use subsurf_encoder::{check_target, write_bytes};
 
 use crate::compare::{Judgement, judge};
 use crate::failure::bad_request;
 use crate::memory::{human, resident};
 use crate::options::CaptureArgs;
 use crate::progress::Bars;
+use crate::say::say;
 
 /// Fit a material to a capture and write a .subsurf file.
 #[derive(clap::Args)]
@@ -75,8 +76,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let capture = Capture::open(&args.capture, &args.facts.overrides())?;
     let output = args.output.clone().unwrap_or_else(|| args.capture.with_extension("subsurf"));
-    if output == args.capture {
-        return Err(bad_request(format!("{}: would overwrite the capture", output.display())));
+    check_target(&output)?;
+    for input in [args.capture.clone(), sidecar_path(&args.capture)] {
+        if is_same_file(&output, &input) {
+            return Err(bad_request(format!("{}: would overwrite {}", output.display(), input.display())));
+        }
     }
     let options = Options {
         method: args.method.into(),
@@ -93,9 +97,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Fits and writes.
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
+}
+
+/// Fits, reads what came of it, and writes.
 pub(crate) fn encode(capture: &Capture, options: &Options, output: &Path) -> anyhow::Result<Encoded> {
     let encoded = bssrdf::encode(capture, options, &Bars::new())?;
+    Bssrdf::parse(&encoded.bytes).map_err(subsurf_runtime::Error::Read)?;
     write_bytes(output, &encoded.bytes)?;
     Ok(encoded)
 }
@@ -119,16 +128,16 @@ fn report(args: &Args, capture: &Capture, output: &Path, encoded: &Encoded, judg
         if let (Some(value), Some(judgement)) = (value.as_object_mut(), judgement.to_json().as_object()) {
             value.extend(judgement.clone());
         }
-        println!("{value:#}");
+        say!("{value:#}");
         return;
     }
-    println!("{}: {} from {}", output.display(), human(encoded.bytes.len() as u64), human(capture.file_bytes()));
+    say!("{}: {} from {}", output.display(), human(encoded.bytes.len() as u64), human(capture.file_bytes()));
     let missing = encoded.entries - encoded.measured;
     if missing > 0 {
         #[allow(clippy::cast_precision_loss, reason = "a percentage")]
         let share = 100.0 * missing as f64 / encoded.entries as f64;
-        println!("  {share:.1} % of the entries inside the material were not measured; they weigh nothing");
+        say!("  {share:.1} % of the entries inside the material were not measured; they weigh nothing");
     }
     judgement.print();
-    println!("  {seconds:.1} s, {} of memory besides the mapped capture", human(beside_mapped));
+    say!("  {seconds:.1} s, {} of memory besides the mapped capture", human(beside_mapped));
 }

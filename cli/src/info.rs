@@ -9,6 +9,7 @@ use subsurf_decoder::bssrdf::Model;
 use subsurf_decoder::container::{Container, Crc};
 
 use crate::memory::human;
+use crate::say::say;
 
 /// Show what a .subsurf file holds, and check all of it.
 #[derive(clap::Args)]
@@ -40,24 +41,27 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "r_max_mm": header.r_max_mm, "eta": header.eta, "addressing": format!("{:?}", header.addressing).to_lowercase(),
             "bytes": bytes.len(), "sections": sections,
         });
-        println!("{value:#}");
+        say!("{value:#}");
         return Ok(());
     }
-    println!("{}: {model}, {}", args.file.display(), human(bytes.len() as u64));
-    println!(
+    say!("{}: {model}, {}", args.file.display(), human(bytes.len() as u64));
+    say!(
         "  {} × {} pixels of {} mm, beyond the border: {:?}",
-        header.width, header.height, header.pitch_mm, header.addressing
+        header.width,
+        header.height,
+        header.pitch_mm,
+        header.addressing
     );
-    println!(
+    say!(
         "  window {0} × {0} pixels, profiles of {1} nodes up to {2:.2} mm, {3} base materials",
         2 * u32::from(header.window_radius) + 1,
         header.samples,
         header.r_max_mm,
         header.base_materials,
     );
-    println!("  refractive index {}, linear Rec. 709", header.eta);
+    say!("  refractive index {}, linear Rec. 709", header.eta);
     for entry in container.entries() {
-        println!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
+        say!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
     }
     Ok(())
 }

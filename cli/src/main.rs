@@ -13,6 +13,7 @@ mod options;
 mod picture;
 mod progress;
 mod render;
+mod say;
 mod simulate;
 
 use std::process::ExitCode;
@@ -43,7 +44,7 @@ Exit codes:
   1   this machine failed: disk full, driver crashed
   2   the input or the request is wrong
   3   there is no device that can do it
-  130 interrupted";
+  130 interrupted or terminated";
 
 #[derive(Subcommand)]
 enum Command {
@@ -66,7 +67,7 @@ fn main() -> ExitCode {
     devices::settle_drivers();
     let interrupted = ctrlc::set_handler(|| {
         subsurf_encoder::remove_unfinished();
-        eprintln!("subsurf: interrupted; nothing was written");
+        eprintln!("subsurf: interrupted; no half files are left");
         std::process::exit(INTERRUPTED);
     });
     if let Err(error) = interrupted {

@@ -59,7 +59,8 @@ fn enlarge(picture: &RgbImage, scale: u32) -> RgbImage {
 pub(crate) fn triptych(relit: &Relit, width: usize) -> Vec<RgbImage> {
     let width = u32::try_from(width).unwrap_or(1);
     let scale = (256 / width.max(1)).max(1);
-    let normalised = relit.normalised();
+    // Where nothing is lit, both are black.
+    let normalised = relit.normalised().unwrap_or_else(|| relit.clone());
     let pairs = normalised.reference.iter().zip(&normalised.image);
     let difference: Vec<[f64; 3]> = pairs.map(|(a, b)| [0, 1, 2].map(|c| 10.0 * (a[c] - b[c]).abs())).collect();
     vec![

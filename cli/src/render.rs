@@ -8,6 +8,7 @@ use glam::Vec3;
 use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
+use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::Light;
 use subsurf_runtime::scene::{Mapping, Mesh, Surface};
 use subsurf_runtime::{
@@ -22,6 +23,7 @@ use crate::memory::human;
 use crate::mesh::{self, Up};
 use crate::options::Size;
 use crate::picture::{image, write_png};
+use crate::say::say;
 
 /// Draw a material, flat or on a mesh, by the reference pass: every point gathers from all others within reach.
 #[derive(clap::Args)]
@@ -122,6 +124,7 @@ const SUPERSAMPLING: u32 = 2;
 const BRIGHT: f32 = 0.75;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    check_target(&args.output)?;
     check_picture(args.size.0)?;
     if let Some(exposure) = args.exposure
         && !(exposure.is_finite() && exposure > 0.0)
@@ -163,11 +166,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         if let Some(value) = value.as_object_mut() {
             value.extend(facts);
         }
-        println!("{value:#}");
+        say!("{value:#}");
     } else {
-        println!("{}: drawn by {device} in {seconds:.1} s", args.output.display());
+        say!("{}: drawn by {device} in {seconds:.1} s", args.output.display());
         if let Some(bytes) = facts.get("gpu_bytes").and_then(Value::as_u64) {
-            println!("  the material takes {} on the device", human(bytes));
+            say!("  the material takes {} on the device", human(bytes));
         }
     }
     Ok(())
@@ -262,7 +265,7 @@ pub(crate) fn draw_mesh(
     let header = material.header();
     let given = mesh.triangles.len();
     let mapping = choose_mapping(&mesh, mapping, material)?;
-    let mesh = mesh.subdivided(LONGEST_EDGE * header.pitch_mm);
+    let mesh = mesh.subdivided(LONGEST_EDGE * header.pitch_mm)?;
     let visibility = mesh::visibility(&mesh, shot.direction);
     let surface = Surface::new(&mesh, mapping, header, &visibility);
     let light = MeshLight { direction: shot.direction, irradiance: [3.0, 2.9, 2.7], sky: [0.35, 0.4, 0.5] };

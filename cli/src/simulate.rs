@@ -1,12 +1,15 @@
 //! `subsurf simulate`: a capture where nothing was measured.
 
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::ValueEnum;
 use serde_json::{Value, json};
 use subsurf_decoder::bssrdf::Addressing;
+use subsurf_decoder::bssrdf::layout::LENGTHS_MM;
 use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
+use subsurf_encoder::check_target;
 use subsurf_encoder::simulate::maps::{self, MeanFreePath, Weight};
 use subsurf_encoder::simulate::{Finish, MediumMap, Scene, Sensor, Slab, Summary, simulate};
 
@@ -14,6 +17,7 @@ use crate::failure::bad_request;
 use crate::memory::human;
 use crate::options::{AddressingArg, Size};
 use crate::progress::Bars;
+use crate::say::say;
 
 /// Simulate a capture: light diffusing in a slab of given media, measured pixel by pixel.
 ///
@@ -114,10 +118,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         scalar: if args.half { Scalar::F16 } else { Scalar::F32 },
     };
     request.check()?;
+    check_target(&args.output)?;
+    if args.output.extension().is_some_and(|extension| extension == "json") {
+        let output = args.output.display();
+        return Err(bad_request(format!("{output}: .json is for the facts beside the array; name the array .npy")));
+    }
     let start = Instant::now();
     let Summary { window_share, asymmetry } = request.write(&args.output)?;
     let bytes = std::fs::metadata(&args.output).map_or(0, |metadata| metadata.len());
-    println!(
+    say!(
         "{}: synthetic capture, {} × {} pixels, window {}, {} in {:.1} s",
         args.output.display(),
         size[0],
@@ -126,14 +135,19 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         human(bytes),
         start.elapsed().as_secs_f64(),
     );
-    println!("{:.1} % of the light that leaves the surface leaves within the window", 100.0 * window_share);
+    say!("{:.1} % of the light that leaves the surface leaves within the window", 100.0 * window_share);
     if window_share < 0.9 {
-        println!("the rest is lost to everything made from this capture: a larger --window or --pitch keeps more");
+        say!("the rest is lost to everything made from this capture: a larger --window or --pitch keeps more");
     }
     let end = if args.one_way { ", and stay so" } else { "; each has their mean" };
-    println!("the two directions of a pair came out {:.1} % apart on average{end}", 100.0 * asymmetry.exp_m1());
+    say!("the two directions of a pair came out {:.1} % apart on average{end}", 100.0 * asymmetry.exp_m1());
     Ok(())
 }
+
+/// How much finer or coarser than usual voxels may be.
+const REFINE: RangeInclusive<f64> = 0.1..=16.0;
+/// Voxels around a pixel, at most: each takes some 200 bytes on every core.
+const MAX_VOXELS: usize = 8_000_000;
 
 /// A capture to be simulated and written.
 pub(crate) struct Request<'a> {
@@ -158,7 +172,14 @@ impl Request<'_> {
         };
         positive("--pitch", self.pitch_mm)?;
         positive("--thickness", self.thickness_mm)?;
-        positive("--refine", self.refine)?;
+        let [shortest, longest] = LENGTHS_MM.map(f64::from);
+        if !(shortest..=longest).contains(&self.pitch_mm) {
+            return Err(bad_request(format!("--pitch is {} mm; from {shortest} to {longest} will do", self.pitch_mm)));
+        }
+        if !REFINE.contains(&self.refine) {
+            let (least, most) = (REFINE.start(), REFINE.end());
+            return Err(bad_request(format!("--refine is {}; it may be {least} to {most}", self.refine)));
+        }
         positive("--noise", self.finish.sensor.map_or(1.0, |sensor| sensor.photons))?;
         if !(1.0..=4.0).contains(&self.eta) {
             return Err(bad_request(format!("--eta is {}; refractive indices are 1 to 4", self.eta)));
@@ -169,21 +190,32 @@ impl Request<'_> {
         if self.map.size.iter().any(|side| *side > 65_535) {
             return Err(bad_request(format!("--size is {:?}; the limit is 65535 pixels", self.map.size)));
         }
+        let voxels = self.slab().voxels();
+        if voxels > MAX_VOXELS {
+            return Err(bad_request(format!(
+                "this takes {voxels} voxels around every pixel, more than {MAX_VOXELS}: a smaller --window or --refine \
+                 takes fewer, and so does a --pitch nearer to the mean free path of light"
+            )));
+        }
         Ok(())
+    }
+
+    fn slab(&self) -> Slab<'_> {
+        Slab {
+            map: self.map,
+            addressing: self.addressing,
+            pitch_mm: self.pitch_mm,
+            radius: self.window as usize / 2,
+            thickness_mm: self.thickness_mm,
+            eta: self.eta,
+            refine: self.refine,
+        }
     }
 
     /// Simulates and writes array and sidecar.
     pub(crate) fn write(&self, path: &Path) -> anyhow::Result<Summary> {
-        let radius = self.window as usize / 2;
-        let slab = Slab {
-            map: self.map,
-            addressing: self.addressing,
-            pitch_mm: self.pitch_mm,
-            radius,
-            thickness_mm: self.thickness_mm,
-            eta: self.eta,
-            refine: self.refine,
-        };
+        let slab = self.slab();
+        let radius = slab.radius;
         let sidecar = self.sidecar();
         let writer = CaptureWriter { path, size: self.map.size, radius, scalar: self.scalar, sidecar: &sidecar };
         Ok(simulate(&slab, &self.finish, &writer, &Bars::new())?)

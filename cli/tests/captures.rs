@@ -84,8 +84,8 @@ fn the_pitch_has_to_come_from_somewhere() {
         ("[1]", ["unreadable sidecar", "pitch_mm"]),
         (r#"{"pitch_mm": "wide"}"#, ["unreadable sidecar", "pitch_mm"]),
         (r#"{"pitch": 0.5}"#, ["no pixel pitch", "pitch_mm"]),
-        (r#"{"pitch_mm": 0}"#, ["pixel pitch 0 mm", "positive"]),
-        (r#"{"pitch_mm": -1}"#, ["pixel pitch -1 mm", "positive"]),
+        (r#"{"pitch_mm": 0}"#, ["pixel pitch 0 mm", "a length from"]),
+        (r#"{"pitch_mm": -1}"#, ["pixel pitch -1 mm", "a length from"]),
         (r#"{"pitch_mm": 0.5, "addressing": "wrap"}"#, ["unreadable sidecar", "clamp, repeat, mirror"]),
         (r#"{"pitch_mm": 0.5, "eta": 0.5}"#, ["refractive index 0.5", "1 to 4"]),
     ] {

@@ -178,6 +178,22 @@ fn an_interrupted_run_leaves_nothing() {
 }
 
 #[test]
+fn an_interrupted_benchmark_takes_its_files_along() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut long = command(folder.path());
+    long.args(["bench", "load", "--case", "150x150,25,8,13", "--dir", ".", "--backend", "cpu"]).stdout(Stdio::null());
+    let mut child = long.stderr(Stdio::null()).spawn().unwrap();
+    while files(folder.path()).is_empty() {
+        assert!(child.try_wait().unwrap().is_none(), "the folder is there until the end");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let kill = std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
+    assert!(kill.success(), "the run was still going");
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(files(folder.path()), [""; 0], "no folder");
+}
+
+#[test]
 fn loading_is_timed() {
     let folder = tempfile::tempdir().unwrap();
     for backend in ["auto", "cpu"] {
@@ -191,10 +207,7 @@ fn loading_is_timed() {
         {
             let storage = &case["storage"][name];
             assert_eq!(storage["bytes"], bytes, "{name}");
-            assert!(
-                storage["peak_rss_bytes"].as_u64() > storage["baseline_rss_bytes"].as_u64().map(|b| b / 2),
-                "{name}"
-            );
+            assert!(storage["peak_rss_bytes"].as_u64() > Some(entries), "{name}: more than the largest file");
             let on_device = storage["gpu_bytes"].as_u64().unwrap();
             assert_eq!(on_device > 0, backend == "auto", "{name}: {on_device}");
             for kind in ["warm_us", "cold_us"] {

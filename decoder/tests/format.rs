@@ -63,6 +63,8 @@ fn evaluates_equations_1_to_4() {
     // Clamp: pixel (2, 0) is pixel (1, 0), at its own distance; the diagonal is √½ mm away.
     assert_close(material.rd([2, 0], [1, 0]), rd(p1, p1, 0.5));
     assert_close(material.rd([2, 1], [1, 0]), rd(p1, p1, 0.5_f64.sqrt()));
+    // Beyond the last node there is nothing, in particular not the next material.
+    assert_eq!(material.profile([0, 0]).node(2), [0.0; 3]);
     // Outside the window.
     assert_eq!(material.rd([0, 0], [2, 0]), [0.0; 3]);
 

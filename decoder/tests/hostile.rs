@@ -57,6 +57,19 @@ proptest! {
     }
 
     #[test]
+    fn any_sections_behind_a_sound_start(bytes in proptest::collection::vec(any::<u8>(), 124..400)) {
+        // Magic, version, section count and size as they are in a file of this length, and CRCs made to fit.
+        let mut file = bytes;
+        let len = file.len() as u64;
+        file[..16].copy_from_slice(&example()[..16]);
+        file[16..24].copy_from_slice(&len.to_le_bytes());
+        seal(&mut file);
+        if let Ok(material) = Bssrdf::parse(&file) {
+            exercise(&material);
+        }
+    }
+
+    #[test]
     fn any_damage_with_valid_crcs(
         changes in proptest::collection::vec((8_usize..216, any::<u8>()), 1..6),
     ) {

@@ -13,5 +13,5 @@ pub mod simulate;
 pub mod synthetic;
 
 pub use error::{Error, Result};
-pub use output::{remove_unfinished, write_atomically, write_bytes};
+pub use output::{Unfinished, check_target, remove_unfinished, write_atomically, write_bytes};
 pub use progress::Progress;

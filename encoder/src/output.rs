@@ -21,15 +21,43 @@ fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
 pub fn remove_unfinished() {
     for path in unfinished().iter() {
         // The program ends; there is nobody left to tell.
-        std::fs::remove_file(path).ok();
+        if path.is_dir() {
+            std::fs::remove_dir_all(path).ok();
+        } else {
+            std::fs::remove_file(path).ok();
+        }
     }
 }
 
-/// Keeps a file in the list while it is written.
-struct Unfinished(PathBuf);
+/// Whether `path` can be written: its folder is there, and it is nothing but perhaps a file.
+///
+/// # Errors
+/// [`Error::Request`] if not.
+pub fn check_target(path: &Path) -> Result<()> {
+    let folder = folder_of(path);
+    if !folder.is_dir() {
+        return Err(Error::Request(format!("{}: there is no folder {}", path.display(), folder.display())));
+    }
+    if path.exists() && !path.is_file() {
+        return Err(Error::Request(format!("{}: is there and is not a file", path.display())));
+    }
+    Ok(())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// Keeps a file or folder in the list of what goes away when the program is interrupted.
+pub struct Unfinished(PathBuf);
 
 impl Unfinished {
-    fn new(path: &Path) -> Self {
+    /// Puts it there, until the value is dropped.
+    #[must_use]
+    pub fn new(path: &Path) -> Self {
         unfinished().insert(path.to_owned());
         Self(path.to_owned())
     }
@@ -44,17 +72,14 @@ impl Drop for Unfinished {
 /// Writes `path` through `write`: into a file beside it, which takes its name once everything is on disk.
 ///
 /// # Errors
-/// [`Error::Output`] if anything on the way fails; a file that was there before is then still there.
+/// As [`check_target`], and [`Error::Output`] if anything on the way fails; a file that was there before is then still there.
 pub fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<&mut File>) -> std::io::Result<()>,
 ) -> Result<()> {
+    check_target(path)?;
     let output = |source| Error::output(path, source);
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let mut file = NamedTempFile::with_prefix_in(".subsurf-", folder).map_err(output)?;
+    let mut file = NamedTempFile::with_prefix_in(".subsurf-", folder_of(path)).map_err(output)?;
     let _listed = Unfinished::new(file.path());
     let mut buffered = BufWriter::new(file.as_file_mut());
     write(&mut buffered).and_then(|()| buffered.flush()).map_err(output)?;

@@ -147,18 +147,45 @@ impl Gpu {
         let texel = texture.format().block_copy_size(None).unwrap_or(4);
         let (width, height) = (texture.width(), texture.height());
         let row = (width * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("read back"),
-            size: u64::from(row) * u64::from(height),
-            usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
-        let buffer = self.ledger().enter(buffer, u64::from(row) * u64::from(height));
+        // As many rows at a time as a buffer may have.
+        let most = self.device.limits().max_buffer_size / u64::from(row);
+        let most = u32::try_from(most).unwrap_or(u32::MAX).clamp(1, height.max(1));
+        let mut texels = Vec::with_capacity(width as usize * height as usize);
+        for first in (0..height).step_by(most as usize) {
+            let rows = most.min(height - first);
+            self.read_rows(texture, first, [width, rows], row, &mut texels)?;
+        }
+        Ok(texels)
+    }
+
+    /// Some rows from `first` on, each `row` bytes apart on the way.
+    fn read_rows<T: Pod>(
+        &self,
+        texture: &Texture,
+        first: u32,
+        size: [u32; 2],
+        row: u32,
+        texels: &mut Vec<T>,
+    ) -> Result<()> {
+        let texel = texture.format().block_copy_size(None).unwrap_or(4);
+        let [width, height] = size;
+        let bytes = u64::from(row) * u64::from(height);
+        let buffer = self.checked(|| {
+            self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("read back"),
+                size: bytes,
+                usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            })
+        })?;
+        let buffer = self.ledger().enter(buffer, bytes);
         self.checked(|| {
             let mut encoder = self.device.create_command_encoder(&CommandEncoderDescriptor::default());
             let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
             let to = TexelCopyBufferInfo { buffer: &buffer, layout };
-            encoder.copy_texture_to_buffer(texture.as_image_copy(), to, extent([width, height], 1));
+            let origin = wgpu::Origin3d { x: 0, y: first, z: 0 };
+            let from = wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() };
+            encoder.copy_texture_to_buffer(from, to, extent(size, 1));
             self.queue.submit([encoder.finish()]);
         })?;
         let (sender, receiver) = std::sync::mpsc::channel();
@@ -171,7 +198,8 @@ impl Gpu {
         mapped.map_err(|error| Error::Device(error.to_string()))?;
         let bytes = buffer.get_mapped_range(..).map_err(|error| Error::Device(error.to_string()))?;
         let rows = bytes.chunks(row as usize).map(|bytes| &bytes[..(width * texel) as usize]);
-        Ok(rows.flat_map(bytemuck::pod_collect_to_vec::<u8, T>).collect())
+        texels.extend(rows.flat_map(bytemuck::pod_collect_to_vec::<u8, T>));
+        Ok(())
     }
 
     /// The first three channels of a half-float texture.

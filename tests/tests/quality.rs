@@ -22,10 +22,9 @@ fn quality(capture: &Capture, method: Method) -> Quality {
     let encoded = encode(capture, &options, &()).unwrap();
     let material = Bssrdf::parse(&encoded.bytes).unwrap();
     let comparison = compare(capture, &material, &()).unwrap();
-    let errors = comparison.albedo.relative_errors();
-    let uniform = comparison.lit[0].normalised();
+    let uniform = comparison.lit[0].normalised().unwrap();
     Quality {
-        relative_error: errors.iter().sum::<f64>() / errors.len() as f64,
+        relative_error: comparison.albedo.mean_relative_error(),
         uniform_db: psnr_db(&uniform.reference, &uniform.image),
         bytes: encoded.bytes.len(),
     }

@@ -13,12 +13,14 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::Progress;
 use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
 use subsurf_encoder::synthetic::{Shape, capture_row};
-use subsurf_encoder::write_bytes;
+use subsurf_encoder::{Unfinished, write_bytes};
 
 use super::timing::{Steps, Storage};
 use crate::devices::{self, BackendArg};
+use crate::failure::bad_request;
 use crate::memory::human;
 use crate::progress::Bars;
+use crate::say::say;
 
 /// Time how materials load: uncompressed capture, per-pixel profiles and 2-BMPP of the same size.
 ///
@@ -85,13 +87,18 @@ pub(crate) struct Case {
 const NAMES: [&str; 3] = ["capture", "profiles", "bmpp"];
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    if args.runs == 0 {
+        return Err(bad_request("--runs is 0; a median needs one at least, and 20 to be steady"));
+    }
     let usual = || USUAL.iter().map(|text| text.parse::<CaseArg>()).collect::<Result<Vec<_>, _>>();
     let cases = if args.cases.is_empty() { usual().map_err(anyhow::Error::msg)? } else { args.cases.clone() };
     let folder = match &args.dir {
         Some(dir) => tempfile::tempdir_in(dir),
         None => tempfile::tempdir(),
     };
-    let folder = folder.context("no folder for the files; --dir names another")?;
+    let folder =
+        folder.map_err(|error| bad_request(format!("no folder for the files, name one with --dir: {error}")))?;
+    let _goes_when_interrupted = Unfinished::new(folder.path());
     let mut results = Vec::new();
     for CaseArg(shape) in cases {
         let case = write_files(folder.path(), &shape)?;
@@ -101,12 +108,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             std::fs::remove_file(file).ok();
         }
         if !args.json {
-            println!("{}", markdown(&result));
+            say!("{}", markdown(&result));
         }
         results.push(result);
     }
     if args.json {
-        println!("{:#}", json!({ "runs": args.runs, "device": device(args.backend)?, "cases": results }));
+        say!("{:#}", json!({ "runs": args.runs, "device": device(args.backend)?, "cases": results }));
     }
     Ok(())
 }

@@ -18,6 +18,7 @@ use super::timing::{Steps, Storage, median, medians};
 use crate::devices::BackendArg;
 use crate::memory::resident;
 use crate::render::storage_of;
+use crate::say::say;
 
 /// Load one file and print its times as JSON
 #[derive(clap::Args)]
@@ -34,31 +35,34 @@ const FRAME: u32 = 64;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let gpu = args.backend.open()?;
+    // What there is before anything of the file is: the driver.
+    let baseline = resident().map_or(0, |memory| memory.peak);
     let is_capture = args.file.extension().is_some_and(|extension| extension == "npy");
     let (header, storage) = describe(&args.file, is_capture)?;
     let bench = Bench::new(gpu.as_ref(), &args.file, header, storage)?;
     // One run that does not count: driver caches, page cache.
-    bench.once()?;
-    let baseline = bench.baseline;
-    let warm: Vec<Steps> = (0..args.runs).map(|_| bench.once()).collect::<anyhow::Result<_>>()?;
+    let (_, gpu_bytes) = bench.once()?;
+    let once = || bench.once().map(|(steps, _)| steps);
+    let warm: Vec<Steps> = (0..args.runs).map(|_| once()).collect::<anyhow::Result<_>>()?;
     let mut cold = Vec::new();
     for _ in 0..args.runs {
         if !drop_from_cache(&args.file)? {
             break;
         }
-        cold.push(bench.once()?);
+        cold.push(once()?);
     }
-    let bytes = std::fs::read(&args.file)?;
+    let peak_rss_bytes = resident().map_or(0, |memory| memory.peak);
+    let parts_us = if is_capture { BTreeMap::new() } else { parts_of_parse(&std::fs::read(&args.file)?, args.runs) };
     let result = Storage {
-        bytes: bytes.len() as u64,
-        gpu_bytes: bench.gpu_bytes()?,
-        peak_rss_bytes: resident().map_or(0, |memory| memory.peak),
+        bytes: std::fs::metadata(&args.file)?.len(),
+        gpu_bytes,
+        peak_rss_bytes,
         baseline_rss_bytes: baseline,
         warm_us: medians(&warm),
         cold_us: (!cold.is_empty()).then(|| medians(&cold)),
-        parts_us: if is_capture { BTreeMap::new() } else { parts_of_parse(&bytes, args.runs) },
+        parts_us,
     };
-    println!("{}", serde_json::to_string(&result)?);
+    say!("{}", serde_json::to_string(&result)?);
     Ok(())
 }
 
@@ -99,7 +103,6 @@ struct Bench<'a> {
     renderer: Option<PatchRenderer>,
     irradiance: Vec<Rgb>,
     region: Region,
-    baseline: u64,
 }
 
 impl<'a> Bench<'a> {
@@ -115,7 +118,6 @@ impl<'a> Bench<'a> {
             renderer,
             irradiance: vec![[1.0; 3]; (header.width * header.height) as usize],
             region: Region { origin, size },
-            baseline: resident().map_or(0, |memory| memory.peak),
         })
     }
 
@@ -124,8 +126,8 @@ impl<'a> Bench<'a> {
         Ok(light.transpose()?)
     }
 
-    /// File to picture, once.
-    fn once(&self) -> anyhow::Result<Steps> {
+    /// File to picture, once; and the material's bytes on the device.
+    fn once(&self) -> anyhow::Result<(Steps, u64)> {
         let mut clock = Clock::new();
         let bytes = std::fs::read(self.path)?;
         let read = clock.lap();
@@ -138,7 +140,7 @@ impl<'a> Bench<'a> {
         let material = if entries.is_none() { Some(crate::info::parse(self.path, &bytes)?) } else { None };
         let parse = clock.lap();
 
-        let (upload, first_frame) = match (self.gpu, &self.renderer) {
+        let (upload, first_frame, gpu_bytes) = match (self.gpu, &self.renderer) {
             (Some(gpu), Some(renderer)) => {
                 let uploaded = self.upload(gpu, material.as_ref(), entries.unwrap_or(&[]))?;
                 let light = self.light(gpu, &uploaded)?.context("a renderer has a light")?;
@@ -146,7 +148,7 @@ impl<'a> Bench<'a> {
                 let upload = clock.lap();
                 let exitance = renderer.gather(gpu, &uploaded, &light, self.region)?;
                 renderer.picture(gpu, &exitance, self.region.size, 1.0)?;
-                (upload, clock.lap())
+                (upload, clock.lap(), uploaded.gpu_bytes())
             }
             _ => {
                 let (origin, size) = (self.region.origin, self.region.size);
@@ -158,10 +160,10 @@ impl<'a> Bench<'a> {
                     }
                 };
                 std::hint::black_box(cpu::present(&exitance, size, size, 1.0));
-                (0.0, clock.lap())
+                (0.0, clock.lap(), 0)
             }
         };
-        Ok(Steps { read, parse, upload, first_frame, total: read + parse + upload + first_frame })
+        Ok((Steps { read, parse, upload, first_frame, total: read + parse + upload + first_frame }, gpu_bytes))
     }
 
     fn upload(&self, gpu: &Gpu, material: Option<&Bssrdf<'_>>, entries: &[u8]) -> anyhow::Result<Material> {
@@ -176,20 +178,6 @@ impl<'a> Bench<'a> {
         let len = capture.pixels() * capture.window_len() * size_of::<f32>();
         let start = bytes.len().checked_sub(len).context("captures for timing are float32")?;
         Ok(&bytes[start..])
-    }
-
-    fn gpu_bytes(&self) -> anyhow::Result<u64> {
-        let Some(gpu) = self.gpu else {
-            return Ok(0);
-        };
-        let bytes = std::fs::read(self.path)?;
-        let material = match self.storage {
-            GpuStorage::Capture => self.upload(gpu, None, self.entries_of(&bytes)?)?,
-            GpuStorage::Bmpp | GpuStorage::PerPixel => {
-                self.upload(gpu, Some(&crate::info::parse(self.path, &bytes)?), &[])?
-            }
-        };
-        Ok(material.gpu_bytes())
     }
 }
 

@@ -89,7 +89,11 @@ pub(super) fn gltf(path: &Path) -> Result<Raw> {
     let scene = document.default_scene().or_else(|| document.scenes().next()).ok_or("no scene")?;
     let mut out = Raw { uvs: Some(Vec::new()), ..Raw::default() };
     let mut nodes: Vec<(gltf::Node<'_>, Mat4)> = scene.nodes().map(|node| (node, Mat4::IDENTITY)).collect();
+    let mut visited = std::collections::HashSet::new();
     while let Some((node, parent)) = nodes.pop() {
+        if !visited.insert(node.index()) {
+            return Err(format!("node {} is in the scene twice; nodes make a tree", node.index()));
+        }
         let world = parent * Mat4::from_cols_array_2d(&node.transform().matrix());
         nodes.extend(node.children().map(|child| (child, world)));
         for primitive in node.mesh().into_iter().flat_map(|mesh| mesh.primitives().collect::<Vec<_>>()) {

@@ -16,6 +16,8 @@ pub struct Knot {
 #[derive(Clone, Copy, Debug)]
 pub struct LocalProfile<'a> {
     source: Source<'a>,
+    /// S.
+    samples: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +32,9 @@ impl LocalProfile<'_> {
     /// P̂_x^h, natural log of mm⁻², of node `h` (eq. 4); zeros from S on.
     #[must_use]
     pub fn node(&self, h: usize) -> [f32; 3] {
+        if h >= self.samples {
+            return [0.0; 3];
+        }
         match self.source {
             Source::Blend { profiles, start, t } => {
                 let [p1, p2] = start.map(|start| profiles.rgb_at(start.saturating_add(h.saturating_mul(3))));
@@ -104,7 +109,7 @@ impl<'a> Bssrdf<'a> {
                 pixels: usize::try_from(header.pixels()).unwrap_or(usize::MAX),
             },
         };
-        LocalProfile { source }
+        LocalProfile { source, samples: header.samples.into() }
     }
 
     /// Rd = exp(½ (P̂_i + P̂_o)) in mm⁻² of two profiles at one distance (eq. 2).

@@ -23,6 +23,8 @@ pub const MAX_SAMPLES: u16 = 4_096;
 pub const MAX_BASE_MATERIALS: u32 = 256;
 /// Largest magnitude of a log-scale profile value, so that e^±P̂ is finite and normal in f32.
 pub const MAX_LOG: f32 = 87.0;
+/// Smallest and largest pitch and radius in mm: nothing computed from them overflows.
+pub const LENGTHS_MM: [f32; 2] = [1e-6, 1e6];
 /// Largest refractive index.
 pub const MAX_ETA: f32 = 4.0;
 
@@ -43,9 +45,9 @@ pub struct Header {
     pub samples: u16,
     /// M, 1 to 256; 0 for per-pixel profiles.
     pub base_materials: u32,
-    /// Distance of neighbouring pixels in mm, > 0.
+    /// Distance of neighbouring pixels in mm, 10⁻⁶ to 10⁶.
     pub pitch_mm: f32,
-    /// Radius of the last node in mm, > 0; Rd is 0 beyond it.
+    /// Radius of the last node in mm, 10⁻⁶ to 10⁶; Rd is 0 beyond it.
     pub r_max_mm: f32,
     /// Refractive index of the material against air, 1 to 4.
     pub eta: f32,
@@ -113,6 +115,7 @@ impl Header {
         integer(12, window_radius.into(), 0, MAX_WINDOW_RADIUS.into())?;
         let samples = u16s(14)?;
         integer(14, samples.into(), 2, MAX_SAMPLES.into())?;
+        let [shortest, longest] = LENGTHS_MM;
         Ok(Self {
             model,
             addressing: Addressing::from_code(addressing).ok_or(bad_field(2, addressing.into()))?,
@@ -121,8 +124,8 @@ impl Header {
             window_radius,
             samples,
             base_materials: integer(16, u32s(16)?, *materials.start(), *materials.end())?,
-            pitch_mm: number(20, f32s(20)?, f32::MIN_POSITIVE, f32::MAX)?,
-            r_max_mm: number(24, f32s(24)?, f32::MIN_POSITIVE, f32::MAX)?,
+            pitch_mm: number(20, f32s(20)?, shortest, longest)?,
+            r_max_mm: number(24, f32s(24)?, shortest, longest)?,
             eta: number(28, f32s(28)?, 1.0, MAX_ETA)?,
         })
     }

@@ -12,7 +12,7 @@ mod write;
 
 use subsurf_decoder::Section;
 use subsurf_decoder::bssrdf::Header;
-use subsurf_decoder::bssrdf::layout::{MAX_BASE_MATERIALS, MAX_SAMPLES, MODEL_2BMPP, MODEL_PER_PIXEL};
+use subsurf_decoder::bssrdf::layout::{LENGTHS_MM, MAX_BASE_MATERIALS, MAX_SAMPLES, MODEL_2BMPP, MODEL_PER_PIXEL};
 
 use crate::capture::Capture;
 use crate::error::{Error, Result};
@@ -112,12 +112,16 @@ fn geometry(capture: &Capture, options: &Options) -> Result<Geometry> {
         let message = format!("{} base materials; a file holds 1 to {limit}", options.base_materials);
         return Err(Error::Request(message));
     }
-    let nodes = options.samples.unwrap_or(capture.radius() + 1).max(2);
-    if nodes > MAX_SAMPLES.into() {
+    let nodes = options.samples.unwrap_or((capture.radius() + 1).max(2));
+    if !(2..=MAX_SAMPLES.into()).contains(&nodes) {
         return Err(Error::Request(format!("{nodes} samples; a profile holds 2 to {MAX_SAMPLES}")));
     }
     #[allow(clippy::cast_precision_loss, reason = "R < 1,024")]
     let corner = (capture.radius().max(1) as f64) * std::f64::consts::SQRT_2;
+    let corner_mm = corner * f64::from(capture.pitch_mm());
+    if corner_mm >= f64::from(LENGTHS_MM[1]) {
+        return Err(Error::Request(format!("a window that reaches {corner_mm} mm; a file holds {}", LENGTHS_MM[1])));
+    }
     Ok(Geometry {
         size: [capture.width(), capture.height()],
         radius: capture.radius(),

@@ -20,6 +20,7 @@ use subsurf_decoder::bssrdf::Addressing;
 use super::banded::Banded;
 use super::field::Field;
 use super::lanes::{self, Lanes, ZERO};
+use super::lsp::{RIDGE, SMOOTHNESS};
 use super::window::{Geometry, Ring, rings};
 use crate::capture::Capture;
 use crate::error::{Error, Result};
@@ -147,8 +148,8 @@ impl Normal {
                 }
             }
         }
-        system.add_smoothness(1e-3);
-        system.add_ridge(1e-6);
+        system.add_smoothness(SMOOTHNESS);
+        system.add_ridge(RIDGE);
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_precision_loss,
@@ -440,8 +441,7 @@ fn counts(geometry: &Geometry, rings: &[Ring], measured: &[Option<Vec<u8>>]) -> 
         let offsets = rings.iter().flat_map(|ring| &ring.offsets);
         for (count, offset) in counts.iter_mut().zip(offsets) {
             if let Some(other) = geometry.neighbour(pixel, offset.step) {
-                // The way back has the opposite place in the other window.
-                let back = places - 1 - offset.place;
+                let back = geometry.place(geometry.way_back(pixel, offset.step));
                 *count = spread(channels(pixel, offset.place)) + spread(channels(other, back));
             }
         }

@@ -2,7 +2,7 @@
 
 use subsurf_decoder::bssrdf::Addressing;
 
-use crate::capture::neighbour;
+use crate::capture::{neighbour, way_back};
 
 /// Sampling of the profiles, and the pixels between which pairs are taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,13 +32,24 @@ impl Geometry {
     pub(super) fn neighbour(&self, pixel: usize, step: [i32; 2]) -> Option<usize> {
         neighbour(self.addressing, self.size, self.position(pixel), step)
     }
+
+    /// From the pixel that [`Geometry::neighbour`] gives back to `pixel`.
+    pub(super) fn way_back(&self, pixel: usize, step: [i32; 2]) -> [i32; 2] {
+        way_back(self.addressing, self.size, self.position(pixel), step)
+    }
+
+    /// Place of a step in a capture's window, dx + dy D with both counted from the window's corner.
+    pub(super) fn place(&self, [dx, dy]: [i32; 2]) -> usize {
+        let radius = i32::try_from(self.radius).expect("a window radius is below 1,024");
+        usize::try_from((dx + radius) + (dy + radius) * (2 * radius + 1)).expect("steps stay in the window")
+    }
 }
 
 /// One pixel of the window.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Offset {
     pub(super) step: [i32; 2],
-    /// Its place in a capture's window, dx + dy D with both counted from the window's corner.
+    /// Its place in a capture's window.
     pub(super) place: usize,
 }
 
@@ -54,17 +65,21 @@ pub(super) struct Ring {
     pub(super) offsets: Vec<Offset>,
 }
 
+impl Ring {
+    /// Whether this is r = 0.
+    pub(super) fn is_self(&self) -> bool {
+        self.h == 0 && self.w == 0.0
+    }
+}
+
 /// The offsets of a window by rising distance; the first ring is the pixel itself.
 pub(super) fn rings(geometry: &Geometry) -> Vec<Ring> {
     let radius = i32::try_from(geometry.radius).expect("a window radius is below 1,024");
-    let d = 2 * radius + 1;
     let mut offsets: Vec<(i32, Offset)> = (-radius..=radius)
         .flat_map(|dy| (-radius..=radius).map(move |dx| [dx, dy]))
         .map(|step| {
             let [dx, dy] = step;
-            let place = (dx + radius) + (dy + radius) * d;
-            let place = usize::try_from(place).expect("offsets start at the window's corner");
-            (dx * dx + dy * dy, Offset { step, place })
+            (dx * dx + dy * dy, Offset { step, place: geometry.place(step) })
         })
         .collect();
     offsets.sort_by_key(|(r2, offset)| (*r2, offset.place));

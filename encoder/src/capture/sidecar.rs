@@ -112,9 +112,10 @@ impl Sidecar {
 
     /// Refuses values that a file could not hold.
     fn check(&self, capture: &Path) -> Result<()> {
-        if !(self.pitch_mm.is_normal() && self.pitch_mm > 0.0) {
+        let [shortest, longest] = layout::LENGTHS_MM;
+        if !(shortest..=longest).contains(&self.pitch_mm) {
             let found = format!("pixel pitch {} mm", self.pitch_mm);
-            return Err(Error::input(capture, found, "a positive length in mm"));
+            return Err(Error::input(capture, found, format!("a length from {shortest} to {longest} mm")));
         }
         if !(1.0..=layout::MAX_ETA).contains(&self.eta) {
             let found = format!("refractive index {}", self.eta);

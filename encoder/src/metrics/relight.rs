@@ -71,23 +71,36 @@ impl Relit {
         }
     }
 
-    /// Both images divided by the largest value of the reference.
+    /// Both images divided by the largest value of the reference; `None` if the reference is black.
     #[must_use]
-    pub fn normalised(&self) -> Self {
+    pub fn normalised(&self) -> Option<Self> {
         let peak = self.reference.iter().flatten().fold(0.0_f64, |peak, &value| peak.max(value));
+        if peak <= 0.0 {
+            return None;
+        }
         let scale = |image: &[[f64; 3]]| image.iter().map(|rgb| rgb.map(|value| value / peak)).collect();
-        Self { reference: scale(&self.reference), image: scale(&self.image) }
+        Some(Self { reference: scale(&self.reference), image: scale(&self.image) })
     }
 
-    /// Relative error ‖ρ − ρ'‖/‖ρ‖ of every pixel, over the three channels; 0 where the reference is black.
+    /// Mean of [`Relit::relative_errors`] over the pixels that have one.
     #[must_use]
-    pub fn relative_errors(&self) -> Vec<f64> {
+    pub fn mean_relative_error(&self) -> f64 {
+        let errors: Vec<f64> = self.relative_errors().into_iter().flatten().collect();
+        #[allow(clippy::cast_precision_loss, reason = "pixels fit in 2⁵³")]
+        let count = errors.len().max(1) as f64;
+        errors.iter().sum::<f64>() / count
+    }
+
+    /// Relative error ‖ρ − ρ'‖/‖ρ‖ of every pixel, over the three channels; `None` where the reference is black, for
+    /// nothing was measured there.
+    #[must_use]
+    pub fn relative_errors(&self) -> Vec<Option<f64>> {
         let norm = |rgb: [f64; 3]| rgb.iter().map(|value| value * value).sum::<f64>().sqrt();
         let pairs = self.reference.iter().zip(&self.image);
         pairs
             .map(|(reference, image)| {
                 let difference = [0, 1, 2].map(|c| reference[c] - image[c]);
-                if norm(*reference) > 0.0 { norm(difference) / norm(*reference) } else { 0.0 }
+                (norm(*reference) > 0.0).then(|| norm(difference) / norm(*reference))
             })
             .collect()
     }

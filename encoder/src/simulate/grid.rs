@@ -84,7 +84,7 @@ fn lateral(pitch_mm: f64, radius: usize, margin_mm: f64, scales: Scales, refine:
         let widest = NEAR * scales.mean_free_path + FAR * distance;
         let widest = widest.min(DECAY * scales.decay) / refine;
         // Even across the source pixel, of which this half has one half.
-        let count = (pitch_mm / widest).ceil().clamp(1.0, MAX_PER_PIXEL * refine);
+        let count = (pitch_mm / widest).ceil().clamp(1.0, (MAX_PER_PIXEL * refine).max(1.0));
         let count = if k == 0 { (count / 2.0).ceil() * 2.0 } else { count };
         let start = if k == 0 { count / 2.0 } else { 0.0 };
         let mut cell = start + 1.0;

@@ -50,6 +50,11 @@ pub fn mixture(parts: &[(String, Weight)], size: [usize; 2], stretch: bool) -> R
         })?;
         let plane = match weight {
             Weight::Image(path) => grey(path, size, stretch)?,
+            Weight::Constant(value) if !(value.is_finite() && *value >= 0.0) => {
+                return Err(Error::Request(format!(
+                    "a weight of {value} for {name}; weights are finite and not negative"
+                )));
+            }
             Weight::Constant(value) => vec![*value; size[0] * size[1]],
             Weight::Rest if rest.is_some() => {
                 return Err(Error::Request("two materials ask for the rest; only one can have it".to_owned()));
@@ -89,7 +94,7 @@ pub fn albedo(image: &Path, mean_free_path: &MeanFreePath, size: [usize; 2], eta
     let lengths: Vec<[f64; 3]> = match mean_free_path {
         MeanFreePath::Constant(lengths) => vec![*lengths; size[0] * size[1]],
         MeanFreePath::Image(path, [from, to]) => {
-            let (stored, _) = load(path, size)?;
+            let stored = load(path, size, Meaning::Data)?;
             let length = |value: f32| from + f64::from(value.clamp(0.0, 1.0)) * (to - from);
             stored.pixels().map(|rgb| rgb.0.map(length)).collect()
         }
@@ -105,8 +110,17 @@ fn unreadable(path: &Path, error: impl std::fmt::Display) -> Error {
     Error::input(path, error, "an image (PNG, JPEG or Radiance HDR)")
 }
 
-/// An image's values as they are stored, 8-bit ones divided by 255, resampled to `size`; and whether they are linear.
-fn load(path: &Path, size: [usize; 2]) -> Result<(Rgb32FImage, bool)> {
+/// How an image's values are meant.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Meaning {
+    /// Colours: 8- and 16-bit images are sRGB, and become linear Rec. 709.
+    Colour,
+    /// Numbers, as they are stored; 8-bit ones divided by 255.
+    Data,
+}
+
+/// An image resampled to `size`; colours are averaged as light is, after they are made linear.
+fn load(path: &Path, size: [usize; 2], meaning: Meaning) -> Result<Rgb32FImage> {
     let reader = ImageReader::open(path).map_err(|error| unreadable(path, error))?;
     let reader = reader.with_guessed_format().map_err(|error| unreadable(path, error))?;
     let is_linear = reader.format() == Some(ImageFormat::Hdr);
@@ -116,31 +130,30 @@ fn load(path: &Path, size: [usize; 2]) -> Result<(Rgb32FImage, bool)> {
     } else {
         reader.decode()
     };
-    let image = image.map_err(|error| unreadable(path, error))?.into_rgb32f();
+    let mut image = image.map_err(|error| unreadable(path, error))?.into_rgb32f();
+    if meaning == Meaning::Colour && !is_linear {
+        for rgb in image.pixels_mut() {
+            rgb.0 = rgb.0.map(from_srgb);
+        }
+    }
     let [width, height] = size.map(|n| u32::try_from(n).expect("a side is below 65,536"));
     // A triangle as wide as a target pixel: averages when it shrinks, interpolates when it enlarges.
-    Ok((resize(&image, width, height, FilterType::Triangle), is_linear))
+    Ok(resize(&image, width, height, FilterType::Triangle))
 }
 
-/// Linear Rec. 709 values: 8- and 16-bit images are sRGB.
+/// IEC 61966-2-1.
+fn from_srgb(encoded: f32) -> f32 {
+    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+/// Linear Rec. 709 values.
 fn linear(path: &Path, size: [usize; 2]) -> Result<Vec<[f64; 3]>> {
-    let (stored, is_linear) = load(path, size)?;
-    let decode = |value: f32| {
-        let value = f64::from(value);
-        if is_linear {
-            value
-        } else if value <= 0.040_45 {
-            value / 12.92
-        } else {
-            ((value + 0.055) / 1.055).powf(2.4)
-        }
-    };
-    Ok(stored.pixels().map(|rgb| rgb.0.map(decode)).collect())
+    Ok(load(path, size, Meaning::Colour)?.pixels().map(|rgb| rgb.0.map(f64::from)).collect())
 }
 
 /// Mean of the three channels as they are stored.
 fn grey(path: &Path, size: [usize; 2], stretch: bool) -> Result<Vec<f64>> {
-    let (stored, _) = load(path, size)?;
+    let stored = load(path, size, Meaning::Data)?;
     let mut values: Vec<f64> =
         stored.pixels().map(|rgb| rgb.0.iter().map(|&v| f64::from(v)).sum::<f64>() / 3.0).collect();
     if stretch {

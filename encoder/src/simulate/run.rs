@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::sensor::Sensor;
 use super::slab::Slab;
-use crate::capture::{CaptureWriter, neighbour};
+use crate::capture::{CaptureWriter, neighbour, way_back};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 
@@ -129,9 +129,10 @@ impl Entries<'_> {
             let Some(other) = neighbour(*addressing, map.size, position, step) else {
                 continue;
             };
+            let [back_x, back_y] = way_back(*addressing, map.size, position, step).map(|k| k + signed(*radius));
+            let back = usize::try_from(back_y * signed(d) + back_x).expect("steps stay in the window");
             for c in 0..3 {
-                // The way back has the opposite place in the other window.
-                let (there, back) = (window[place * 3 + c], self.get(other, (d * d - 1 - place) * 3 + c));
+                let (there, back) = (window[place * 3 + c], self.get(other, back * 3 + c));
                 // Far away a solution can be zero to its precision: not measured.
                 if there > 0.0 && back > 0.0 {
                     asymmetry.add(&Mean { sum: f64::from((there / back).ln().abs()), count: 1.0 });

@@ -69,8 +69,10 @@ impl Mesh {
 
     /// The mesh with no edge longer than `longest_mm`: long edges are halved until there are none, so that light and
     /// material are sampled finely enough on large triangles. Positions stay on the given triangles.
-    #[must_use]
-    pub fn subdivided(mut self, longest_mm: f32) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] if that takes more than four million vertices.
+    pub fn subdivided(mut self, longest_mm: f32) -> Result<Self> {
         loop {
             let mut middles: HashMap<[u32; 2], u32> = HashMap::new();
             let mut triangles = Vec::with_capacity(self.triangles.len());
@@ -82,8 +84,14 @@ impl Mesh {
                 split(triangle, middle, &mut triangles);
             }
             self.triangles = triangles;
-            if middles.is_empty() || self.positions.len() > MAX_VERTICES {
-                return self;
+            if middles.is_empty() {
+                return Ok(self);
+            }
+            if self.positions.len() > MAX_VERTICES {
+                return Err(Error::Mesh(format!(
+                    "edges of at most {longest_mm} mm take more than {MAX_VERTICES} vertices; draw the mesh smaller, or a \
+                     material of larger pixels"
+                )));
             }
         }
     }
@@ -146,7 +154,7 @@ mod tests {
     #[test]
     fn subdivision_keeps_the_area_and_leaves_no_long_edge() {
         for longest in [3.0, 1.0, 0.4] {
-            let mesh = square(2.0).subdivided(longest);
+            let mesh = square(2.0).subdivided(longest).unwrap();
             let mut area = 0.0;
             for triangle in &mesh.triangles {
                 let [a, b, c] = triangle.map(|k| mesh.positions[k as usize]);
@@ -154,8 +162,9 @@ mod tests {
                 let edges = [a.distance(b), b.distance(c), c.distance(a)];
                 assert!(edges.iter().all(|edge| *edge <= longest), "{edges:?} > {longest}");
             }
-            assert!((area - 4.0).abs() < 1e-4, "{area}");
+            assert!((area - 4.0_f32).abs() < 1e-4, "{area}");
         }
+        assert!(square(1e6).subdivided(1e-3).is_err(), "more vertices than memory");
     }
 
     #[test]

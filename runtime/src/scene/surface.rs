@@ -1,6 +1,6 @@
 //! The vertices of a mesh as points that exchange light: area, pixel of the material, and a grid to find neighbours.
 
-use glam::{UVec3, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use subsurf_decoder::bssrdf::{Addressing, Header};
 use subsurf_shaders::cpu::Points;
 use subsurf_shaders::uniform;
@@ -107,12 +107,6 @@ impl Surface {
     #[must_use]
     pub fn points(&self) -> Points<'_> {
         Points { surface: self.grid, positions: &self.positions, pixels: &self.pixels, cell_starts: &self.cell_starts }
-    }
-
-    /// Cells of the grid in x, y and z.
-    #[must_use]
-    pub fn cells(&self) -> UVec3 {
-        self.grid.cells.into()
     }
 }
 

@@ -49,8 +49,9 @@ impl Albedo {
         self.roots.fill_border();
     }
 
-    /// With Rd_j = f_x f_j at ring r and weights a(r): ε = Σ_j Rd_j / ρ − 1 has the derivative Σ_j ½ Rd_j a / ρ, ρ being
-    /// what the capture says. No constraint where the capture says nothing.
+    /// With Rd_j = f_x f_j at ring r and weights a(r): ε = Σ_j Rd_j / ρ − 1 has the derivative Σ_{j≠x} ½ Rd_j a / ρ +
+    /// Rd_x a / ρ, since both ends of the pair of x with itself move; ρ is what the capture says. No constraint where
+    /// the capture says nothing.
     pub(super) fn constraint(&self, normal: &Normal, profile: &[Lanes], pixel: usize) -> Constraint {
         let mut sums = vec![ZERO; normal.rings.len()];
         normal.ring_sums(&self.roots, &self.deltas, pixel, &mut sums);
@@ -68,8 +69,9 @@ impl Albedo {
                 // A pair counts once for each direction that was measured, and an exchange is the mean of both.
                 let rd = 0.5 * root[c] * sum[c] / reference;
                 exchange += rd;
-                k[ring.h][c] += 0.5 * (1.0 - ring.w) * rd;
-                k[ring.h + 1][c] += 0.5 * ring.w * rd;
+                let slope = if ring.is_self() { rd } else { 0.5 * rd };
+                k[ring.h][c] += (1.0 - ring.w) * slope;
+                k[ring.h + 1][c] += ring.w * slope;
             }
             let product: f32 = k.iter().zip(profile).map(|(k, p)| k[c] * p[c]).sum();
             tau[c] = product - (exchange - 1.0);
