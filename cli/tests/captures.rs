@@ -46,6 +46,15 @@ fn wrong_arrays_are_refused() {
         ("empty", "<f4", false, "(0, 2, 3, 3, 3)", vec![], ["height 0", "1 to 65535"]),
         ("cut", "<f4", false, SHAPE, values()[..400].to_vec(), ["cut: 400 bytes", "432 bytes"]),
         ("huge", "<f4", false, "(65535, 65535, 3, 3, 3)", values(), ["cut", "bytes for shape"]),
+        ("overflow", "<f4", false, "(99999999999, 99999999999, 3, 3, 3)", vec![], ["shape 99999999999", expected]),
+        (
+            "nested",
+            "<f4",
+            false,
+            "[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]",
+            vec![],
+            ["nested", expected],
+        ),
         ("no_numbers", "<f4", false, SHAPE, vec![0; 432], ["nothing measured", "at least one"]),
     ] {
         write_npy(folder, &format!("{name}.npy"), descr, fortran, shape, &values);
@@ -58,6 +67,11 @@ fn wrong_arrays_are_refused() {
     assert_refused(&run(folder, "encode text.npy --pitch 1"), &["text.npy", expected]);
     assert_refused(&run(folder, "encode missing.npy --pitch 1"), &["missing.npy", "No such file"]);
     assert_refused(&run(folder, "encode . --pitch 1"), &["a capture (.npy)"]);
+    // Whatever name they are given, inputs are not written over.
+    write_npy(folder, "sound.npy", "<f4", false, SHAPE, &values());
+    assert_refused(&run(folder, "encode sound.npy --pitch 1 -o ./sound.npy"), &["would overwrite", "sound.npy"]);
+    assert_refused(&run(folder, "encode sound.npy --pitch 1 -o nowhere/a.subsurf"), &["no folder nowhere"]);
+    assert_refused(&run(folder, "encode sound.npy --pitch 1 -S 1"), &["1 samples", "2 to 4096"]);
     assert!(!files(folder).iter().any(|name| name.starts_with('.')), "no temporary files: {:?}", files(folder));
 }
 
