@@ -13,7 +13,7 @@ use subsurf_encoder::metrics::Light;
 use subsurf_encoder::simulate::{Finish, Scene};
 use subsurf_encoder::write_bytes;
 use subsurf_runtime::scene::torus;
-use subsurf_runtime::{Backend, Gpu, Material, PatchRenderer, Region};
+use subsurf_runtime::{Backend, Gpu, Material, PatchRenderer, Region, storage_of};
 use subsurf_shaders::cpu;
 
 use crate::bench::{Case, markdown, measure};
@@ -24,7 +24,7 @@ use crate::failure::bad_request;
 use crate::memory::human;
 use crate::picture::{montage, triptych, write_png};
 use crate::progress::Bars;
-use crate::render::{MappingArg, Shot, draw_mesh, draw_patch, patch_irradiance, storage_of};
+use crate::render::{MappingArg, Shot, draw_mesh, draw_patch, patch_irradiance};
 use crate::say::say;
 use crate::simulate::Request;
 

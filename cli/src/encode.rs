@@ -6,6 +6,7 @@ use std::time::Instant;
 use clap::ValueEnum;
 use serde_json::json;
 use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::Coding;
 use subsurf_encoder::bssrdf::{self, Encoded, Method, Options};
 use subsurf_encoder::capture::{Capture, sidecar_path};
 use subsurf_encoder::{check_target, write_bytes};
@@ -28,9 +29,18 @@ pub(crate) struct Args {
     /// What to fit
     #[arg(long, value_enum, default_value = "direct")]
     method: MethodArg,
-    /// Base materials, 1 to 256
+    /// Base materials per pixel: 1, 2, 3 or 5. A pixel takes 8 bits (16 if M > 256), 48, 120 or 200
+    #[arg(long, short = 'K', default_value_t = 2, value_name = "K")]
+    per_pixel: usize,
+    /// Base materials, 1 to 256; to 65536 with one per pixel
     #[arg(long, short = 'M', default_value_t = 128, value_name = "M")]
     base_materials: usize,
+    /// How two base materials per pixel are stored
+    #[arg(long, value_enum, default_value = "exact")]
+    coding: CodingArg,
+    /// Store base profiles as half floats: half the size, an error of up to 0.4 % of Rd
+    #[arg(long)]
+    half_profiles: bool,
     /// Nodes of a profile; half the window's width and one if not given
     #[arg(long, short = 'S', value_name = "S")]
     samples: Option<usize>,
@@ -49,12 +59,32 @@ pub(crate) struct Args {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum MethodArg {
-    /// 2-BMPP: two of M base materials per pixel, 48 bits (Yatagawa et al. 2020), fitted by exact alternation
+    /// K-BMPP: K of M base materials per pixel (Yatagawa et al. 2020), fitted by alternation of exact steps
     Direct,
     /// A profile for every pixel (Song et al. 2009): some thirty times larger
     Lsp,
-    /// One of M clusters of those profiles per pixel: what 2-BMPP is measured against
+    /// One of M clusters of those profiles per pixel: what K-BMPP is measured against
     Clusters,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CodingArg {
+    /// 48 bits per pixel: ratios as floats
+    Exact,
+    /// 24 bits per pixel: ratios in 8 bits
+    Small,
+    /// 16 bits per pixel: one of at most 2,048 pairs, and a ratio in 5 bits
+    Palette,
+}
+
+impl From<CodingArg> for Coding {
+    fn from(arg: CodingArg) -> Self {
+        match arg {
+            CodingArg::Exact => Self::Exact,
+            CodingArg::Small => Self::SmallRatios,
+            CodingArg::Palette => Self::Palette,
+        }
+    }
 }
 
 impl From<MethodArg> for Method {
@@ -84,6 +114,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let options = Options {
         method: args.method.into(),
+        per_pixel: args.per_pixel,
+        coding: args.coding.into(),
+        half_profiles: args.half_profiles,
         base_materials: args.base_materials,
         samples: args.samples,
         seed: args.seed,
@@ -116,6 +149,8 @@ fn report(args: &Args, capture: &Capture, output: &Path, encoded: &Encoded, judg
         let mut value = json!({
             "file": output,
             "method": format!("{:?}", args.method).to_lowercase(),
+            "per_pixel": if args.method == MethodArg::Direct { args.per_pixel } else { 1 },
+            "coding": format!("{:?}", args.coding).to_lowercase(),
             "base_materials": encoded.base_materials,
             "samples": encoded.samples,
             "cost": encoded.cost,

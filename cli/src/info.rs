@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 use serde_json::json;
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::Model;
+use subsurf_decoder::bssrdf::{Coding, Model, Profiles};
 use subsurf_decoder::container::{Container, Crc};
 
 use crate::memory::human;
@@ -27,8 +27,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let container = Container::parse(&bytes).map_err(|error| read_error(&args.file, error))?;
     let header = material.header();
     let model = match material.model() {
-        Model::BaseMaterials(_) => "2-BMPP (two base materials per pixel)",
-        Model::PerPixel(_) => "per-pixel profiles",
+        Model::BaseMaterials(planes) => {
+            let coding = match header.coding {
+                Coding::Exact => "",
+                Coding::SmallRatios => ", ratios in 8 bits",
+                Coding::Palette => ", pairs from a palette",
+            };
+            let half = if matches!(planes.profiles, Profiles::F16(_)) { ", profiles in half precision" } else { "" };
+            format!("{}-BMPP (base materials per pixel: {}{coding}{half})", header.model, header.model)
+        }
+        Model::PerPixel(_) => "per-pixel profiles".to_owned(),
     };
     if args.json {
         let sections: Vec<_> = container

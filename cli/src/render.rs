@@ -11,9 +11,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::Light;
 use subsurf_runtime::scene::{Mapping, Mesh, Surface};
-use subsurf_runtime::{
-    BACKGROUND, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchRenderer, Region, Storage, View,
-};
+use subsurf_runtime::{BACKGROUND, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchRenderer, Region, View};
 use subsurf_shaders::cpu::{self, Rgb};
 
 use crate::devices::{self, BackendArg, check_picture};
@@ -375,12 +373,4 @@ fn average_down(pixels: &[[u8; 3]], size: [u32; 2]) -> RgbImage {
         let count = (n * n) as f32;
         image::Rgb(cpu::display(cpu::srgb(sum.map(|sum| sum / count))))
     })
-}
-
-/// How a file is stored on the device.
-pub(crate) fn storage_of(material: &Bssrdf<'_>) -> Storage {
-    match material.model() {
-        subsurf_decoder::bssrdf::Model::BaseMaterials(_) => Storage::Bmpp,
-        subsurf_decoder::bssrdf::Model::PerPixel(_) => Storage::PerPixel,
-    }
 }

@@ -1,5 +1,7 @@
 //! Little-endian reads from byte slices of any alignment. All offset arithmetic of the crate is here, and all of it is checked.
 
+use half::f16;
+
 /// Bytes `offset .. offset + N`, or `None` where they are not all there.
 pub(crate) fn array_at<const N: usize>(bytes: &[u8], offset: usize) -> Option<[u8; N]> {
     bytes.get(offset..)?.first_chunk::<N>().copied()
@@ -97,5 +99,69 @@ impl<'a> F32Le<'a> {
     pub(crate) fn rgb_at(self, index: usize) -> [f32; 3] {
         let rgb = self.0.get(index..).and_then(<[[u8; 4]]>::first_chunk::<3>);
         rgb.map_or([0.0; 3], |rgb| rgb.map(f32::from_le_bytes))
+    }
+}
+
+/// A borrowed run of little-endian `u16` values of any alignment.
+#[derive(Clone, Copy, Debug)]
+pub struct U16Le<'a>(&'a [[u8; 2]]);
+
+impl<'a> U16Le<'a> {
+    /// Views `bytes` as `u16`s; a byte left over at the end is not part of the view.
+    #[must_use]
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Self(bytes.as_chunks().0)
+    }
+
+    /// Value number `index`.
+    #[must_use]
+    pub fn get(self, index: usize) -> Option<u16> {
+        self.0.get(index).copied().map(u16::from_le_bytes)
+    }
+
+    /// All values in order.
+    pub fn iter(self) -> impl Iterator<Item = u16> + 'a {
+        self.0.iter().copied().map(u16::from_le_bytes)
+    }
+
+    /// The values as they stand in the file, ready for a texture upload.
+    #[must_use]
+    pub fn as_bytes(self) -> &'a [u8] {
+        self.0.as_flattened()
+    }
+}
+
+/// A borrowed run of little-endian half floats of any alignment.
+#[derive(Clone, Copy, Debug)]
+pub struct F16Le<'a>(U16Le<'a>);
+
+impl<'a> F16Le<'a> {
+    /// Views `bytes` as half floats; a byte left over at the end is not part of the view.
+    #[must_use]
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Self(U16Le::new(bytes))
+    }
+
+    /// Value number `index`.
+    #[must_use]
+    pub fn get(self, index: usize) -> Option<f32> {
+        self.0.get(index).map(|bits| f16::from_bits(bits).to_f32())
+    }
+
+    /// The values as they stand in the file, ready for a texture upload.
+    #[must_use]
+    pub fn as_bytes(self) -> &'a [u8] {
+        self.0.as_bytes()
+    }
+
+    /// The values' bit patterns.
+    pub fn bits(self) -> impl Iterator<Item = u16> + 'a {
+        self.0.iter()
+    }
+
+    /// Three consecutive values from `index`, zero where there are none.
+    pub(crate) fn rgb_at(self, index: usize) -> [f32; 3] {
+        let rgb = self.0.0.get(index..).and_then(<[[u8; 2]]>::first_chunk::<3>);
+        rgb.map_or([0.0; 3], |rgb| rgb.map(|bytes| f16::from_le_bytes(bytes).to_f32()))
     }
 }

@@ -12,10 +12,18 @@ pub enum Section {
     BssrdfHeader,
     /// `PROF`: base scattering profiles.
     BaseProfiles,
+    /// `PRFH`: base scattering profiles as half floats.
+    HalfProfiles,
     /// `MIXR`: mixture ratios.
     MixtureRatios,
+    /// `MIX8`: mixture ratios in 8 bits.
+    SmallRatios,
     /// `BIDX`: base-material indices.
     BaseIndices,
+    /// `PAIR`: palette of pairs of base materials.
+    Pairs,
+    /// `CODE`: number in the palette, and mixture ratio in 5 bits.
+    Codes,
     /// `LSPP`: per-pixel local scattering profiles.
     LocalProfiles,
     /// A kind that this version does not know.
@@ -29,8 +37,12 @@ impl Section {
         match &kind {
             b"BSSR" => Self::BssrdfHeader,
             b"PROF" => Self::BaseProfiles,
+            b"PRFH" => Self::HalfProfiles,
             b"MIXR" => Self::MixtureRatios,
+            b"MIX8" => Self::SmallRatios,
             b"BIDX" => Self::BaseIndices,
+            b"PAIR" => Self::Pairs,
+            b"CODE" => Self::Codes,
             b"LSPP" => Self::LocalProfiles,
             _ => Self::Other(kind),
         }
@@ -43,8 +55,12 @@ impl Section {
             Self::FileHeader => [0; 4],
             Self::BssrdfHeader => *b"BSSR",
             Self::BaseProfiles => *b"PROF",
+            Self::HalfProfiles => *b"PRFH",
             Self::MixtureRatios => *b"MIXR",
+            Self::SmallRatios => *b"MIX8",
             Self::BaseIndices => *b"BIDX",
+            Self::Pairs => *b"PAIR",
+            Self::Codes => *b"CODE",
             Self::LocalProfiles => *b"LSPP",
             Self::Other(kind) => kind,
         }
@@ -57,8 +73,12 @@ impl fmt::Display for Section {
             Self::FileHeader => f.write_str("file header"),
             Self::BssrdfHeader => f.write_str("BSSR (material header)"),
             Self::BaseProfiles => f.write_str("PROF (base scattering profiles)"),
+            Self::HalfProfiles => f.write_str("PRFH (base scattering profiles, half floats)"),
             Self::MixtureRatios => f.write_str("MIXR (mixture ratios)"),
+            Self::SmallRatios => f.write_str("MIX8 (mixture ratios, 8 bits)"),
             Self::BaseIndices => f.write_str("BIDX (base-material indices)"),
+            Self::Pairs => f.write_str("PAIR (palette of pairs)"),
+            Self::Codes => f.write_str("CODE (palette codes)"),
             Self::LocalProfiles => f.write_str("LSPP (local scattering profiles)"),
             Self::Other(kind) => write!(f, "{}", kind.escape_ascii()),
         }
@@ -153,7 +173,7 @@ pub enum ReadError {
         /// Largest value allowed.
         max: f32,
     },
-    /// A base-material index leads outside the table of profiles.
+    /// An index leads outside the table of profiles, or of pairs.
     IndexOutOfRange {
         /// The section it stands in.
         section: Section,
@@ -161,7 +181,7 @@ pub enum ReadError {
         offset: u64,
         /// The index.
         index: u32,
-        /// Number of base materials.
+        /// Number of base materials, or of pairs.
         len: u32,
     },
 }
@@ -199,7 +219,7 @@ impl fmt::Display for ReadError {
                 write!(f, "{section}: byte {offset}: {value} is not in {min} to {max}")
             }
             Self::IndexOutOfRange { section, offset, index, len } => {
-                write!(f, "{section}: byte {offset}: index {index}, but there are {len} base materials")
+                write!(f, "{section}: byte {offset}: index {index}, but the table has {len} entries")
             }
         }
     }

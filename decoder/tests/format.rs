@@ -3,7 +3,7 @@
 mod common;
 
 use common::{BIDX, MIXR, MODEL, PITCH, PROF, PROFILES, SAMPLES, WIDTH, crc32, example, seal};
-use subsurf_decoder::bssrdf::{Addressing, Model};
+use subsurf_decoder::bssrdf::{Addressing, Mixtures, Model, Profiles};
 use subsurf_decoder::container::Crc;
 use subsurf_decoder::{Bssrdf, ReadError, Section};
 
@@ -40,10 +40,13 @@ fn reads_the_example() {
     let Model::BaseMaterials(planes) = material.model() else {
         panic!("model 2 is two base materials");
     };
-    assert!(planes.profiles.iter().eq(PROFILES), "profiles in file order");
-    assert!(planes.ratios.iter().eq([1.0, 0.25]), "ratios in file order");
-    assert_eq!(planes.indices, [[0, 1], [1, 0]]);
-    assert_eq!(planes.profiles.as_bytes(), &file[PROF..MIXR]);
+    let (Profiles::F32(profiles), Mixtures::Two { ratios, indices }) = (planes.profiles, planes.mixtures) else {
+        panic!("exact 2-BMPP");
+    };
+    assert!(profiles.iter().eq(PROFILES), "profiles in file order");
+    assert!(ratios.iter().eq([1.0, 0.25]), "ratios in file order");
+    assert_eq!(indices, [[0, 1], [1, 0]]);
+    assert_eq!(profiles.as_bytes(), &file[PROF..MIXR]);
 }
 
 #[test]
@@ -96,10 +99,17 @@ fn distances_beyond_r_max_do_not_scatter() {
 #[test]
 fn refuses_what_the_specification_forbids() {
     let bad_field = |at, value| ReadError::BadField { section: Section::BssrdfHeader, offset: at, value };
-    assert_eq!(refused(|f| f[MODEL] = 3), bad_field(124, 3));
+    assert_eq!(refused(|f| f[MODEL] = 4), bad_field(124, 4));
     assert_eq!(refused(|f| f[MODEL + 1] = 2), bad_field(125, 2));
     assert_eq!(refused(|f| f[MODEL + 2] = 3), bad_field(126, 3));
-    assert_eq!(refused(|f| f[MODEL + 3] = 1), bad_field(127, 1));
+    assert_eq!(refused(|f| f[MODEL + 3] = 3), bad_field(127, 3));
+    // Another coding or model asks for other sections.
+    assert_eq!(refused(|f| f[MODEL + 3] = 1), ReadError::Missing { section: Section::SmallRatios });
+    assert_eq!(refused(|f| f[MODEL + 3] = 2), ReadError::Missing { section: Section::Pairs });
+    assert_eq!(
+        refused(|f| f[MODEL] = 3),
+        ReadError::WrongSize { section: Section::MixtureRatios, need_bytes: 24, have_bytes: 8 }
+    );
     assert_eq!(refused(|f| f[WIDTH] = 0), bad_field(128, 0));
     assert_eq!(refused(|f| f[SAMPLES] = 1), bad_field(138, 1));
     assert_eq!(
@@ -196,7 +206,7 @@ fn alignment_does_not_matter() {
 #[test]
 fn errors_say_section_offset_and_numbers() {
     let message = refused(|f| f[BIDX] = 200).to_string();
-    assert_eq!(message, "BIDX (base-material indices): byte 212: index 200, but there are 2 base materials");
+    assert_eq!(message, "BIDX (base-material indices): byte 212: index 200, but the table has 2 entries");
     let mut file = example();
     file[PROF] ^= 1;
     let error = Bssrdf::parse(&file).unwrap_err();

@@ -2,10 +2,10 @@
 
 use rayon::prelude::*;
 use subsurf_decoder::bssrdf::layout::{MODEL_2BMPP, MODEL_PER_PIXEL};
-use subsurf_decoder::bssrdf::{Addressing, Header};
+use subsurf_decoder::bssrdf::{Addressing, Coding, Header, Mixture};
 use subsurf_decoder::{Bssrdf, Section};
 
-use crate::bssrdf::write_file;
+use crate::bssrdf::{mixtures, profiles, write_file};
 
 /// Size of a synthetic material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub struct Shape {
     /// S.
     pub samples: u16,
     /// M.
-    pub base_materials: u8,
+    pub base_materials: u32,
     /// What lies beyond the border.
     pub addressing: Addressing,
 }
@@ -40,12 +40,13 @@ impl Shape {
         let pitch_mm = 0.5;
         Header {
             model: MODEL_2BMPP,
+            coding: Coding::Exact,
             addressing: self.addressing,
             width: self.size[0],
             height: self.size[1],
             window_radius: self.radius,
             samples: self.samples,
-            base_materials: self.base_materials.into(),
+            base_materials: self.base_materials,
             pitch_mm,
             r_max_mm: f32::from(self.radius.max(1)) * std::f32::consts::SQRT_2 * pitch_mm * 1.000_01,
             eta: 1.4,
@@ -64,17 +65,41 @@ impl Shape {
     /// A 2-BMPP file whose pixels blend its base materials at random.
     #[must_use]
     pub fn bmpp(&self) -> Vec<u8> {
+        self.k_bmpp(MODEL_2BMPP, Coding::Exact, false)
+    }
+
+    /// Likewise with `k` base materials per pixel and another coding, and perhaps profiles in half precision.
+    #[must_use]
+    pub fn k_bmpp(&self, k: u8, coding: Coding, half_profiles: bool) -> Vec<u8> {
+        let header = Header { model: k, coding, ..self.header() };
         let nodes = || (0..self.samples).flat_map(|h| (0..3).map(move |c| (h, c)));
-        let profiles = (0..u32::from(self.base_materials)).flat_map(|b| nodes().map(move |(h, c)| (b, h, c)));
-        let profiles = profiles.flat_map(|(b, h, c)| self.log_profile(b, h, c).to_le_bytes()).collect();
-        let pixels = || 0..self.size[0] * self.size[1];
-        let ratios = pixels().flat_map(|pixel| unit(0x2000_0000 + pixel).to_le_bytes()).collect();
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "less than M")]
-        let base = |n: u32| ((unit(n) * f32::from(self.base_materials)) as u8).min(self.base_materials - 1);
-        let indices = pixels().flat_map(|pixel| [base(0x3000_0000 + pixel), base(0x4000_0000 + pixel)]).collect();
-        let sections =
-            [(Section::BaseProfiles, profiles), (Section::MixtureRatios, ratios), (Section::BaseIndices, indices)];
-        write_file(&self.header(), &sections)
+        let values = (0..self.base_materials).flat_map(|b| nodes().map(move |(h, c)| (b, h, c)));
+        let values = values.map(|(b, h, c)| self.log_profile(b, h, c));
+        let pixels = 0..self.size[0] * self.size[1];
+        let blends: Vec<Mixture> = pixels.map(|pixel| self.mixture(pixel, k.into())).collect();
+        let mut sections = vec![profiles(values, half_profiles)];
+        sections.extend(mixtures(&header, &blends));
+        write_file(&header, &sections)
+    }
+
+    /// `k` base materials at random; what a ratio leaves of 1 is for the next, and the last has the rest.
+    fn mixture(&self, pixel: u32, k: usize) -> Mixture {
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            clippy::cast_precision_loss,
+            reason = "less than M, which is at most 65,536"
+        )]
+        let base = |n: u32| (unit(n) * self.base_materials as f32).min(self.base_materials as f32 - 1.0) as u16;
+        let mut mixture = Mixture::default();
+        let mut rest = 1.0;
+        for (at, part) in (0..k).zip(0_u32..) {
+            mixture.bases[at] = base((0x3000_0000 + 0x1000_0000 * part) + pixel);
+            let share = if at + 1 == k { 1.0 } else { unit(0x2000_0000 + 0x0100_0000 * part + pixel) };
+            mixture.ratios[at] = rest * share;
+            rest *= 1.0 - share;
+        }
+        mixture
     }
 
     /// A file of per-pixel profiles.

@@ -15,6 +15,7 @@ pub mod scene;
 pub use context::{Backend, Gpu, devices};
 pub use error::{Error, Result};
 pub use ledger::Ledger;
-pub use material::{Material, Storage};
+pub use material::{Material, storage_of};
 pub use mesh_renderer::{BACKGROUND, GpuMesh, MeshExitance, MeshLight, MeshRenderer, View};
 pub use patch::{Exitance, PatchLight, PatchRenderer, Region};
+pub use subsurf_shaders::Storage;

@@ -1,8 +1,9 @@
 //! A material on the device, in one of three storages.
 
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::{Header, Model};
-use subsurf_shaders::uniform;
+use subsurf_decoder::bssrdf::{BaseMaterials, Header, Mixtures, Model, Profiles};
+use subsurf_shaders::Storage;
+use subsurf_shaders::uniform::{self, BASE_ROWS};
 use wgpu::{BindingResource, Buffer, TextureFormat, TextureView, TextureViewDescriptor, TextureViewDimension};
 
 use crate::context::Gpu;
@@ -10,24 +11,29 @@ use crate::error::{Error, Result};
 use crate::ledger::Tracked;
 use crate::resource::{ROW, Slot, Surface2d, TextureSpec};
 
-/// How a material's reflectance is stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Storage {
-    /// Two base materials per pixel.
-    Bmpp,
-    /// Per-pixel profiles.
-    PerPixel,
-    /// Every entry of an uncompressed capture.
-    Capture,
+/// How a file is stored on the device.
+#[must_use]
+pub fn storage_of(material: &Bssrdf<'_>) -> Storage {
+    let Model::BaseMaterials(planes) = material.model() else {
+        return Storage::PerPixel;
+    };
+    match planes.mixtures {
+        Mixtures::One(_) | Mixtures::OneOfMany(_) => Storage::Single,
+        Mixtures::Two { .. } | Mixtures::TwoSmall { .. } => Storage::Bmpp,
+        Mixtures::Palette { .. } => Storage::Palette,
+        Mixtures::Several { count: 3, .. } => Storage::Three,
+        Mixtures::Several { .. } => Storage::Five,
+    }
 }
 
-impl Storage {
-    /// Bindings of the material's group.
-    pub(crate) fn slots(self) -> &'static [Slot] {
-        match self {
-            Self::Bmpp => &[Slot::Uniform, Slot::Float, Slot::Float, Slot::Uint],
-            Self::PerPixel | Self::Capture => &[Slot::Uniform, Slot::FloatLayers],
-        }
+/// Bindings of the material's group.
+pub(crate) fn slots(storage: Storage) -> &'static [Slot] {
+    match storage {
+        Storage::Single => &[Slot::Uniform, Slot::Float, Slot::Uint],
+        Storage::Bmpp => &[Slot::Uniform, Slot::Float, Slot::Float, Slot::Uint],
+        Storage::Palette => &[Slot::Uniform, Slot::Float, Slot::Uint, Slot::Uint],
+        Storage::Three | Storage::Five => &[Slot::Uniform, Slot::Float, Slot::FloatLayers, Slot::UintLayers],
+        Storage::PerPixel | Storage::Capture => &[Slot::Uniform, Slot::FloatLayers],
     }
 }
 
@@ -50,36 +56,20 @@ impl Material {
     pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>) -> Result<Self> {
         let header = material.header();
         let size = [header.width, header.height];
-        let channels = 3 * u32::from(header.samples);
+        let storage = storage_of(material);
+        let mut planes = Planes { gpu, size, all: Vec::new() };
         match material.model() {
-            Model::BaseMaterials(planes) => {
-                let profiles = [u32::from(header.samples), header.base_materials];
-                let profiles = TextureSpec::table("base profiles", profiles, TextureFormat::Rgba32Float);
-                let nodes = planes.profiles.as_bytes().as_chunks::<12>().0;
-                let nodes: Vec<u8> = nodes.iter().flat_map(|rgb| rgb.iter().copied().chain([0; 4])).collect();
-                let ratios = TextureSpec::table("mixture ratios", size, TextureFormat::R32Float);
-                let indices = TextureSpec::table("base indices", size, TextureFormat::Rg8Uint);
-                let textures = vec![
-                    gpu.filled(&profiles, &nodes)?,
-                    gpu.filled(&ratios, planes.ratios.as_bytes())?,
-                    gpu.filled(&indices, planes.indices.as_flattened())?,
-                ];
-                let views = textures.iter().map(|surface| surface.view.clone()).collect();
-                Ok(Self::new(gpu, Storage::Bmpp, header, [ROW; 2], textures, views))
+            Model::PerPixel(profiles) => {
+                let count = 3 * u32::from(header.samples);
+                planes.layers("local profiles", count, TextureFormat::R32Float, profiles.profiles.as_bytes())?;
             }
-            Model::PerPixel(planes) => {
-                let spec = TextureSpec::layered("local profiles", size, channels, TextureFormat::R32Float);
-                let texture = gpu.texture(&spec)?;
-                let plane = size[0] as usize * size[1] as usize * 4;
-                gpu.checked(|| {
-                    for (bytes, layer) in planes.profiles.as_bytes().chunks(plane).zip(0..) {
-                        gpu.fill(&texture.texture, layer, bytes);
-                    }
-                })?;
-                let views = vec![layers_of(&texture)];
-                Ok(Self::new(gpu, Storage::PerPixel, header, [ROW; 2], vec![texture], views))
+            Model::BaseMaterials(BaseMaterials { profiles, mixtures }) => {
+                planes.base_profiles(header, *profiles)?;
+                planes.mixtures(*mixtures)?;
             }
         }
+        let (textures, views) = planes.all.into_iter().unzip();
+        Ok(Self::new(gpu, storage, header, [ROW; 2], textures, views))
     }
 
     /// Uploads an uncompressed capture, `[y][x][dy][dx][rgb]` of little-endian f32, for comparison: sizes, pitch and
@@ -146,6 +136,85 @@ impl Material {
             return Ok(());
         }
         Err(Error::Device(format!("this renderer draws {storage:?}, the material is stored as {:?}", self.storage)))
+    }
+}
+
+/// The textures of a file, in the order of [`slots`], each with the view that the shader takes.
+struct Planes<'a> {
+    gpu: &'a Gpu,
+    /// Pixels of the patch.
+    size: [u32; 2],
+    all: Vec<(Surface2d, TextureView)>,
+}
+
+impl Planes<'_> {
+    fn texture(&mut self, spec: &TextureSpec, bytes: &[u8]) -> Result<()> {
+        let surface = self.gpu.filled(spec, bytes)?;
+        let view = surface.view.clone();
+        self.all.push((surface, view));
+        Ok(())
+    }
+
+    /// One texel per pixel of the patch.
+    fn table(&mut self, label: &'static str, format: TextureFormat, bytes: &[u8]) -> Result<()> {
+        self.texture(&TextureSpec::table(label, self.size, format), bytes)
+    }
+
+    /// `count` layers of that.
+    fn layers(&mut self, label: &'static str, count: u32, format: TextureFormat, bytes: &[u8]) -> Result<()> {
+        let surface = self.gpu.texture(&TextureSpec::layered(label, self.size, count, format))?;
+        let plane = bytes.len() / count as usize;
+        self.gpu.checked(|| {
+            for (bytes, layer) in bytes.chunks(plane).zip(0..) {
+                self.gpu.fill(&surface.texture, layer, bytes);
+            }
+        })?;
+        let view = layers_of(&surface);
+        self.all.push((surface, view));
+        Ok(())
+    }
+
+    /// The table of base profiles, widened to four channels; columns of [`BASE_ROWS`] materials stand beside each other.
+    fn base_profiles(&mut self, header: &Header, profiles: Profiles<'_>) -> Result<()> {
+        let (format, channel, source) = match profiles {
+            Profiles::F32(values) => (TextureFormat::Rgba32Float, 4, values.as_bytes()),
+            Profiles::F16(values) => (TextureFormat::Rgba16Float, 2, values.as_bytes()),
+        };
+        let samples = u32::from(header.samples);
+        let width = header.base_materials.div_ceil(BASE_ROWS) * samples;
+        let rows = header.base_materials.min(BASE_ROWS);
+        let mut texels = vec![0; (width * rows) as usize * 4 * channel];
+        for (number, node) in source.chunks(3 * channel).enumerate() {
+            let (base, h) = (number / samples as usize, number % samples as usize);
+            let (column, row) = (base / BASE_ROWS as usize * samples as usize + h, base % BASE_ROWS as usize);
+            texels[(row * width as usize + column) * 4 * channel..][..3 * channel].copy_from_slice(node);
+        }
+        self.texture(&TextureSpec::table("base profiles", [width, rows], format), &texels)
+    }
+
+    fn mixtures(&mut self, mixtures: Mixtures<'_>) -> Result<()> {
+        match mixtures {
+            Mixtures::One(indices) => self.table("base indices", TextureFormat::R8Uint, indices),
+            Mixtures::OneOfMany(indices) => self.table("base indices", TextureFormat::R16Uint, indices.as_bytes()),
+            Mixtures::Two { ratios, indices } => {
+                self.table("mixture ratios", TextureFormat::R32Float, ratios.as_bytes())?;
+                self.table("base indices", TextureFormat::Rg8Uint, indices.as_flattened())
+            }
+            Mixtures::TwoSmall { ratios, indices } => {
+                self.table("mixture ratios", TextureFormat::R8Unorm, ratios)?;
+                self.table("base indices", TextureFormat::Rg8Uint, indices.as_flattened())
+            }
+            Mixtures::Palette { pairs, codes } => {
+                self.table("palette codes", TextureFormat::R16Uint, codes.as_bytes())?;
+                let count = u32::try_from(pairs.len()).unwrap_or(u32::MAX);
+                self.texture(&TextureSpec::table("pairs", [count, 1], TextureFormat::Rg8Uint), pairs.as_flattened())
+            }
+            Mixtures::Several { ratios, indices, count } => {
+                let count = u32::try_from(count).unwrap_or(u32::MAX);
+                self.layers("mixture ratios", count, TextureFormat::R32Float, ratios.as_bytes())?;
+                self.layers("base indices", count, TextureFormat::R8Uint, indices)
+            }
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use glam::Vec3;
 use glam::camera::rh::proj::directx::perspective;
 use glam::camera::rh::view::look_at_mat4;
 use subsurf_shaders::cpu::diffuse_transmittance;
-use subsurf_shaders::{source, uniform};
+use subsurf_shaders::{Storage, source, uniform};
 use wgpu::{
     BindGroupLayout, BindingResource, Buffer, BufferUsages, Color, ColorTargetState, ColorWrites,
     CommandEncoderDescriptor, CompareFunction, DepthStencilState, FragmentState, IndexFormat, LoadOp, MultisampleState,
@@ -16,7 +16,7 @@ use wgpu::{
 use crate::context::Gpu;
 use crate::error::{Error, Result};
 use crate::ledger::Tracked;
-use crate::material::{Material, Storage};
+use crate::material::{Material, slots};
 use crate::pass::{CoverPass, Rows, bind, bind_group_layouts};
 use crate::resource::{ROW, Slot, Surface2d, TextureSpec, array_size};
 use crate::scene::{Mesh, Surface};
@@ -137,13 +137,10 @@ impl MeshRenderer {
     /// # Errors
     /// [`Error::Device`] if the driver refuses them; captures are not drawn on meshes.
     pub fn new(gpu: &Gpu, storage: Storage) -> Result<Self> {
-        let gather = match storage {
-            Storage::Bmpp => source::SURFACE_GATHER_BMPP,
-            Storage::PerPixel => source::SURFACE_GATHER_PER_PIXEL,
-            Storage::Capture => {
-                return Err(Error::Device("captures are drawn flat, not on meshes".to_owned()));
-            }
-        };
+        if storage == Storage::Capture {
+            return Err(Error::Device("captures are drawn flat, not on meshes".to_owned()));
+        }
+        let gather = source::surface_gather(storage);
         let of_points = [Slot::Uniform, Slot::Float, Slot::Uint, Slot::Uint, Slot::Float];
         let of_light: [&[Slot]; 1] = [&[Slot::Uniform, Slot::Float]];
         let shade_group = bind_group_layouts(gpu, &of_light).remove(0);
@@ -151,7 +148,7 @@ impl MeshRenderer {
         Ok(Self {
             storage,
             irradiance: CoverPass::new(gpu, source::IRRADIANCE, "irradiance", &of_light, half)?,
-            gather: CoverPass::new(gpu, gather, "surface_gather", &[storage.slots(), &of_points], half)?,
+            gather: CoverPass::new(gpu, gather, "surface_gather", &[slots(storage), &of_points], half)?,
             shade: shade_pipeline(gpu, &shade_group)?,
             shade_group,
         })

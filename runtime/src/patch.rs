@@ -1,12 +1,11 @@
 //! Draws a flat patch: irradiance in, exitance and a picture out.
 
-use subsurf_shaders::source::{self, ByModel};
-use subsurf_shaders::uniform;
+use subsurf_shaders::{Storage, source, uniform};
 use wgpu::{BindingResource, TextureFormat};
 
 use crate::context::Gpu;
 use crate::error::Result;
-use crate::material::{Material, Storage};
+use crate::material::{Material, slots};
 use crate::pass::{CoverPass, Rows};
 use crate::resource::{Slot, Surface2d, TextureSpec};
 
@@ -44,17 +43,11 @@ impl PatchRenderer {
     /// # Errors
     /// [`crate::Error::Device`] if the driver refuses them.
     pub fn new(gpu: &Gpu, storage: Storage) -> Result<Self> {
-        let ByModel { bmpp, per_pixel, capture } = source::GATHER;
-        let shader = match storage {
-            Storage::Bmpp => bmpp,
-            Storage::PerPixel => per_pixel,
-            Storage::Capture => capture,
-        };
-        let gather_groups = [storage.slots(), &[Slot::Uniform, Slot::Float]];
+        let gather_groups = [slots(storage), &[Slot::Uniform, Slot::Float]];
         let present_groups: [&[Slot]; 1] = [&[Slot::Uniform, Slot::Float]];
         Ok(Self {
             storage,
-            gather: CoverPass::new(gpu, shader, "gather", &gather_groups, TextureFormat::Rgba16Float)?,
+            gather: CoverPass::new(gpu, source::gather(storage), "gather", &gather_groups, TextureFormat::Rgba16Float)?,
             present: CoverPass::new(gpu, source::PRESENT, "present", &present_groups, TextureFormat::Rgba8Unorm)?,
         })
     }

@@ -224,6 +224,8 @@ pub(crate) enum Slot {
     FloatLayers,
     /// An unsigned integer texture.
     Uint,
+    /// Layers of one.
+    UintLayers,
 }
 
 /// Layout entries of a bind group whose bindings are `slots`, seen by both stages.
@@ -245,6 +247,7 @@ pub(crate) fn layout_entries(slots: &[Slot]) -> Vec<BindGroupLayoutEntry> {
                 Slot::Float => texture(unfiltered, TextureViewDimension::D2),
                 Slot::FloatLayers => texture(unfiltered, TextureViewDimension::D2Array),
                 Slot::Uint => texture(TextureSampleType::Uint, TextureViewDimension::D2),
+                Slot::UintLayers => texture(TextureSampleType::Uint, TextureViewDimension::D2Array),
             },
             count: None,
         })

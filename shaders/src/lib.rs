@@ -6,3 +6,5 @@
 pub mod cpu;
 pub mod source;
 pub mod uniform;
+
+pub use source::Storage;

@@ -1,36 +1,71 @@
 //! The passes, as WGSL text.
 
-/// How a patch's reflectance is stored; each has the functions `load_pixel` and `reflectance`.
-macro_rules! with_model {
+/// How a material's reflectance is stored on the device; each has the functions `load_pixel`, `partner_at` and
+/// `reflectance`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// One base material per pixel.
+    Single,
+    /// Two base materials per pixel, an index for each.
+    Bmpp,
+    /// Two base materials per pixel, from a palette of pairs.
+    Palette,
+    /// Three base materials per pixel.
+    Three,
+    /// Five base materials per pixel.
+    Five,
+    /// A profile for every pixel.
+    PerPixel,
+    /// Every entry of an uncompressed capture.
+    Capture,
+}
+
+impl Storage {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Single, Self::Bmpp, Self::Palette, Self::Three, Self::Five, Self::PerPixel, Self::Capture];
+}
+
+/// Files one after another, what all materials share first.
+macro_rules! with_material {
     ($($part:literal),+) => {
         concat!(include_str!("../wgsl/material.wgsl"), $(include_str!(concat!("../wgsl/", $part))),+)
     };
 }
 
-/// A pass in the variants for 2-BMPP, per-pixel profiles and captures.
-#[derive(Clone, Copy, Debug)]
-pub struct ByModel {
-    /// Two base materials per pixel.
-    pub bmpp: &'static str,
-    /// Per-pixel profiles.
-    pub per_pixel: &'static str,
-    /// An uncompressed capture.
-    pub capture: &'static str,
+/// A pass for the storage of fitted materials.
+macro_rules! by_storage {
+    ($storage:expr, $capture:expr, $($pass:literal),+) => {
+        match $storage {
+            Storage::Single => with_material!("bases.wgsl", "single.wgsl", "pair.wgsl", $($pass),+),
+            Storage::Bmpp => with_material!("bases.wgsl", "two.wgsl", "bmpp.wgsl", "pair.wgsl", $($pass),+),
+            Storage::Palette => with_material!("bases.wgsl", "two.wgsl", "palette.wgsl", "pair.wgsl", $($pass),+),
+            Storage::Three => concat!(
+                "const PER_PIXEL: u32 = 3u;\n",
+                with_material!("bases.wgsl", "several.wgsl", "pair.wgsl", $($pass),+)
+            ),
+            Storage::Five => concat!(
+                "const PER_PIXEL: u32 = 5u;\n",
+                with_material!("bases.wgsl", "several.wgsl", "pair.wgsl", $($pass),+)
+            ),
+            Storage::PerPixel => with_material!("per_pixel.wgsl", "pair.wgsl", $($pass),+),
+            Storage::Capture => $capture,
+        }
+    };
 }
 
 /// Exitance of a flat patch; entry points `cover` and `gather`.
-pub const GATHER: ByModel = ByModel {
-    bmpp: with_model!("bmpp.wgsl", "pair.wgsl", "cover.wgsl", "gather.wgsl"),
-    per_pixel: with_model!("per_pixel.wgsl", "pair.wgsl", "cover.wgsl", "gather.wgsl"),
-    capture: with_model!("capture.wgsl", "cover.wgsl", "gather.wgsl"),
-};
+#[must_use]
+pub const fn gather(storage: Storage) -> &'static str {
+    by_storage!(storage, with_material!("capture.wgsl", "cover.wgsl", "gather.wgsl"), "cover.wgsl", "gather.wgsl")
+}
 
-/// Exitance of 2-BMPP at the points of a surface; entry points `cover` and `surface_gather`.
-pub const SURFACE_GATHER_BMPP: &str = with_model!("bmpp.wgsl", "pair.wgsl", "cover.wgsl", "surface_gather.wgsl");
-
-/// Exitance of per-pixel profiles at the points of a surface; entry points `cover` and `surface_gather`.
-pub const SURFACE_GATHER_PER_PIXEL: &str =
-    with_model!("per_pixel.wgsl", "pair.wgsl", "cover.wgsl", "surface_gather.wgsl");
+/// Exitance at the points of a surface; entry points `cover` and `surface_gather`. Captures have no distances but those
+/// of their own patch: nothing for them.
+#[must_use]
+pub const fn surface_gather(storage: Storage) -> &'static str {
+    by_storage!(storage, "", "cover.wgsl", "surface_gather.wgsl")
+}
 
 /// Irradiance at the points of a surface; entry points `cover` and `irradiance`.
 pub const IRRADIANCE: &str = concat!(
@@ -54,13 +89,11 @@ pub const PRESENT: &str = concat!(
 );
 
 /// Every pass in every variant, by name.
-pub const ALL: [(&str, &str); 8] = [
-    ("gather, 2-BMPP", GATHER.bmpp),
-    ("gather, per-pixel profiles", GATHER.per_pixel),
-    ("gather, capture", GATHER.capture),
-    ("surface gather, 2-BMPP", SURFACE_GATHER_BMPP),
-    ("surface gather, per-pixel profiles", SURFACE_GATHER_PER_PIXEL),
-    ("irradiance", IRRADIANCE),
-    ("shade", SHADE),
-    ("present", PRESENT),
-];
+#[must_use]
+pub fn all() -> Vec<(String, &'static str)> {
+    let gathers = Storage::ALL.into_iter().map(|storage| (format!("gather, {storage:?}"), gather(storage)));
+    let fitted = Storage::ALL.into_iter().filter(|storage| *storage != Storage::Capture);
+    let on_surfaces = fitted.map(|storage| (format!("surface gather, {storage:?}"), surface_gather(storage)));
+    let others = [("irradiance", IRRADIANCE), ("shade", SHADE), ("present", PRESENT)];
+    gathers.chain(on_surfaces).chain(others.map(|(name, text)| (name.to_owned(), text))).collect()
+}

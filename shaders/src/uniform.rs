@@ -23,13 +23,17 @@ pub struct Material {
     pub r_max_mm: f32,
     /// (S − 1) / r_max, in nodes per mm.
     pub nodes_per_mm: f32,
-    /// Refractive index against air.
-    pub eta: f32,
+    /// Base materials to a column of their texture.
+    pub base_rows: u32,
     /// Texels to a row of textures that hold plain arrays.
     pub row: u32,
     /// Rows to a layer of one that has layers.
     pub rows: u32,
 }
+
+/// Base materials to a column of the texture of their profiles: every GLES 3.0 device has twice as many texels, so that
+/// 65,536 profiles of 32 nodes fit beside each other.
+pub const BASE_ROWS: u32 = 1_024;
 
 impl Material {
     /// The block for a file's header; plain arrays have layers of `layer` texels.
@@ -44,7 +48,7 @@ impl Material {
             pitch_mm: header.pitch_mm,
             r_max_mm: header.r_max_mm,
             nodes_per_mm: f32::from(header.samples.saturating_sub(1)) / header.r_max_mm,
-            eta: header.eta,
+            base_rows: BASE_ROWS,
             row: layer[0],
             rows: layer[1],
         }

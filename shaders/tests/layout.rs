@@ -3,12 +3,12 @@
 use std::mem::{offset_of, size_of};
 
 use naga::TypeInner;
-use subsurf_shaders::{source, uniform};
+use subsurf_shaders::{Storage, source, uniform};
 
 /// Asserts that the WGSL struct `name` has exactly `members` (name, offset), and `size` bytes.
 fn assert_layout(name: &str, size: usize, members: &[(&str, usize)]) {
     let mut found = 0;
-    for (pass, text) in source::ALL {
+    for (pass, text) in &source::all() {
         let module = naga::front::wgsl::parse_str(text).unwrap();
         let structs = module.types.iter().filter(|(_, ty)| ty.name.as_deref() == Some(name));
         for (_, ty) in structs {
@@ -38,7 +38,7 @@ macro_rules! assert_layout_of {
 
 #[test]
 fn uniforms_are_laid_out_as_in_wgsl() {
-    assert_layout_of!(Material: size, addressing, window_radius, samples, base_materials, pitch_mm, r_max_mm, nodes_per_mm, eta, row, rows);
+    assert_layout_of!(Material: size, addressing, window_radius, samples, base_materials, pitch_mm, r_max_mm, nodes_per_mm, base_rows, row, rows);
     assert_layout_of!(View: origin);
     assert_layout_of!(Surface: origin_mm, cell_mm, cells, points);
     assert_layout_of!(Light: direction, irradiance, sky, sky_transmittance, eta);
@@ -52,7 +52,7 @@ fn addressing_codes_are_those_of_the_format() {
     use subsurf_decoder::bssrdf::Addressing;
     let codes = [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror].map(Addressing::code);
     assert_eq!(codes, [0, 1, 2]);
-    let text = source::GATHER.bmpp;
+    let text = source::gather(Storage::Bmpp);
     assert!(
         text.contains("material.addressing == 0u") && text.contains("material.addressing == 2u"),
         "clamp and mirror"

@@ -15,8 +15,8 @@ struct Material {
     r_max_mm: f32,
     // (S - 1) / r_max, in nodes per mm.
     nodes_per_mm: f32,
-    // Refractive index against air.
-    eta: f32,
+    // Base materials to a column of their texture.
+    base_rows: u32,
     // Texels to a row of textures that hold plain arrays.
     row: u32,
     // Rows to a layer of one that has layers.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
-use subsurf_decoder::bssrdf::{Addressing, Header};
+use subsurf_decoder::bssrdf::{Addressing, Coding, Header};
 use subsurf_decoder::container::crc32;
 use subsurf_decoder::{Bssrdf, Section};
 use subsurf_encoder::bssrdf::write_file;
@@ -57,6 +57,7 @@ pub fn open(path: &Path) -> Capture {
 pub fn format_example() -> Vec<u8> {
     let header = Header {
         model: MODEL_2BMPP,
+        coding: Coding::Exact,
         addressing: Addressing::Clamp,
         width: 2,
         height: 1,

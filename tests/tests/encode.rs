@@ -3,14 +3,21 @@
 use std::path::{Path, PathBuf};
 
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::{Addressing, Model};
+use subsurf_decoder::bssrdf::{Addressing, Coding, Model};
 use subsurf_encoder::bssrdf::{Encoded, Method, Options, encode};
 use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
 use subsurf_encoder::metrics::{compare, psnr_db};
 use subsurf_encoder::synthetic::{capture_row, unit};
 use subsurf_tests::{open, shape, write_capture};
 
-const METHODS: [Method; 3] = [Method::Lsp, Method::Clusters, Method::Direct];
+/// Every method, K and coding.
+fn kinds() -> [Options; 9] {
+    let direct = Options::default();
+    let [lsp, clusters] = [Method::Lsp, Method::Clusters].map(|method| Options { method, ..direct });
+    let [one, three, five] = [1, 3, 5].map(|per_pixel| Options { per_pixel, ..direct });
+    let [small, palette] = [Coding::SmallRatios, Coding::Palette].map(|coding| Options { coding, ..direct });
+    [lsp, clusters, one, direct, three, five, small, palette, Options { half_profiles: true, ..direct }]
+}
 
 /// A capture of what a synthetic 2-BMPP file stands for.
 fn capture_of_bmpp(folder: &Path, size: [u32; 2], radius: u16, addressing: Addressing) -> PathBuf {
@@ -29,9 +36,8 @@ fn capture_of_bmpp(folder: &Path, size: [u32; 2], radius: u16, addressing: Addre
     path
 }
 
-fn fit(path: &Path, method: Method, base_materials: usize) -> Encoded {
-    let options = Options { method, base_materials, ..Options::default() };
-    encode(&open(path), &options, &()).unwrap()
+fn fit(path: &Path, kind: Options, base_materials: usize) -> Encoded {
+    encode(&open(path), &Options { base_materials, ..kind }, &()).unwrap()
 }
 
 /// Mean relative albedo error, and PSNR under uniform light in dB.
@@ -48,9 +54,10 @@ fn finds_a_model_that_is_there() {
     let folder = tempfile::tempdir().unwrap();
     for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
         let path = capture_of_bmpp(folder.path(), [26, 20], 4, addressing);
-        let (lsp, _) = quality(&path, &fit(&path, Method::Lsp, 1).bytes);
-        let (clusters, _) = quality(&path, &fit(&path, Method::Clusters, 24).bytes);
-        let (direct, psnr) = quality(&path, &fit(&path, Method::Direct, 24).bytes);
+        let [lsp, clusters, _, direct, ..] = kinds();
+        let (lsp, _) = quality(&path, &fit(&path, lsp, 1).bytes);
+        let (clusters, _) = quality(&path, &fit(&path, clusters, 24).bytes);
+        let (direct, psnr) = quality(&path, &fit(&path, direct, 24).bytes);
         println!("{addressing:?}: LSP {lsp:.5}, clusters {clusters:.5}, direct {direct:.5} and {psnr:.1} dB");
         assert!(lsp < 0.01, "{addressing:?}: per-pixel profiles can hold it: {lsp}");
         assert!(direct < 0.25 * clusters, "{addressing:?}: {direct} against {clusters}");
@@ -64,14 +71,14 @@ fn bytes_do_not_depend_on_threads() {
     let full = capture_of_bmpp(folder.path(), [30, 27], 3, Addressing::Clamp);
     let holes = with_holes(folder.path(), &full, |_| 0.0);
     for path in [&full, &holes] {
-        for method in METHODS {
+        for kind in kinds() {
             let with = |threads| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-                pool.install(|| fit(path, method, 12).bytes)
+                pool.install(|| fit(path, kind, 12).bytes)
             };
             let one = with(1);
-            assert_eq!(one, with(2), "{method:?}");
-            assert_eq!(one, with(8), "{method:?}");
+            assert_eq!(one, with(2), "{kind:?}");
+            assert_eq!(one, with(8), "{kind:?}");
         }
     }
 }
@@ -94,6 +101,34 @@ fn with_holes(folder: &Path, path: &Path, hole: impl Fn(u32) -> f32) -> PathBuf 
 }
 
 #[test]
+fn more_base_materials_per_pixel_never_fit_worse() {
+    let folder = tempfile::tempdir().unwrap();
+    for base_materials in [3, 8] {
+        let path = capture_of_bmpp(folder.path(), [26, 20], 4, Addressing::Repeat);
+        let fits = [1, 2, 3, 5].map(|per_pixel| {
+            let encoded = fit(&path, Options { per_pixel, ..Options::default() }, base_materials);
+            (encoded.cost, quality(&path, &encoded.bytes).0)
+        });
+        println!("M = {base_materials}: cost and relative error for K = 1, 2, 3, 5: {fits:.5?}");
+        for pair in fits.windows(2) {
+            assert!(pair[1].1 <= pair[0].1 * 1.001, "relative error of more materials per pixel: {fits:?}");
+        }
+    }
+}
+
+#[test]
+fn smaller_codings_cost_little() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = capture_of_bmpp(folder.path(), [26, 20], 4, Addressing::Repeat);
+    let psnr = |kind| quality(&path, &fit(&path, kind, 24).bytes).1;
+    let [.., exact, _, _, small, palette, half] = kinds().map(psnr);
+    println!("PSNR: exact {exact:.2} dB, 8-bit ratios {small:.2}, palette {palette:.2}, half profiles {half:.2}");
+    // The capture is a 2-BMPP model itself: what is left is hardly more than the codings' own errors.
+    assert!(exact > 65.0 && small > 65.0 && half > 65.0, "{exact} {small} {half}");
+    assert!(palette > 55.0, "{palette}");
+}
+
+#[test]
 fn missing_entries_weigh_nothing() {
     for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
         missing_entries_weigh_nothing_with(addressing);
@@ -103,25 +138,25 @@ fn missing_entries_weigh_nothing() {
 fn missing_entries_weigh_nothing_with(addressing: Addressing) {
     let folder = tempfile::tempdir().unwrap();
     let full = capture_of_bmpp(folder.path(), [26, 20], 4, addressing);
-    for method in METHODS {
+    for kind in kinds() {
         // However a hole is written, it is the same hole.
         let by_hole = [0.0, -1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY].map(|hole| {
             let holes = with_holes(folder.path(), &full, |_| hole);
-            fit(&holes, method, 24)
+            fit(&holes, kind, 24)
         });
         for other in &by_hole[1..] {
-            assert_eq!(by_hole[0].bytes, other.bytes, "{method:?}");
+            assert_eq!(by_hole[0].bytes, other.bytes, "{kind:?}");
         }
         let missing = 1.0 - by_hole[0].measured as f64 / by_hole[0].entries as f64;
         assert!((0.15..0.3).contains(&missing), "{missing}");
         // And what is left is enough: judged by the whole capture, the fit is hardly worse.
-        let (whole, _) = quality(&full, &fit(&full, method, 24).bytes);
+        let (whole, _) = quality(&full, &fit(&full, kind, 24).bytes);
         let (holes, _) = quality(&full, &by_hole[0].bytes);
         println!(
-            "{addressing:?}, {method:?}: relative error {whole:.5}, with {:.0} % missing {holes:.5}",
+            "{addressing:?}, {kind:?}: relative error {whole:.5}, with {:.0} % missing {holes:.5}",
             100.0 * missing
         );
-        assert!(holes < 1.3 * whole + 0.002, "{addressing:?}, {method:?}: {holes} against {whole}");
+        assert!(holes < 1.3 * whole + 0.002, "{addressing:?}, {kind:?}: {holes} against {whole}");
     }
 }
 
@@ -143,14 +178,14 @@ fn odd_captures_give_sound_files() {
                 // One colour channel measured nothing at all.
                 if c == 1 { f32::NAN } else { falling(place, 2 * radius + 1) }
             });
-            for method in METHODS {
+            for kind in kinds() {
                 // More base materials than there are distinct profiles.
-                let encoded = fit(&path, method, 40);
+                let encoded = fit(&path, kind, 40);
                 let material = Bssrdf::parse(&encoded.bytes).unwrap();
                 let rd = material.rd([0, 0], [0, 0]);
                 assert!((rd[0] - 0.2).abs() < 0.01 && (rd[2] - 0.2).abs() < 0.01, "{name}, {addressing:?}: {rd:?}");
-                if let Model::BaseMaterials(planes) = material.model() {
-                    assert_eq!(planes.profiles.len(), 40 * usize::from(material.header().samples) * 3);
+                if matches!(material.model(), Model::BaseMaterials(_)) {
+                    assert_eq!(material.header().base_materials, 40);
                 }
             }
         }
@@ -176,6 +211,10 @@ fn options_out_of_range_are_refused() {
         Options { base_materials: 0, ..Options::default() },
         Options { base_materials: 257, ..Options::default() },
         Options { samples: Some(5_000), ..Options::default() },
+        Options { samples: Some(1), ..Options::default() },
+        Options { per_pixel: 4, ..Options::default() },
+        Options { per_pixel: 1, base_materials: 65_537, ..Options::default() },
+        Options { per_pixel: 3, coding: Coding::Palette, ..Options::default() },
     ] {
         assert!(encode(&open(&path), &options, &()).is_err(), "{options:?}");
     }

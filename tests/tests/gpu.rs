@@ -4,11 +4,12 @@
 
 use glam::Vec3;
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::Addressing;
+use subsurf_decoder::bssrdf::{Addressing, Coding};
 use subsurf_encoder::synthetic::{Shape, capture_row, unit};
 use subsurf_runtime::scene::{Mapping, Mesh, Surface, sphere, torus};
 use subsurf_runtime::{
     BACKGROUND, Backend, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchRenderer, Region, Storage, View,
+    storage_of,
 };
 use subsurf_shaders::cpu;
 use subsurf_tests::shape;
@@ -52,7 +53,28 @@ fn assert_close(found: &[[f32; 3]], expected: &[[f32; 3]], targets: f32, what: &
 }
 
 fn file(storage: Storage, shape: &Shape) -> Vec<u8> {
-    if storage == Storage::Bmpp { shape.bmpp() } else { shape.per_pixel() }
+    match storage {
+        Storage::Single => shape.k_bmpp(1, Coding::Exact, false),
+        Storage::Bmpp => shape.bmpp(),
+        Storage::Palette => shape.k_bmpp(2, Coding::Palette, false),
+        Storage::Three => shape.k_bmpp(3, Coding::Exact, false),
+        Storage::Five => shape.k_bmpp(5, Coding::Exact, false),
+        Storage::PerPixel => shape.per_pixel(),
+        Storage::Capture => panic!("captures are not files"),
+    }
+}
+
+const FITTED: [Storage; 6] =
+    [Storage::Single, Storage::Bmpp, Storage::Palette, Storage::Three, Storage::Five, Storage::PerPixel];
+
+/// Kinds that share a storage with others: 8-bit ratios, half floats, and more base materials than a column holds.
+fn variants(shape: &Shape) -> [Vec<u8>; 3] {
+    let many = Shape { base_materials: 2_500, ..*shape };
+    [
+        shape.k_bmpp(2, Coding::SmallRatios, false),
+        shape.k_bmpp(3, Coding::Exact, true),
+        many.k_bmpp(1, Coding::Exact, false),
+    ]
 }
 
 /// Bright here, dark there, coloured.
@@ -64,7 +86,7 @@ fn patch(backend: Backend) {
     let gpu = open(backend);
     let size = [23, 17];
     let irradiance = patterned_light(size);
-    for storage in [Storage::Bmpp, Storage::PerPixel] {
+    for storage in FITTED {
         let renderer = PatchRenderer::new(&gpu, storage).unwrap();
         for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
             // The second window is wider than the patch: it wraps more than once.
@@ -88,6 +110,31 @@ fn patch(backend: Backend) {
             }
         }
     }
+}
+
+fn patch_variants(backend: Backend) {
+    let gpu = open(backend);
+    let size = [23, 17];
+    let irradiance = patterned_light(size);
+    for (number, file) in variants(&shape(size, 4, Addressing::Clamp)).iter().enumerate() {
+        let material = Bssrdf::parse(file).unwrap();
+        let renderer = PatchRenderer::new(&gpu, storage_of(&material)).unwrap();
+        let uploaded = Material::upload(&gpu, &material).unwrap();
+        let light = renderer.light(&gpu, &uploaded, &irradiance).unwrap();
+        let found = renderer.gather(&gpu, &uploaded, &light, Region { origin: [0, 0], size }).unwrap();
+        let expected = cpu::gather(&material, &irradiance, [0, 0], size);
+        assert_close(&found.read(&gpu).unwrap(), &expected, 1.0, &format!("{backend}, variant {number}"));
+    }
+}
+
+#[test]
+fn variants_on_vulkan() {
+    patch_variants(Backend::Vulkan);
+}
+
+#[test]
+fn variants_on_gles_3_0() {
+    patch_variants(Backend::Gl);
 }
 
 #[test]
@@ -174,7 +221,9 @@ fn meshes(backend: Backend) {
     let ball = sphere(5.0, 24);
     mesh_scene(backend, &ball, Mapping::Box, Storage::Bmpp, "sphere, box mapping");
     mesh_scene(backend, &ball, Mapping::Uv([2.0, 1.0]), Storage::PerPixel, "sphere, texture coordinates");
-    mesh_scene(backend, &torus(5.0, 2.0, 20), Mapping::Uv([4.0, 2.0]), Storage::Bmpp, "torus");
+    for storage in [Storage::Bmpp, Storage::Single, Storage::Palette, Storage::Five] {
+        mesh_scene(backend, &torus(5.0, 2.0, 20), Mapping::Uv([4.0, 2.0]), storage, "torus");
+    }
 }
 
 #[test]

@@ -18,7 +18,7 @@ struct Quality {
 }
 
 fn quality(capture: &Capture, method: Method) -> Quality {
-    let options = Options { method, base_materials: 128, samples: Some(13), seed: 1 };
+    let options = Options { method, samples: Some(13), ..Options::default() };
     let encoded = encode(capture, &options, &()).unwrap();
     let material = Bssrdf::parse(&encoded.bytes).unwrap();
     let comparison = compare(capture, &material, &()).unwrap();

@@ -60,9 +60,10 @@ impl FromStr for CaseArg {
         };
         let size: crate::options::Size = size.parse()?;
         let window: u16 = window.parse().map_err(|_| wrong())?;
-        let base_materials: u8 = base_materials.parse().map_err(|_| wrong())?;
+        let base_materials: u32 = base_materials.parse().map_err(|_| wrong())?;
         let samples: u16 = samples.parse().map_err(|_| wrong())?;
-        let sound = window % 2 == 1 && window < 2_048 && base_materials > 0 && (2..=4_096).contains(&samples);
+        let sound =
+            window % 2 == 1 && window < 2_048 && (1..=256).contains(&base_materials) && (2..=4_096).contains(&samples);
         let sound = sound && size.0.iter().all(|side| *side <= 65_535);
         let shape = Shape { size: size.0, radius: window / 2, samples, base_materials, addressing: Addressing::Clamp };
         sound.then_some(Self(shape)).ok_or_else(wrong)
@@ -155,7 +156,7 @@ fn write_files(folder: &Path, shape: &Shape) -> anyhow::Result<Case> {
     Ok(Case {
         size: shape.size,
         window: 2 * u32::from(shape.radius) + 1,
-        base_materials: shape.base_materials.into(),
+        base_materials: shape.base_materials,
         samples: shape.samples.into(),
         source: "synthetic, for timing",
         files,

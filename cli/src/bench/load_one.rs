@@ -7,17 +7,16 @@ use std::time::Instant;
 
 use anyhow::Context;
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::Header;
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
+use subsurf_decoder::bssrdf::{Coding, Header};
 use subsurf_decoder::container::{Container, Crc, crc32};
 use subsurf_encoder::capture::{Capture, Overrides};
-use subsurf_runtime::{Gpu, Material, PatchLight, PatchRenderer, Region, Storage as GpuStorage};
+use subsurf_runtime::{Gpu, Material, PatchLight, PatchRenderer, Region, Storage as GpuStorage, storage_of};
 use subsurf_shaders::cpu::{self, Reflectance, Rgb};
 
 use super::timing::{Steps, Storage, median, medians};
 use crate::devices::BackendArg;
 use crate::memory::resident;
-use crate::render::storage_of;
 use crate::say::say;
 
 /// Load one file and print its times as JSON
@@ -82,6 +81,7 @@ fn header_of(capture: &Capture) -> anyhow::Result<Header> {
     let radius = u16::try_from(capture.radius())?;
     Ok(Header {
         model: MODEL_2BMPP,
+        coding: Coding::Exact,
         addressing: capture.addressing(),
         width: u32::try_from(capture.width())?,
         height: u32::try_from(capture.height())?,
@@ -135,7 +135,7 @@ impl<'a> Bench<'a> {
         // A capture's array starts where its header ends; there is nothing else to check.
         let entries = match self.storage {
             GpuStorage::Capture => Some(self.entries_of(&bytes)?),
-            GpuStorage::Bmpp | GpuStorage::PerPixel => None,
+            _ => None,
         };
         let material = if entries.is_none() { Some(crate::info::parse(self.path, &bytes)?) } else { None };
         let parse = clock.lap();

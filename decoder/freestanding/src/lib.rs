@@ -57,8 +57,8 @@ fn decode(file: &[u8], probe: &mut Probe) -> Result<(), ReadError> {
     }
     probe.sum = match material.model() {
         Model::BaseMaterials(planes) => {
-            let indices: u32 = planes.indices.iter().flatten().map(|&b| u32::from(b)).fold(0, u32::wrapping_add);
-            planes.profiles.iter().chain(planes.ratios.iter()).sum::<f32>() + indices as f32
+            let mixture = planes.mixtures.at(probe.x_i[0] as usize, probe.x_i[1] as usize);
+            planes.profiles.rgb_at(probe.x_o[0] as usize).iter().chain(&mixture.ratios).sum()
         }
         Model::PerPixel(planes) => planes.profiles.iter().sum(),
     };

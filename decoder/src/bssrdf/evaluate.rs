@@ -1,6 +1,8 @@
 //! Rd, profiles and albedo of a checked file (Yatagawa et al. 2020, eq. 1-4).
 
-use super::reader::{Bssrdf, Model};
+use super::layout::MAX_PER_PIXEL;
+use super::planes::{Model, Profiles};
+use super::reader::Bssrdf;
 use crate::bytes::F32Le;
 
 /// Where a distance falls between the nodes of a profile (eq. 3).
@@ -22,8 +24,8 @@ pub struct LocalProfile<'a> {
 
 #[derive(Clone, Copy, Debug)]
 enum Source<'a> {
-    /// t P̂_{b₁} + (1 − t) P̂_{b₂}, with the first value of either profile.
-    Blend { profiles: F32Le<'a>, start: [usize; 2], t: f32 },
+    /// Σ t_k P̂_{b_k} of the first `count` base materials, with the first value of each profile.
+    Blend { profiles: Profiles<'a>, starts: [usize; MAX_PER_PIXEL], ratios: [f32; MAX_PER_PIXEL], count: usize },
     /// The pixel's own values, one in every plane of `pixels`.
     Own { profiles: F32Le<'a>, pixel: usize, pixels: usize },
 }
@@ -36,9 +38,15 @@ impl LocalProfile<'_> {
             return [0.0; 3];
         }
         match self.source {
-            Source::Blend { profiles, start, t } => {
-                let [p1, p2] = start.map(|start| profiles.rgb_at(start.saturating_add(h.saturating_mul(3))));
-                lerp(p2, p1, t)
+            Source::Blend { profiles, starts, ratios, count } => {
+                let mut sum = [0.0; 3];
+                for (start, t) in starts.iter().zip(ratios).take(count) {
+                    let p = profiles.rgb_at(start.saturating_add(h.saturating_mul(3)));
+                    for (sum, p) in sum.iter_mut().zip(p) {
+                        *sum += t * p;
+                    }
+                }
+                sum
             }
             Source::Own { profiles, pixel, pixels } => {
                 let channel = |c: usize| {
@@ -93,21 +101,19 @@ impl<'a> Bssrdf<'a> {
         let column = header.addressing.map(column, header.width) as usize;
         let row = header.addressing.map(row, header.height) as usize;
         let pixel = row.saturating_mul(header.width as usize).saturating_add(column);
+        let pixels = usize::try_from(header.pixels()).unwrap_or(usize::MAX);
         let source = match *self.model() {
             Model::BaseMaterials(planes) => {
                 let stride = usize::from(header.samples).saturating_mul(3);
-                let pair = planes.indices.get(pixel).copied().unwrap_or([0; 2]);
+                let mixture = planes.mixtures.at(pixel, pixels);
                 Source::Blend {
                     profiles: planes.profiles,
-                    start: pair.map(|index| usize::from(index).saturating_mul(stride)),
-                    t: planes.ratios.get(pixel).unwrap_or(0.0),
+                    starts: mixture.bases.map(|index| usize::from(index).saturating_mul(stride)),
+                    ratios: mixture.ratios,
+                    count: header.model.into(),
                 }
             }
-            Model::PerPixel(planes) => Source::Own {
-                profiles: planes.profiles,
-                pixel,
-                pixels: usize::try_from(header.pixels()).unwrap_or(usize::MAX),
-            },
+            Model::PerPixel(planes) => Source::Own { profiles: planes.profiles, pixel, pixels },
         };
         LocalProfile { source, samples: header.samples.into() }
     }

@@ -3,9 +3,11 @@
 mod addressing;
 mod evaluate;
 pub mod layout;
+mod planes;
 mod reader;
 
 pub use addressing::Addressing;
 pub use evaluate::{Knot, LocalProfile};
-pub use layout::Header;
-pub use reader::{BaseMaterials, Bssrdf, Model, PerPixelProfiles};
+pub use layout::{Coding, Header};
+pub use planes::{BaseMaterials, Mixture, Mixtures, Model, PerPixelProfiles, Profiles};
+pub use reader::Bssrdf;

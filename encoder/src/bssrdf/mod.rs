@@ -1,4 +1,4 @@
-//! Fits diffuse BSSRDFs: per-pixel profiles and 2-BMPP.
+//! Fits diffuse BSSRDFs: per-pixel profiles and K-BMPP.
 
 mod banded;
 mod cluster;
@@ -11,8 +11,10 @@ mod window;
 mod write;
 
 use subsurf_decoder::Section;
-use subsurf_decoder::bssrdf::Header;
-use subsurf_decoder::bssrdf::layout::{LENGTHS_MM, MAX_BASE_MATERIALS, MAX_SAMPLES, MODEL_2BMPP, MODEL_PER_PIXEL};
+use subsurf_decoder::bssrdf::layout::{
+    LENGTHS_MM, MAX_BASE_MATERIALS, MAX_SAMPLES, MAX_SINGLE_BASE_MATERIALS, MODELS_BMPP,
+};
+use subsurf_decoder::bssrdf::{Coding, Header};
 
 use crate::capture::Capture;
 use crate::error::{Error, Result};
@@ -21,16 +23,16 @@ use direct::Model;
 use field::Field;
 use normal::Normal;
 use window::Geometry;
-pub use write::write_file;
+pub use write::{mixtures, profiles, write_file};
 
 /// How to fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// A profile for every pixel (Song et al. 2009): large, and the best that any of the others can do.
     Lsp,
-    /// k-means clusters of the per-pixel profiles, one per pixel: a baseline of 2-BMPP's size.
+    /// k-means clusters of the per-pixel profiles, one per pixel: a baseline for K-BMPP.
     Clusters,
-    /// Two base materials per pixel by exact alternation.
+    /// K base materials per pixel by alternation of exact steps.
     Direct,
 }
 
@@ -39,17 +41,31 @@ pub enum Method {
 pub struct Options {
     /// How.
     pub method: Method,
-    /// M, 1 to 256.
+    /// K, 1, 2, 3 or 5; clusters have 1 in any case.
+    pub per_pixel: usize,
+    /// M, 1 to 256; to 65,536 where K = 1.
     pub base_materials: usize,
     /// S, the nodes of a profile; `None` takes R + 1.
     pub samples: Option<usize>,
     /// Seed of the first cluster centres.
     pub seed: u64,
+    /// How mixtures are stored: [`Coding::Exact`] but for K = 2.
+    pub coding: Coding,
+    /// Whether base profiles are stored as half floats.
+    pub half_profiles: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { method: Method::Direct, base_materials: 128, samples: None, seed: 1 }
+        Self {
+            method: Method::Direct,
+            per_pixel: 2,
+            base_materials: 128,
+            samples: None,
+            seed: 1,
+            coding: Coding::Exact,
+            half_profiles: false,
+        }
     }
 }
 
@@ -82,20 +98,23 @@ pub fn encode(capture: &Capture, options: &Options, progress: &dyn Progress) -> 
     let normal = Normal::of(capture, geometry, progress)?;
     let profiles = lsp::fit(&normal, progress);
     let (sections, cost, bases) = match options.method {
-        Method::Lsp => (vec![per_pixel(&normal, &profiles)], normal.cost(&profiles), 0),
+        Method::Lsp => (vec![local_profiles(&normal, &profiles)], normal.cost(&profiles), 0),
         Method::Clusters | Method::Direct => {
             let clusters = cluster::cluster(&normal, &profiles, options.base_materials, options.seed, progress);
             drop(profiles);
             let mut model = Model::of_clusters(clusters, geometry.nodes);
             if options.method == Method::Direct {
-                direct::refine(&normal, &mut model, progress);
+                direct::refine(&normal, &mut model, options.per_pixel, options.coding, progress);
             }
             model.pad(options.base_materials);
             let cost = normal.cost(&model.field(&normal));
-            (base_materials(&normal, &model), cost, options.base_materials)
+            let header = header(capture, &geometry, options);
+            let mut sections = vec![write::profiles(base_profiles(&normal, &model), options.half_profiles)];
+            sections.extend(write::mixtures(&header, &model.mixtures));
+            (sections, cost, options.base_materials)
         }
     };
-    let header = header(capture, &geometry, bases);
+    let header = header(capture, &geometry, options);
     Ok(Encoded {
         bytes: write_file(&header, &sections),
         entries: normal.entries[0],
@@ -106,8 +125,25 @@ pub fn encode(capture: &Capture, options: &Options, progress: &dyn Progress) -> 
     })
 }
 
+/// K of the file; 0 for per-pixel profiles.
+fn per_pixel(options: &Options) -> usize {
+    match options.method {
+        Method::Lsp => 0,
+        Method::Clusters => 1,
+        Method::Direct => options.per_pixel,
+    }
+}
+
 fn geometry(capture: &Capture, options: &Options) -> Result<Geometry> {
-    let limit = MAX_BASE_MATERIALS as usize;
+    let per_pixel = per_pixel(options);
+    if options.method == Method::Direct && !MODELS_BMPP.map(usize::from).contains(&per_pixel) {
+        return Err(Error::Request(format!("{per_pixel} base materials per pixel; there can be 1, 2, 3 or 5")));
+    }
+    if options.coding != Coding::Exact && per_pixel != 2 {
+        let message = "smaller ratios and palettes are for two base materials per pixel";
+        return Err(Error::Request(message.to_owned()));
+    }
+    let limit = if per_pixel == 1 { MAX_SINGLE_BASE_MATERIALS } else { MAX_BASE_MATERIALS } as usize;
     if !(1..=limit).contains(&options.base_materials) {
         let message = format!("{} base materials; a file holds 1 to {limit}", options.base_materials);
         return Err(Error::Request(message));
@@ -131,13 +167,16 @@ fn geometry(capture: &Capture, options: &Options) -> Result<Geometry> {
     })
 }
 
-fn header(capture: &Capture, geometry: &Geometry, bases: usize) -> Header {
+fn header(capture: &Capture, geometry: &Geometry, options: &Options) -> Header {
+    let per_pixel = per_pixel(options);
+    let bases = if per_pixel == 0 { 0 } else { options.base_materials };
     let small = |n: usize| u32::try_from(n).expect("checked when the capture was opened");
     let smaller = |n: usize| u16::try_from(n).expect("checked when the capture was opened");
     #[allow(clippy::cast_possible_truncation, reason = "a radius in pixels")]
     let r_max_px = geometry.r_max_px as f32;
     Header {
-        model: if bases == 0 { MODEL_PER_PIXEL } else { MODEL_2BMPP },
+        model: u8::try_from(per_pixel).expect("at most 5"),
+        coding: options.coding,
         addressing: geometry.addressing,
         width: small(geometry.size[0]),
         height: small(geometry.size[1]),
@@ -151,7 +190,7 @@ fn header(capture: &Capture, geometry: &Geometry, bases: usize) -> Header {
 }
 
 /// `LSPP`: planes of node and channel.
-fn per_pixel(normal: &Normal, profiles: &Field) -> (Section, Vec<u8>) {
+fn local_profiles(normal: &Normal, profiles: &Field) -> (Section, Vec<u8>) {
     let planes = (0..normal.geometry.nodes).flat_map(|h| (0..3).map(move |c| (h, c)));
     let values = planes.flat_map(|(h, c)| {
         let mean = normal.mean[h][c];
@@ -160,14 +199,8 @@ fn per_pixel(normal: &Normal, profiles: &Field) -> (Section, Vec<u8>) {
     (Section::LocalProfiles, write::logs(values))
 }
 
-/// `PROF`, `MIXR`, `BIDX`.
-fn base_materials(normal: &Normal, model: &Model) -> Vec<(Section, Vec<u8>)> {
+/// P̂_b^h of all base materials.
+fn base_profiles(normal: &Normal, model: &Model) -> impl Iterator<Item = f32> {
     let mean = normal.mean.iter().cycle();
-    let values = model.bases.iter().zip(mean).flat_map(|(p, mean)| [0, 1, 2].map(|c| p[c] + mean[c]));
-    let byte = |base: usize| u8::try_from(base).expect("at most 256 base materials");
-    vec![
-        (Section::BaseProfiles, write::logs(values)),
-        (Section::MixtureRatios, model.mixtures.iter().flat_map(|mixture| mixture.t.to_le_bytes()).collect()),
-        (Section::BaseIndices, model.mixtures.iter().flat_map(|mixture| mixture.base.map(byte)).collect()),
-    ]
+    model.bases.iter().zip(mean).flat_map(|(p, mean)| [0, 1, 2].map(|c| p[c] + mean[c]))
 }

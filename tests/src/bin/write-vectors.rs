@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use subsurf_decoder::bssrdf::Addressing;
+use subsurf_decoder::bssrdf::{Addressing, Coding};
 use subsurf_decoder::container::crc32;
 use subsurf_encoder::synthetic::Shape;
 use subsurf_tests::{fingerprint, format_example, shape};
@@ -26,6 +26,14 @@ fn main() -> std::io::Result<()> {
     write("bmpp_repeat.subsurf", &odd(Addressing::Repeat).bmpp())?;
     write("bmpp_mirror.subsurf", &odd(Addressing::Mirror).bmpp())?;
     write("per_pixel_clamp.subsurf", &odd(Addressing::Clamp).per_pixel())?;
+    let clamp = odd(Addressing::Clamp);
+    write("one_base.subsurf", &clamp.k_bmpp(1, Coding::Exact, false))?;
+    write("one_of_300_bases.subsurf", &Shape { base_materials: 300, ..clamp }.k_bmpp(1, Coding::Exact, false))?;
+    write("three_bases.subsurf", &clamp.k_bmpp(3, Coding::Exact, false))?;
+    write("five_bases.subsurf", &clamp.k_bmpp(5, Coding::Exact, false))?;
+    write("small_ratios.subsurf", &clamp.k_bmpp(2, Coding::SmallRatios, false))?;
+    write("palette.subsurf", &clamp.k_bmpp(2, Coding::Palette, false))?;
+    write("half_profiles.subsurf", &clamp.k_bmpp(2, Coding::Exact, true))?;
     let one = Shape { size: [1, 1], radius: 0, samples: 2, base_materials: 1, addressing: Addressing::Clamp };
     write("one_pixel.subsurf", &one.bmpp())?;
     let full = Shape { base_materials: 255, ..shape([16, 16], 2, Addressing::Repeat) };

@@ -1,19 +1,24 @@
-//! 2-BMPP by exact alternation: all base pairs searched for every pixel, base profiles solved for.
+//! K-BMPP by alternation: base materials searched for every pixel, base profiles solved for.
 //!
-//! Yatagawa et al. 2020 alternate L-BFGS-B with a randomised search; both halves have exact answers. With the base
+//! Yatagawa et al. 2020 alternate L-BFGS-B with a randomised search; both halves have better answers. With the base
 //! profiles fixed, a pixel's cost is a quadratic in its own profile, and the best ratio of each of the M (M − 1)/2 base
-//! pairs is the vertex of a parabola ([`assign`]). With indices and ratios fixed, the cost is a quadratic in all base
-//! profiles together ([`profiles`]).
+//! pairs is the vertex of a parabola; further base materials join the best pair one by one ([`assign`]). With indices
+//! and ratios fixed, the cost is a quadratic in all base profiles together ([`profiles`]).
 
 mod albedo;
 mod assign;
+mod mix;
 mod profiles;
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
+use subsurf_decoder::bssrdf::layout::{MAX_CODED_RATIO, MAX_PAIRS, MODELS_BMPP};
+use subsurf_decoder::bssrdf::{Coding, Mixture};
 
 use super::cluster::Clusters;
 use super::field::Field;
-use super::lanes::{Lanes, ZERO};
+use super::lanes::{self, Lanes, ZERO};
 use super::normal::Normal;
 use crate::progress::Progress;
 use albedo::Albedo;
@@ -23,19 +28,20 @@ const ROUNDS: u64 = 12;
 /// The cost has settled when a round lowers it by less than this share.
 const SETTLED: f64 = 2e-3;
 
+/// Rounds of both steps once ratios or pairs are restricted to what the coding can store.
+const CODED_ROUNDS: u64 = 2;
 /// Sweeps of the search that weigh albedos.
-const POLISH: u64 = 2;
+const POLISH: u64 = 4;
 
-/// One pixel: t of the first base material, 1 − t of the second.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Mixture {
-    pub(super) base: [usize; 2],
-    pub(super) t: f32,
-}
-
-/// A 2-BMPP model relative to the mean profile.
+/// A K-BMPP model relative to the mean profile.
 pub(super) struct Model {
     nodes: usize,
+    /// K.
+    pub(super) per_pixel: usize,
+    /// Ratios are whole multiples of 1/levels, if they are to be stored so.
+    pub(super) levels: Option<f32>,
+    /// The only pairs there may be, sorted.
+    pub(super) palette: Option<Vec<[usize; 2]>>,
     /// `[base][node]`.
     pub(super) bases: Vec<Lanes>,
     pub(super) mixtures: Vec<Mixture>,
@@ -44,8 +50,12 @@ pub(super) struct Model {
 impl Model {
     /// Every pixel is its cluster.
     pub(super) fn of_clusters(clusters: Clusters, nodes: usize) -> Self {
-        let mixtures = clusters.cluster_of.iter().map(|&cluster| Mixture { base: [cluster; 2], t: 1.0 }).collect();
-        Self { nodes, bases: clusters.centres, mixtures }
+        let mixture = |&cluster: &usize| {
+            let cluster = u16::try_from(cluster).expect("at most 65,536 clusters");
+            Mixture { bases: [cluster; 5], ratios: [1.0, 0.0, 0.0, 0.0, 0.0] }
+        };
+        let mixtures = clusters.cluster_of.iter().map(mixture).collect();
+        Self { nodes, per_pixel: 1, levels: None, palette: None, bases: clusters.centres, mixtures }
     }
 
     /// Fills up to `count` bases with the mean profile: a capture may have fewer distinct profiles than were asked for.
@@ -53,15 +63,48 @@ impl Model {
         self.bases.resize(count * self.nodes, ZERO);
     }
 
+    /// Restricts what the search may find to what a coding can store.
+    fn restrict(&mut self, coding: Coding) {
+        self.levels = match coding {
+            Coding::Exact => None,
+            Coding::SmallRatios => Some(f32::from(u8::MAX)),
+            Coding::Palette => Some(f32::from(MAX_CODED_RATIO)),
+        };
+        if coding == Coding::Palette {
+            // The pairs that most pixels have; of equals the first.
+            let mut uses: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+            for mixture in &self.mixtures {
+                let [a, b] = [mixture.bases[0], mixture.bases[1]].map(usize::from);
+                *uses.entry([a.min(b), a.max(b)]).or_default() += 1;
+            }
+            let mut pairs: Vec<([usize; 2], usize)> = uses.into_iter().collect();
+            pairs.sort_by_key(|(_, uses)| std::cmp::Reverse(*uses));
+            let mut pairs: Vec<[usize; 2]> = pairs.into_iter().map(|(pair, _)| pair).collect();
+            pairs.truncate(MAX_PAIRS as usize);
+            pairs.sort_unstable();
+            self.palette = Some(pairs);
+        }
+    }
+
     fn base(&self, base: usize) -> &[Lanes] {
         &self.bases[base * self.nodes..][..self.nodes]
     }
 
-    /// P̂_x = t P̂_{b₁} + (1 − t) P̂_{b₂} of one pixel (eq. 4).
+    /// b_k and t_k of one pixel.
+    fn parts(&self, pixel: usize) -> impl Iterator<Item = (usize, f32)> {
+        let Mixture { bases, ratios } = self.mixtures[pixel];
+        bases.into_iter().zip(ratios).take(self.per_pixel).map(|(base, t)| (base.into(), t))
+    }
+
+    /// P̂_x = Σ t_k P̂_{b_k} of one pixel (eq. 4).
     fn profile(&self, pixel: usize) -> Vec<Lanes> {
-        let Mixture { base: [first, second], t } = self.mixtures[pixel];
-        let pairs = self.base(first).iter().zip(self.base(second));
-        pairs.map(|(p, q)| [0, 1, 2, 3].map(|c| q[c] + t * (p[c] - q[c]))).collect()
+        let mut profile = vec![ZERO; self.nodes];
+        for (base, t) in self.parts(pixel) {
+            for (sum, p) in profile.iter_mut().zip(self.base(base)) {
+                lanes::add_scaled(sum, t, p);
+            }
+        }
+        profile
     }
 
     /// All pixels' profiles.
@@ -81,26 +124,46 @@ impl Model {
     }
 }
 
-/// Alternates both steps from `model` until the cost settles, then lets the search weigh albedos.
-pub(super) fn refine(normal: &Normal, model: &mut Model, progress: &dyn Progress) {
+/// Alternates both steps from a model of one base material per pixel until the cost settles, then lets the search weigh
+/// albedos. Models of more base materials per pixel start from those of fewer, so that they cannot fit worse.
+pub(super) fn refine(normal: &Normal, model: &mut Model, per_pixel: usize, coding: Coding, progress: &dyn Progress) {
     let mut field = model.field(normal);
-    let mut cost = normal.cost(&field);
-    progress.begin("fitting base materials", ROUNDS + POLISH);
-    for round in 0..ROUNDS {
-        assign::search(normal, model, &mut field, None);
-        profiles::solve(normal, model, &mut field);
-        let next = normal.cost(&field);
-        let settled = next > cost * (1.0 - SETTLED);
-        cost = next;
-        if settled {
-            progress.advance(ROUNDS - round);
-            break;
+    // One base material per pixel is where clusters start, and pairs are searched exhaustively from there.
+    let stages = MODELS_BMPP.into_iter().map(usize::from).filter(|&k| k == per_pixel || (1 < k && k < per_pixel));
+    let stages: Vec<usize> = stages.collect();
+    progress.begin("fitting base materials", ROUNDS * stages.len() as u64 + CODED_ROUNDS + POLISH);
+    for k in stages {
+        model.per_pixel = k;
+        alternate(normal, model, &mut field, progress);
+    }
+    model.restrict(coding);
+    for _ in 0..CODED_ROUNDS {
+        if coding != Coding::Exact {
+            assign::search(normal, model, &mut field, None);
+            profiles::solve(normal, model, &mut field);
         }
         progress.advance(1);
     }
     let mut albedo = Albedo::new(normal, &field);
     for _ in 0..POLISH {
         assign::search(normal, model, &mut field, Some(&mut albedo));
+        progress.advance(1);
+    }
+}
+
+/// Rounds of both steps until the cost settles.
+fn alternate(normal: &Normal, model: &mut Model, field: &mut Field, progress: &dyn Progress) {
+    let mut cost = normal.cost(field);
+    for round in 0..ROUNDS {
+        assign::search(normal, model, field, None);
+        profiles::solve(normal, model, field);
+        let next = normal.cost(field);
+        let settled = next > cost * (1.0 - SETTLED);
+        cost = next;
+        if settled {
+            progress.advance(ROUNDS - round);
+            break;
+        }
         progress.advance(1);
     }
 }

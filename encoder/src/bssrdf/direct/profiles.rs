@@ -44,7 +44,7 @@ pub(super) fn solve(normal: &Normal, model: &mut Model, field: &mut Field) {
     let mut z = precondition(&residual);
     let mut rho = lanes::dot(&residual, &z);
     // Directions live in a model of their own, which has the same ratios.
-    let mut direction = Model { nodes, bases: z.clone(), mixtures: model.mixtures.clone() };
+    let mut direction = Model { bases: z.clone(), mixtures: model.mixtures.clone(), palette: None, ..*model };
     for _ in 0..ITERATIONS {
         direction.write_to(field);
         let mut image = gather(normal, model, |pixel, out| image_of(normal, field, &deltas, pixel, out));
@@ -83,8 +83,7 @@ fn gather(normal: &Normal, model: &Model, v: impl Fn(usize, &mut [Lanes]) + Sync
             let mut image = vec![ZERO; nodes];
             for pixel in first * width..(first + BLOCK_ROWS).min(height) * width {
                 v(pixel, &mut image);
-                let mixture = model.mixtures[pixel];
-                for (base, t) in mixture.base.into_iter().zip([mixture.t, 1.0 - mixture.t]) {
+                for (base, t) in model.parts(pixel) {
                     for (sum, image) in sums[base * nodes..].iter_mut().zip(&image) {
                         lanes::add_scaled(sum, t, image);
                     }
@@ -122,8 +121,8 @@ fn regulariser(nodes: usize) -> Banded {
 /// Every base's own block of the matrix, pairs of pixels left out: Σ_i u_ib² A_i + λ_reg R.
 fn preconditioners(normal: &Normal, model: &Model) -> Vec<Factored> {
     let mut blocks = vec![regulariser(model.nodes); model.bases.len() / model.nodes];
-    for (pixel, mixture) in model.mixtures.iter().enumerate() {
-        for (base, t) in mixture.base.into_iter().zip([mixture.t, 1.0 - mixture.t]) {
+    for pixel in 0..model.mixtures.len() {
+        for (base, t) in model.parts(pixel) {
             blocks[base].add_scaled(t * t, &normal.matrix(pixel).all);
         }
     }
