@@ -61,6 +61,8 @@ pub(crate) struct Args {
 pub(crate) enum MethodArg {
     /// K-BMPP: K of M base materials per pixel (Yatagawa et al. 2020), fitted by alternation of exact steps
     Direct,
+    /// K-BMPP as Yatagawa et al. fit it: L-BFGS-B and PatchMatch from a random start. A baseline, slow
+    Paper,
     /// A profile for every pixel (Song et al. 2009): some thirty times larger
     Lsp,
     /// One of M clusters of those profiles per pixel: what K-BMPP is measured against
@@ -91,6 +93,7 @@ impl From<MethodArg> for Method {
     fn from(arg: MethodArg) -> Self {
         match arg {
             MethodArg::Direct => Self::Direct,
+            MethodArg::Paper => Self::Paper,
             MethodArg::Lsp => Self::Lsp,
             MethodArg::Clusters => Self::Clusters,
         }
@@ -149,7 +152,7 @@ fn report(args: &Args, capture: &Capture, output: &Path, encoded: &Encoded, judg
         let mut value = json!({
             "file": output,
             "method": format!("{:?}", args.method).to_lowercase(),
-            "per_pixel": if args.method == MethodArg::Direct { args.per_pixel } else { 1 },
+            "per_pixel": if matches!(args.method, MethodArg::Direct | MethodArg::Paper) { args.per_pixel } else { 1 },
             "coding": format!("{:?}", args.coding).to_lowercase(),
             "base_materials": encoded.base_materials,
             "samples": encoded.samples,

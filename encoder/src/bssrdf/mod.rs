@@ -7,6 +7,7 @@ mod field;
 mod lanes;
 mod lsp;
 mod normal;
+mod paper;
 mod window;
 mod write;
 
@@ -34,6 +35,8 @@ pub enum Method {
     Clusters,
     /// K base materials per pixel by alternation of exact steps.
     Direct,
+    /// K base materials per pixel as Yatagawa et al. 2020 fit them: a baseline.
+    Paper,
 }
 
 /// What to fit.
@@ -96,10 +99,17 @@ const BEYOND_CORNER: f64 = 1.0 + 1e-6;
 pub fn encode(capture: &Capture, options: &Options, progress: &dyn Progress) -> Result<Encoded> {
     let geometry = geometry(capture, options)?;
     let normal = Normal::of(capture, geometry, progress)?;
-    let profiles = lsp::fit(&normal, progress);
     let (sections, cost, bases) = match options.method {
-        Method::Lsp => (vec![local_profiles(&normal, &profiles)], normal.cost(&profiles), 0),
+        Method::Lsp => {
+            let profiles = lsp::fit(&normal, progress);
+            (vec![local_profiles(&normal, &profiles)], normal.cost(&profiles), 0)
+        }
+        Method::Paper => {
+            let model = paper::fit(&normal, options.per_pixel, options.base_materials, options.seed, progress);
+            of_bases(capture, &geometry, &normal, &model, options)
+        }
         Method::Clusters | Method::Direct => {
+            let profiles = lsp::fit(&normal, progress);
             let clusters = cluster::cluster(&normal, &profiles, options.base_materials, options.seed, progress);
             drop(profiles);
             let mut model = Model::of_clusters(clusters, geometry.nodes);
@@ -107,11 +117,7 @@ pub fn encode(capture: &Capture, options: &Options, progress: &dyn Progress) -> 
                 direct::refine(&normal, &mut model, options.per_pixel, options.coding, progress);
             }
             model.pad(options.base_materials);
-            let cost = normal.cost(&model.field(&normal));
-            let header = header(capture, &geometry, options);
-            let mut sections = vec![write::profiles(base_profiles(&normal, &model), options.half_profiles)];
-            sections.extend(write::mixtures(&header, &model.mixtures));
-            (sections, cost, options.base_materials)
+            of_bases(capture, &geometry, &normal, &model, options)
         }
     };
     let header = header(capture, &geometry, options);
@@ -125,22 +131,37 @@ pub fn encode(capture: &Capture, options: &Options, progress: &dyn Progress) -> 
     })
 }
 
+/// Sections, cost and M of a model.
+fn of_bases(
+    capture: &Capture,
+    geometry: &Geometry,
+    normal: &Normal,
+    model: &Model,
+    options: &Options,
+) -> (Vec<(Section, Vec<u8>)>, f64, usize) {
+    let cost = normal.cost(&model.field(normal));
+    let header = header(capture, geometry, options);
+    let mut sections = vec![write::profiles(base_profiles(normal, model), options.half_profiles)];
+    sections.extend(write::mixtures(&header, &model.mixtures));
+    (sections, cost, options.base_materials)
+}
+
 /// K of the file; 0 for per-pixel profiles.
 fn per_pixel(options: &Options) -> usize {
     match options.method {
         Method::Lsp => 0,
         Method::Clusters => 1,
-        Method::Direct => options.per_pixel,
+        Method::Direct | Method::Paper => options.per_pixel,
     }
 }
 
 fn geometry(capture: &Capture, options: &Options) -> Result<Geometry> {
     let per_pixel = per_pixel(options);
-    if options.method == Method::Direct && !MODELS_BMPP.map(usize::from).contains(&per_pixel) {
+    if matches!(options.method, Method::Direct | Method::Paper) && !MODELS_BMPP.map(usize::from).contains(&per_pixel) {
         return Err(Error::Request(format!("{per_pixel} base materials per pixel; there can be 1, 2, 3 or 5")));
     }
-    if options.coding != Coding::Exact && per_pixel != 2 {
-        let message = "smaller ratios and palettes are for two base materials per pixel";
+    if options.coding != Coding::Exact && (per_pixel != 2 || options.method != Method::Direct) {
+        let message = "smaller ratios and palettes are for two base materials per pixel, fitted by the direct method";
         return Err(Error::Request(message.to_owned()));
     }
     let limit = if per_pixel == 1 { MAX_SINGLE_BASE_MATERIALS } else { MAX_BASE_MATERIALS } as usize;

@@ -202,6 +202,11 @@ impl Normal {
         &self.matrices[self.matrix_of[pixel] as usize]
     }
 
+    /// Σ_e φ y_e² relative to the mean profile.
+    pub(super) fn y2(&self) -> f64 {
+        self.y2
+    }
+
     /// How many pixels have each of the matrices.
     pub(super) fn matrix_users(&self) -> Vec<u32> {
         let mut users = vec![0; self.matrices.len()];

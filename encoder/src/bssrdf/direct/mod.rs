@@ -16,6 +16,8 @@ use rayon::prelude::*;
 use subsurf_decoder::bssrdf::layout::{MAX_CODED_RATIO, MAX_PAIRS, MODELS_BMPP};
 use subsurf_decoder::bssrdf::{Coding, Mixture};
 
+pub(super) use profiles::{gather, image_of};
+
 use super::cluster::Clusters;
 use super::field::Field;
 use super::lanes::{self, Lanes, ZERO};
@@ -35,7 +37,7 @@ const POLISH: u64 = 4;
 
 /// A K-BMPP model relative to the mean profile.
 pub(super) struct Model {
-    nodes: usize,
+    pub(super) nodes: usize,
     /// K.
     pub(super) per_pixel: usize,
     /// Ratios are whole multiples of 1/levels, if they are to be stored so.

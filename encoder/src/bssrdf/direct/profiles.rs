@@ -66,13 +66,13 @@ pub(super) fn solve(normal: &Normal, model: &mut Model, field: &mut Field) {
 }
 
 /// out = A_i p_i + Σ_j φ n a aᵀ p_j.
-fn image_of(normal: &Normal, field: &Field, deltas: &[isize], pixel: usize, out: &mut [Lanes]) {
+pub(in super::super) fn image_of(normal: &Normal, field: &Field, deltas: &[isize], pixel: usize, out: &mut [Lanes]) {
     normal.cross(field, deltas, pixel, out);
     normal.matrix(pixel).all.multiply_add(field.at(pixel), out);
 }
 
 /// Uᵀ v, with v of each pixel computed on the way. Sums are made by blocks of rows and then in order.
-fn gather(normal: &Normal, model: &Model, v: impl Fn(usize, &mut [Lanes]) + Sync) -> Vec<Lanes> {
+pub(in super::super) fn gather(normal: &Normal, model: &Model, v: impl Fn(usize, &mut [Lanes]) + Sync) -> Vec<Lanes> {
     let nodes = model.nodes;
     let [width, height] = normal.geometry.size;
     let blocks: Vec<Vec<Lanes>> = (0..height)
