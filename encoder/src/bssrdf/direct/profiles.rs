@@ -10,7 +10,7 @@ use super::super::normal::{BLOCK_ROWS, Normal};
 use super::Model;
 
 /// Steps of conjugate gradients in one round; the next round goes on from there.
-const ITERATIONS: usize = 25;
+const ITERATIONS: usize = 6;
 
 /// Lowers the cost, in the profiles of all bases together, by conjugate gradients from where they are.
 ///
