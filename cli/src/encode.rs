@@ -152,7 +152,7 @@ fn report(args: &Args, capture: &Capture, output: &Path, encoded: &Encoded, judg
         let mut value = json!({
             "file": output,
             "method": format!("{:?}", args.method).to_lowercase(),
-            "per_pixel": if matches!(args.method, MethodArg::Direct | MethodArg::Paper) { args.per_pixel } else { 1 },
+            "per_pixel": encoded.per_pixel,
             "coding": format!("{:?}", args.coding).to_lowercase(),
             "base_materials": encoded.base_materials,
             "samples": encoded.samples,

@@ -1,7 +1,7 @@
 //! From captures of heterogeneous subsurface scattering to `.subsurf` files.
 //!
 //! [`capture`] reads what was measured, [`simulate`] makes captures where none were, [`bssrdf`] fits per-pixel
-//! profiles and 2-BMPP, [`metrics`] judges the result.
+//! profiles and K-BMPP, [`metrics`] judges the result.
 
 pub mod bssrdf;
 pub mod capture;

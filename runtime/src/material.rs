@@ -1,4 +1,4 @@
-//! A material on the device, in one of three storages.
+//! A material on the device, in one of the storages.
 
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{BaseMaterials, Header, Mixtures, Model, Profiles};
@@ -124,7 +124,7 @@ impl Material {
         self.textures.iter().map(|surface| surface.texture.bytes()).sum::<u64>() + self.uniform.bytes()
     }
 
-    /// Resources of the material's group, in the order of [`Storage::slots`].
+    /// Resources of the material's group, in the order of [`slots`].
     pub(crate) fn resources(&self) -> Vec<BindingResource<'_>> {
         let uniform = std::iter::once(self.uniform.as_entire_binding());
         uniform.chain(self.views.iter().map(BindingResource::TextureView)).collect()
@@ -183,13 +183,18 @@ impl Planes<'_> {
         let samples = u32::from(header.samples);
         let width = header.base_materials.div_ceil(BASE_ROWS) * samples;
         let rows = header.base_materials.min(BASE_ROWS);
+        let spec = TextureSpec::table("base profiles", [width, rows], format);
+        let surface = self.gpu.texture(&spec)?;
         let mut texels = vec![0; (width * rows) as usize * 4 * channel];
         for (number, node) in source.chunks(3 * channel).enumerate() {
             let (base, h) = (number / samples as usize, number % samples as usize);
             let (column, row) = (base / BASE_ROWS as usize * samples as usize + h, base % BASE_ROWS as usize);
             texels[(row * width as usize + column) * 4 * channel..][..3 * channel].copy_from_slice(node);
         }
-        self.texture(&TextureSpec::table("base profiles", [width, rows], format), &texels)
+        self.gpu.checked(|| self.gpu.fill(&surface.texture, 0, &texels))?;
+        let view = surface.view.clone();
+        self.all.push((surface, view));
+        Ok(())
     }
 
     fn mixtures(&mut self, mixtures: Mixtures<'_>) -> Result<()> {

@@ -11,12 +11,13 @@ use subsurf_encoder::synthetic::{capture_row, unit};
 use subsurf_tests::{open, shape, write_capture};
 
 /// Every method, K and coding.
-fn kinds() -> [Options; 9] {
+fn kinds() -> [Options; 10] {
     let direct = Options::default();
     let [lsp, clusters] = [Method::Lsp, Method::Clusters].map(|method| Options { method, ..direct });
     let [one, three, five] = [1, 3, 5].map(|per_pixel| Options { per_pixel, ..direct });
     let [small, palette] = [Coding::SmallRatios, Coding::Palette].map(|coding| Options { coding, ..direct });
-    [lsp, clusters, one, direct, three, five, small, palette, Options { half_profiles: true, ..direct }]
+    let paper = Options { method: Method::Paper, ..direct };
+    [lsp, clusters, paper, one, direct, three, five, small, palette, Options { half_profiles: true, ..direct }]
 }
 
 /// A capture of what a synthetic 2-BMPP file stands for.
@@ -54,7 +55,7 @@ fn finds_a_model_that_is_there() {
     let folder = tempfile::tempdir().unwrap();
     for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
         let path = capture_of_bmpp(folder.path(), [26, 20], 4, addressing);
-        let [lsp, clusters, _, direct, ..] = kinds();
+        let [lsp, clusters, _, _, direct, ..] = kinds();
         let (lsp, _) = quality(&path, &fit(&path, lsp, 1).bytes);
         let (clusters, _) = quality(&path, &fit(&path, clusters, 24).bytes);
         let (direct, psnr) = quality(&path, &fit(&path, direct, 24).bytes);
@@ -138,7 +139,8 @@ fn missing_entries_weigh_nothing() {
 fn missing_entries_weigh_nothing_with(addressing: Addressing) {
     let folder = tempfile::tempdir().unwrap();
     let full = capture_of_bmpp(folder.path(), [26, 20], 4, addressing);
-    for kind in kinds() {
+    // The paper's fit ends where chance takes it, with holes or without.
+    for kind in kinds().into_iter().filter(|kind| kind.method != Method::Paper) {
         // However a hole is written, it is the same hole.
         let by_hole = [0.0, -1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY].map(|hole| {
             let holes = with_holes(folder.path(), &full, |_| hole);

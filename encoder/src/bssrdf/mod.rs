@@ -81,8 +81,11 @@ pub struct Encoded {
     pub entries: u64,
     /// Those of them that were measured.
     pub measured: u64,
-    /// ½ Σ φ (P̂_i + P̂_j − 2 ln Rd)² over all of these (Yatagawa et al. 2020, eq. 5).
+    /// ½ Σ φ (P̂_i + P̂_j − 2 ln Rd)² over all of these (Yatagawa et al. 2020, eq. 5), before profiles are rounded to
+    /// half floats.
     pub cost: f64,
+    /// K of the file; 0 for per-pixel profiles.
+    pub per_pixel: usize,
     /// Base materials in the file; 0 for per-pixel profiles.
     pub base_materials: usize,
     /// S.
@@ -126,6 +129,7 @@ pub fn encode(capture: &Capture, options: &Options, progress: &dyn Progress) -> 
         entries: normal.entries[0],
         measured: normal.entries[1],
         cost,
+        per_pixel: per_pixel(options),
         base_materials: bases,
         samples: geometry.nodes,
     })
@@ -163,6 +167,9 @@ fn geometry(capture: &Capture, options: &Options) -> Result<Geometry> {
     if options.coding != Coding::Exact && (per_pixel != 2 || options.method != Method::Direct) {
         let message = "smaller ratios and palettes are for two base materials per pixel, fitted by the direct method";
         return Err(Error::Request(message.to_owned()));
+    }
+    if options.half_profiles && per_pixel == 0 {
+        return Err(Error::Request("profiles of every pixel are stored in single precision only".to_owned()));
     }
     let limit = if per_pixel == 1 { MAX_SINGLE_BASE_MATERIALS } else { MAX_BASE_MATERIALS } as usize;
     if !(1..=limit).contains(&options.base_materials) {

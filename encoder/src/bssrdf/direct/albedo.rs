@@ -25,6 +25,9 @@ pub(super) struct Constraint {
     pub(super) tau: Lanes,
 }
 
+/// The largest ratio of modelled to captured albedo that is linearised.
+const TRUSTED: f32 = 10.0;
+
 impl Albedo {
     pub(super) fn new(normal: &Normal, profiles: &Field) -> Self {
         let mut roots = Field::new(Geometry { nodes: normal.rings.len(), ..normal.geometry });
@@ -72,6 +75,11 @@ impl Albedo {
                 let slope = if ring.is_self() { rd } else { 0.5 * rd };
                 k[ring.h][c] += (1.0 - ring.w) * slope;
                 k[ring.h + 1][c] += ring.w * slope;
+            }
+            // Where the model is far off, or the capture all but black, a line says nothing about the albedo.
+            if !(0.0..TRUSTED).contains(&exchange) {
+                k.iter_mut().for_each(|k| k[c] = 0.0);
+                continue;
             }
             let product: f32 = k.iter().zip(profile).map(|(k, p)| k[c] * p[c]).sum();
             tau[c] = product - (exchange - 1.0);

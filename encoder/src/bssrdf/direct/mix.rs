@@ -155,9 +155,11 @@ impl Blend {
 
     fn mixture(&self) -> Mixture {
         let mut mixture = Mixture::default();
+        // Shares are moved about many times; what rounding did to their sum ends here.
+        let sum: f32 = self.parts().map(|(_, t)| t).sum();
         for k in 0..self.count {
             mixture.bases[k] = u16::try_from(self.bases[k]).expect("at most 65,536 base materials");
-            mixture.ratios[k] = self.ratios[k].min(1.0);
+            mixture.ratios[k] = if self.count > 2 { self.ratios[k] / sum } else { self.ratios[k] }.min(1.0);
         }
         // Parts that are not there name the first base material, whose profile is at hand anyway.
         for base in &mut mixture.bases[self.count..] {

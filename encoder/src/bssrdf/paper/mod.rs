@@ -86,9 +86,9 @@ fn minimise(normal: &Normal, model: &mut Model, multipliers: &mut Multipliers) {
     let objective = Objective::new(normal, model, multipliers);
     let start = objective.parameters(model);
     let solver = Lbfgs::new().with_relative_cost_reduction_tolerance(TOLERANCE);
-    let run = Executor::new(objective, solver, FirstOrderState::new(start.clone())).max_iter(STEPS).run();
-    // A line search that finds nothing better has found what single precision allows: the last point is kept.
-    let found = run.map_or(start, |result| result.param().clone());
+    let run = Executor::new(objective, solver, FirstOrderState::new(start)).max_iter(STEPS).run();
+    // A line search that finds nothing better ends the run, too: it has found what single precision allows.
+    let found = run.expect("a start within its bounds and a cost that cannot fail").param().clone();
     let objective = Objective::new(normal, model, multipliers);
     let next = objective.model(&found);
     *model = next;
