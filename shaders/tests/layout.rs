@@ -46,6 +46,15 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(Frame: size, texels, exposure);
 }
 
+#[test]
+fn palette_codes_are_those_of_the_format() {
+    use subsurf_decoder::bssrdf::layout::{MAX_CODED_RATIO, MAX_PAIRS};
+    let text = source::gather(Storage::Palette);
+    for wanted in [format!("code % {MAX_PAIRS}u"), format!("code / {MAX_PAIRS}u) / {MAX_CODED_RATIO}.0")] {
+        assert!(text.contains(&wanted), "{wanted}");
+    }
+}
+
 /// Numbers that stand in both languages.
 #[test]
 fn addressing_codes_are_those_of_the_format() {

@@ -102,14 +102,15 @@ const BEYOND_CORNER: f64 = 1.0 + 1e-6;
 pub fn encode(capture: &Capture, options: &Options, progress: &dyn Progress) -> Result<Encoded> {
     let geometry = geometry(capture, options)?;
     let normal = Normal::of(capture, geometry, progress)?;
-    let (sections, cost, bases) = match options.method {
+    let header = header(capture, &geometry, options);
+    let (sections, cost) = match options.method {
         Method::Lsp => {
             let profiles = lsp::fit(&normal, progress);
-            (vec![local_profiles(&normal, &profiles)], normal.cost(&profiles), 0)
+            (vec![local_profiles(&normal, &profiles)], normal.cost(&profiles))
         }
         Method::Paper => {
             let model = paper::fit(&normal, options.per_pixel, options.base_materials, options.seed, progress);
-            of_bases(capture, &geometry, &normal, &model, options)
+            of_bases(&header, &normal, &model, options.half_profiles)
         }
         Method::Clusters | Method::Direct => {
             let profiles = lsp::fit(&normal, progress);
@@ -120,34 +121,25 @@ pub fn encode(capture: &Capture, options: &Options, progress: &dyn Progress) -> 
                 direct::refine(&normal, &mut model, options.per_pixel, options.coding, progress);
             }
             model.pad(options.base_materials);
-            of_bases(capture, &geometry, &normal, &model, options)
+            of_bases(&header, &normal, &model, options.half_profiles)
         }
     };
-    let header = header(capture, &geometry, options);
     Ok(Encoded {
         bytes: write_file(&header, &sections),
         entries: normal.entries[0],
         measured: normal.entries[1],
         cost,
-        per_pixel: per_pixel(options),
-        base_materials: bases,
+        per_pixel: header.model.into(),
+        base_materials: header.base_materials as usize,
         samples: geometry.nodes,
     })
 }
 
-/// Sections, cost and M of a model.
-fn of_bases(
-    capture: &Capture,
-    geometry: &Geometry,
-    normal: &Normal,
-    model: &Model,
-    options: &Options,
-) -> (Vec<(Section, Vec<u8>)>, f64, usize) {
-    let cost = normal.cost(&model.field(normal));
-    let header = header(capture, geometry, options);
-    let mut sections = vec![write::profiles(base_profiles(normal, model), options.half_profiles)];
-    sections.extend(write::mixtures(&header, &model.mixtures));
-    (sections, cost, options.base_materials)
+/// Sections and cost of a model.
+fn of_bases(header: &Header, normal: &Normal, model: &Model, half_profiles: bool) -> (Vec<(Section, Vec<u8>)>, f64) {
+    let mut sections = vec![write::profiles(base_profiles(normal, model), half_profiles)];
+    sections.extend(write::mixtures(header, &model.mixtures));
+    (sections, normal.cost(&model.field(normal)))
 }
 
 /// K of the file; 0 for per-pixel profiles.

@@ -63,7 +63,7 @@ pub(super) struct Normal {
     /// p̄, natural log of mm⁻².
     pub(super) mean: Vec<Lanes>,
     /// Σ_e φ y_e² relative to the mean profile.
-    y2: f64,
+    pub(super) y2: f64,
     /// Mean of the light that a pixel sends out and that it gets from others, Σ_e Rd_e over all measured entries that
     /// begin or end at it, halved; in mm⁻².
     pub(super) exchange: Vec<[f64; 3]>,
@@ -202,11 +202,6 @@ impl Normal {
         &self.matrices[self.matrix_of[pixel] as usize]
     }
 
-    /// Σ_e φ y_e² relative to the mean profile.
-    pub(super) fn y2(&self) -> f64 {
-        self.y2
-    }
-
     /// How many pixels have each of the matrices.
     pub(super) fn matrix_users(&self) -> Vec<u32> {
         let mut users = vec![0; self.matrices.len()];
@@ -267,6 +262,22 @@ impl Normal {
                 out[ring.h + 1][c] += w * p;
             }
         }
+    }
+
+    /// d = b_i − Σ_{j≠i} φ n a aᵀ p_j of one pixel: with all others fixed, its profile p costs pᵀ A p − 2 pᵀ d, A being the
+    /// curvature of [`Matrix::curvature`].
+    pub(super) fn pull(&self, field: &Field, deltas: &[isize], pixel: usize) -> Vec<Lanes> {
+        let mut d = vec![ZERO; self.geometry.nodes];
+        self.cross(field, deltas, pixel, &mut d);
+        // The sum has the pixel's own old profile in it; take that out again.
+        let mut own = vec![ZERO; self.geometry.nodes];
+        self.matrix(pixel).own.multiply_add(field.at(pixel), &mut own);
+        for ((d, own), b) in d.iter_mut().zip(&own).zip(self.b(pixel)) {
+            for c in 0..4 {
+                d[c] = b[c] - (d[c] - own[c]);
+            }
+        }
+        d
     }
 
     /// Σ_j n_ij f_j of every ring, f a table with one node per ring.

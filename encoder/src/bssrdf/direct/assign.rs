@@ -6,7 +6,6 @@ use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Mixture;
 
 use super::super::field::Field;
-use super::super::lanes::ZERO;
 use super::super::normal::Normal;
 use super::Model;
 use super::albedo::Albedo;
@@ -64,17 +63,8 @@ pub(super) fn search(normal: &Normal, model: &mut Model, field: &mut Field, mut 
     }
 }
 
-/// u_b = Σ_c P̂_bᵀ d of every base, with d = b_i − Σ_{j≠i} φ n a aᵀ p_j: half the slope of the pixel's cost along P̂_b.
+/// u_b = Σ_c P̂_bᵀ d of every base: half the slope of the pixel's cost along P̂_b.
 fn slopes(normal: &Normal, model: &Model, field: &Field, deltas: &[isize], pixel: usize) -> Vec<f32> {
-    let mut d = vec![ZERO; model.nodes];
-    normal.cross(field, deltas, pixel, &mut d);
-    // The sum has the pixel's own old profile in it; take that out again.
-    let mut own = vec![ZERO; model.nodes];
-    normal.matrix(pixel).own.multiply_add(field.at(pixel), &mut own);
-    for ((d, own), b) in d.iter_mut().zip(&own).zip(normal.b(pixel)) {
-        for c in 0..4 {
-            d[c] = b[c] - (d[c] - own[c]);
-        }
-    }
+    let d = normal.pull(field, deltas, pixel);
     model.bases.chunks(model.nodes).map(|base| product(base, &d)).collect()
 }

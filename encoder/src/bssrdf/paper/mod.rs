@@ -22,7 +22,7 @@ use super::direct::Model;
 use super::lanes::Lanes;
 use super::normal::Normal;
 use crate::progress::Progress;
-use objective::{Multipliers, Objective};
+use objective::{Multipliers, Objective, parameters_of, with_parameters};
 
 /// N_iter.
 const ROUNDS: u32 = 20;
@@ -57,14 +57,12 @@ pub(super) fn fit(normal: &Normal, per_pixel: usize, count: usize, seed: u64, pr
 
 /// Indices at random, no two of a pixel alike; ratios 1/K; coefficients in −1 to 1.
 fn random(normal: &Normal, per_pixel: usize, count: usize, rng: &mut Pcg64) -> Model {
-    let nodes = normal.geometry.nodes;
     let profile = |rng: &mut Pcg64| {
         let node =
             |mean: &Lanes| [0, 1, 2, 3].map(|c| if c < 3 { rng.random_range(-1.0..=1.0) - mean[c] } else { 0.0 });
         normal.mean.iter().map(node).collect::<Vec<Lanes>>()
     };
     let bases: Vec<Lanes> = (0..count).flat_map(|_| profile(rng)).collect();
-    debug_assert_eq!(bases.len(), count * nodes, "nodes of all profiles");
     let mixtures = (0..normal.geometry.pixels()).map(|_| {
         let mut mixture = Mixture::default();
         // With fewer base materials than K, some have to be alike.
@@ -78,20 +76,18 @@ fn random(normal: &Normal, per_pixel: usize, count: usize, rng: &mut Pcg64) -> M
         mixture
     });
     let mixtures = mixtures.collect();
-    Model { nodes, per_pixel, levels: None, palette: None, bases, mixtures }
+    Model { nodes: normal.geometry.nodes, per_pixel, levels: None, palette: None, bases, mixtures }
 }
 
 /// Step 1: profiles and ratios, indices fixed.
 fn minimise(normal: &Normal, model: &mut Model, multipliers: &mut Multipliers) {
+    let start = FirstOrderState::new(parameters_of(model));
     let objective = Objective::new(normal, model, multipliers);
-    let start = objective.parameters(model);
     let solver = Lbfgs::new().with_relative_cost_reduction_tolerance(TOLERANCE);
-    let run = Executor::new(objective, solver, FirstOrderState::new(start)).max_iter(STEPS).run();
+    let run = Executor::new(objective, solver, start).max_iter(STEPS).run();
     // A line search that finds nothing better ends the run, too: it has found what single precision allows.
     let found = run.expect("a start within its bounds and a cost that cannot fail").param().clone();
-    let objective = Objective::new(normal, model, multipliers);
-    let next = objective.model(&found);
-    *model = next;
+    *model = with_parameters(model, &found);
     multipliers.update(model);
 }
 

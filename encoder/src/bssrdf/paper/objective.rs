@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Mixture;
 
 use super::super::direct::{Model, gather, image_of};
-use super::super::lanes::{self, Lanes, ZERO};
+use super::super::lanes::{self, ZERO};
 use super::super::lsp::SMOOTHNESS;
 use super::super::normal::Normal;
 use super::EDGE;
@@ -43,16 +43,15 @@ impl Multipliers {
 /// K = 1, t of K = 2 (1 − t is the other), all of K ≥ 3, pixel by pixel.
 pub(super) struct Objective<'a> {
     normal: &'a Normal,
-    /// Gives the indices; profiles and ratios come from the parameters.
-    indices: Model,
+    /// Gives the indices and K; profiles and ratios come from the parameters.
+    indices: &'a Model,
     multipliers: &'a Multipliers,
     lower: Vec<f64>,
     upper: Vec<f64>,
 }
 
 impl<'a> Objective<'a> {
-    pub(super) fn new(normal: &'a Normal, model: &Model, multipliers: &'a Multipliers) -> Self {
-        let indices = Model { bases: Vec::new(), mixtures: model.mixtures.clone(), palette: None, ..*model };
+    pub(super) fn new(normal: &'a Normal, model: &'a Model, multipliers: &'a Multipliers) -> Self {
         let coefficients = model.bases.len() * 3;
         let ratios = free_ratios(model.per_pixel) * model.mixtures.len();
         let bounds = |of_ratio: f64, otherwise: f64| {
@@ -61,41 +60,11 @@ impl<'a> Objective<'a> {
             bounds
         };
         let (lower, upper) = (bounds(EDGE, f64::NEG_INFINITY), bounds(1.0 - EDGE, f64::INFINITY));
-        Self { normal, indices, multipliers, lower, upper }
-    }
-
-    fn coefficients(&self) -> usize {
-        self.lower.len() - free_ratios(self.indices.per_pixel) * self.indices.mixtures.len()
-    }
-
-    pub(super) fn parameters(&self, model: &Model) -> Vec<f64> {
-        let profiles = model.bases.iter().flat_map(|node| [0, 1, 2].map(|c| f64::from(node[c])));
-        let free = free_ratios(model.per_pixel);
-        let ratios = model.mixtures.iter().flat_map(|mixture| mixture.ratios.into_iter().take(free));
-        let ratios = ratios.map(|t| f64::from(t).clamp(EDGE, 1.0 - EDGE));
-        profiles.chain(ratios).collect()
-    }
-
-    #[allow(clippy::cast_possible_truncation, reason = "the pairs are summed in single precision")]
-    pub(super) fn model(&self, parameters: &[f64]) -> Model {
-        let (profiles, ratios) = parameters.split_at(self.coefficients());
-        let bases = profiles.as_chunks::<3>().0.iter().map(|p| [p[0] as f32, p[1] as f32, p[2] as f32, 0.0]).collect();
-        let free = free_ratios(self.indices.per_pixel);
-        let mixtures = self.indices.mixtures.iter().enumerate().map(|(pixel, mixture)| {
-            let t = &ratios[pixel * free..][..free];
-            let mut ratios = [0.0; 5];
-            match *t {
-                [] => ratios[0] = 1.0,
-                [t] => ratios[..2].copy_from_slice(&[t as f32, (1.0 - t) as f32]),
-                _ => ratios.iter_mut().zip(t).for_each(|(ratio, t)| *ratio = *t as f32),
-            }
-            Mixture { ratios, ..*mixture }
-        });
-        Model { bases, mixtures: mixtures.collect(), palette: None, ..self.indices }
+        Self { normal, indices: model, multipliers, lower, upper }
     }
 
     fn evaluate(&self, parameters: &[f64]) -> (f64, Vec<f64>) {
-        let model = self.model(parameters);
+        let model = with_parameters(self.indices, parameters);
         let normal = self.normal;
         let nodes = normal.geometry.nodes;
         let field = model.field(normal);
@@ -118,7 +87,7 @@ impl<'a> Objective<'a> {
                 (r - r_b) + (g - g_b) + (b - b_b)
             })
             .collect();
-        let mut cost = 0.5 * (costs.iter().sum::<f64>() + normal.y2());
+        let mut cost = 0.5 * (costs.iter().sum::<f64>() + normal.y2);
         let slope_of = |pixel: usize| &slopes[pixel * nodes..][..nodes];
 
         // ∂/∂P̂_b = Σ_x t_xb ∂/∂p_x.
@@ -133,7 +102,7 @@ impl<'a> Objective<'a> {
             lanes::dot(&model.bases[base..][..nodes], slope_of(pixel)).iter().sum()
         };
         for pixel in 0..normal.geometry.pixels() {
-            let t = &parameters[self.coefficients() + pixel * free..][..free];
+            let t = &parameters[3 * self.indices.bases.len() + pixel * free..][..free];
             match *t {
                 [] => {}
                 [t] => {
@@ -160,10 +129,10 @@ impl<'a> Objective<'a> {
     /// λ_reg ½ Σ (P̂^h − 2 P̂^{h+1} + P̂^{h+2})², of the profiles themselves; adds its gradient.
     fn regulariser(&self, parameters: &[f64], gradient: &mut [f64]) -> f64 {
         let nodes = self.normal.geometry.nodes;
-        let mean: Vec<Lanes> = self.normal.mean.clone();
+        let mean = &self.normal.mean;
         let weight = f64::from(SMOOTHNESS);
         let mut cost = 0.0;
-        for base in 0..self.coefficients() / (3 * nodes) {
+        for base in 0..self.indices.bases.len() / nodes {
             for c in 0..3 {
                 let at = |h: usize| (base * nodes + h) * 3 + c;
                 let p = |h: usize| parameters[at(h)] + f64::from(mean[h][c]);
@@ -178,6 +147,34 @@ impl<'a> Objective<'a> {
         }
         cost
     }
+}
+
+/// The parameters of a model.
+pub(super) fn parameters_of(model: &Model) -> Vec<f64> {
+    let profiles = model.bases.iter().flat_map(|node| [0, 1, 2].map(|c| f64::from(node[c])));
+    let free = free_ratios(model.per_pixel);
+    let ratios = model.mixtures.iter().flat_map(|mixture| mixture.ratios.into_iter().take(free));
+    let ratios = ratios.map(|t| f64::from(t).clamp(EDGE, 1.0 - EDGE));
+    profiles.chain(ratios).collect()
+}
+
+/// The model of some parameters, with the indices and K of `model`.
+#[allow(clippy::cast_possible_truncation, reason = "the pairs are summed in single precision")]
+pub(super) fn with_parameters(model: &Model, parameters: &[f64]) -> Model {
+    let (profiles, ratios) = parameters.split_at(3 * model.bases.len());
+    let bases = profiles.as_chunks::<3>().0.iter().map(|p| [p[0] as f32, p[1] as f32, p[2] as f32, 0.0]).collect();
+    let free = free_ratios(model.per_pixel);
+    let mixtures = model.mixtures.iter().enumerate().map(|(pixel, mixture)| {
+        let t = &ratios[pixel * free..][..free];
+        let mut ratios = [0.0; 5];
+        match *t {
+            [] => ratios[0] = 1.0,
+            [t] => ratios[..2].copy_from_slice(&[t as f32, (1.0 - t) as f32]),
+            _ => ratios.iter_mut().zip(t).for_each(|(ratio, t)| *ratio = *t as f32),
+        }
+        Mixture { ratios, ..*mixture }
+    });
+    Model { bases, mixtures: mixtures.collect(), palette: None, ..*model }
 }
 
 /// Ratios of a pixel that are parameters.
@@ -252,7 +249,7 @@ mod tests {
             let model = random(&normal, per_pixel, 6, &mut Pcg64::seed_from_u64(3));
             let multipliers = Multipliers { lambda: (0..30).map(|n| f64::from(unit(n))).collect(), rho: 3.0 };
             let objective = Objective::new(&normal, &model, &multipliers);
-            let mut at = objective.parameters(&model);
+            let mut at = parameters_of(&model);
             for (n, parameter) in (0..).zip(&mut at) {
                 // Away from the start, where all ratios of a pixel are equal.
                 *parameter += 0.1 * (f64::from(unit(n)) - 0.5);

@@ -43,16 +43,7 @@ pub(super) fn search(normal: &Normal, model: &mut Model, odd: bool, acceptance: 
 /// and the rest of eq. 5 stays.
 fn update(normal: &Normal, model: &mut Model, field: &mut Field, deltas: &[isize], pixel: usize, tried: &[usize]) {
     let nodes = model.nodes;
-    // d = b − Σ_{y≠x} φ n a aᵀ p_y.
-    let mut d = vec![ZERO; nodes];
-    normal.cross(field, deltas, pixel, &mut d);
-    let mut own = vec![ZERO; nodes];
-    normal.matrix(pixel).own.multiply_add(field.at(pixel), &mut own);
-    for ((d, own), b) in d.iter_mut().zip(&own).zip(normal.b(pixel)) {
-        for c in 0..4 {
-            d[c] = b[c] - (d[c] - own[c]);
-        }
-    }
+    let d = normal.pull(field, deltas, pixel);
     let curvature = normal.matrix(pixel).curvature();
     let cost = |p: &[Lanes]| {
         let mut image = vec![ZERO; nodes];
