@@ -88,8 +88,15 @@ pub(crate) struct SceneArg(pub(crate) Scene);
 
 impl ValueEnum for SceneArg {
     fn value_variants<'a>() -> &'a [Self] {
-        const ALL: [SceneArg; 4] =
-            [SceneArg(Scene::ALL[0]), SceneArg(Scene::ALL[1]), SceneArg(Scene::ALL[2]), SceneArg(Scene::ALL[3])];
+        const ALL: [SceneArg; Scene::ALL.len()] = {
+            let mut all = [SceneArg(Scene::Onyx); Scene::ALL.len()];
+            let mut k = 0;
+            while k < all.len() {
+                all[k] = SceneArg(Scene::ALL[k]);
+                k += 1;
+            }
+            all
+        };
         &ALL
     }
 

@@ -6,6 +6,7 @@ mod grid;
 pub mod maps;
 pub mod medium;
 mod noise;
+mod recipe;
 mod run;
 mod scene;
 mod sensor;

@@ -8,6 +8,16 @@ pub(super) struct Noise {
     permutation: [u8; 256],
 }
 
+/// Where a position lies among scattered points; distances in lattice cells.
+pub(super) struct Cell {
+    /// From the nearest point.
+    pub(super) distance: f64,
+    /// How much farther the second nearest is; 0 on a border.
+    pub(super) border: f64,
+    /// The nearest point's.
+    pub(super) number: i64,
+}
+
 impl Noise {
     pub(super) fn new(seed: u64) -> Self {
         let mut rng = Pcg64::seed_from_u64(seed);
@@ -55,6 +65,32 @@ impl Noise {
     /// `octaves` octaves from `frequency` up, each half as strong as the one before; about −1 to 1.
     pub(super) fn fractal(&self, u: f64, v: f64, frequency: i64, octaves: i32) -> f64 {
         (0..octaves).map(|k| self.octave(u, v, frequency << k) * 0.5_f64.powi(k)).sum()
+    }
+
+    /// Cells around scattered points (Worley 1996, *A cellular texture basis function*), one point to a lattice cell;
+    /// `frequency` lattice cells per unit in u and in v.
+    pub(super) fn cell(&self, u: f64, v: f64, frequency: [i64; 2]) -> Cell {
+        #[allow(clippy::cast_precision_loss, reason = "frequencies are small")]
+        let [x, y] = [u * frequency[0] as f64, v * frequency[1] as f64];
+        #[allow(clippy::cast_possible_truncation, reason = "lattice coordinates are small")]
+        let (i, j) = (x.floor() as i64, y.floor() as i64);
+        let mut nearest = Cell { distance: f64::INFINITY, border: 0.0, number: 0 };
+        let mut second = f64::INFINITY;
+        for (dj, di) in (-1..=1).flat_map(|dj| (-1..=1).map(move |di| (dj, di))) {
+            let number = (j + dj).rem_euclid(frequency[1]) * frequency[0] + (i + di).rem_euclid(frequency[0]);
+            let jitter = |axis: i64| f64::from(self.hash(number, 11 + axis)) / 256.0;
+            #[allow(clippy::cast_precision_loss, reason = "lattice coordinates are small")]
+            let (px, py) = ((i + di) as f64 + jitter(0), (j + dj) as f64 + jitter(1));
+            let distance = (x - px).hypot(y - py);
+            if distance < nearest.distance {
+                second = nearest.distance;
+                nearest = Cell { distance, border: 0.0, number };
+            } else {
+                second = second.min(distance);
+            }
+        }
+        nearest.border = second - nearest.distance;
+        nearest
     }
 
     /// Narrow ridges along the zeros of the noise: 1 on a ridge, falling to 0 over `width`.

@@ -1,11 +1,9 @@
-//! Built-in materials: mixtures of measured media in patterns made from a seed.
-
-use std::f64::consts::TAU;
+//! Built-in materials by name, and the coordinates of their patterns.
 
 use subsurf_decoder::bssrdf::Addressing;
 
-use super::medium::Medium;
 use super::noise::Noise;
+use super::recipe::{blue_wax, chessboard, jade, marble, onyx, stone, yellow_wax};
 use super::slab::MediumMap;
 
 /// A built-in, synthetic material.
@@ -19,11 +17,18 @@ pub enum Scene {
     Jade,
     /// White marble with clouds and dark veins.
     Marble,
+    /// Grains of several stones in a matrix, as in artificial stone.
+    Stone,
+    /// Dyed wax that ran down in drops.
+    BlueWax,
+    /// Wax pressed from flakes.
+    YellowWax,
 }
 
 impl Scene {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Onyx, Self::Chessboard, Self::Jade, Self::Marble];
+    pub const ALL: [Self; 7] =
+        [Self::Onyx, Self::Chessboard, Self::Jade, Self::Marble, Self::Stone, Self::BlueWax, Self::YellowWax];
 
     /// Its name on the command line.
     #[must_use]
@@ -33,6 +38,9 @@ impl Scene {
             Self::Chessboard => "chessboard",
             Self::Jade => "jade",
             Self::Marble => "marble",
+            Self::Stone => "stone",
+            Self::BlueWax => "blue-wax",
+            Self::YellowWax => "yellow-wax",
         }
     }
 
@@ -44,6 +52,9 @@ impl Scene {
             Self::Chessboard => "squares of marble, half of them dyed with ketchup, with a grain of apple",
             Self::Jade => "continuous blends of apple, marble and skin2",
             Self::Marble => "marble with clouds of wholemilk and veins of skin2 and ketchup",
+            Self::Stone => "grains of marble, spectralon, skin2 and apple in a matrix of marble and chicken2",
+            Self::BlueWax => "runs and drops of skimmilk and wholemilk with an invented blue pigment",
+            Self::YellowWax => "flakes of potato, cream and apple, some with a little ketchup",
         }
     }
 
@@ -57,6 +68,9 @@ impl Scene {
             Self::Chessboard => chessboard,
             Self::Jade => jade,
             Self::Marble => marble,
+            Self::Stone => stone,
+            Self::BlueWax => blue_wax,
+            Self::YellowWax => yellow_wax,
         };
         let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
         let media = pixels.map(|(x, y)| recipe(&noise, &pattern, pattern.uv(x, y))).collect();
@@ -64,16 +78,10 @@ impl Scene {
     }
 }
 
-/// Mixes measured media.
-fn mix<const N: usize>(parts: [(f64, &str); N]) -> Medium {
-    let measured = |name| Medium::measured(name).expect("scenes name measured media only");
-    Medium::mix(parts.map(|(weight, name)| (weight, measured(name))))
-}
-
 /// Pixels to pattern coordinates.
-struct Pattern {
+pub(super) struct Pattern {
     /// Pixels after which the pattern repeats.
-    period: [f64; 2],
+    pub(super) period: [f64; 2],
     /// Pixels to a side of a noise cell of frequency 1.
     noise_period: f64,
 }
@@ -98,91 +106,9 @@ impl Pattern {
     }
 
     /// Lattice cells per period for features of about `pixels`.
-    fn frequency(&self, pixels: f64) -> i64 {
+    pub(super) fn frequency(&self, pixels: f64) -> i64 {
         #[allow(clippy::cast_possible_truncation, reason = "saturates, and sides are below 65,536")]
         let cells = (self.noise_period / pixels).round() as i64;
         cells.max(1)
     }
-}
-
-/// 0 below `from`, 1 above `to`, smooth between.
-fn smoothstep(from: f64, to: f64, x: f64) -> f64 {
-    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}
-
-fn onyx(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
-    let layers = pattern.frequency(5.0);
-    // Layers run down the patch and are folded by a wave and by noise.
-    let fold = 0.6 * (TAU * v).sin() + 2.2 * noise.fractal(u, v, pattern.frequency(50.0), 4);
-    #[allow(clippy::cast_precision_loss, reason = "few layers")]
-    let position = u * layers as f64 + fold;
-    #[allow(clippy::cast_possible_truncation, reason = "few layers")]
-    let layer = position.floor() as i64;
-    // Each layer's mixture: one strong part, the others weak; borders blend over a part of a layer.
-    let mixture = |layer: i64| -> [f64; 4] {
-        let layer = layer.rem_euclid(layers);
-        let parts: [f64; 4] = std::array::from_fn(|k| {
-            let k = i64::try_from(k).expect("k < 4");
-            noise.value(layer * 4 + k).powi(3) + 0.02
-        });
-        let sum: f64 = parts.iter().sum();
-        parts.map(|part| part / sum)
-    };
-    let blend = smoothstep(0.65, 1.0, position - position.floor());
-    let (here, next) = (mixture(layer), mixture(layer + 1));
-    // Layers are cloudy inside.
-    let cloud = 0.5 + 0.5 * noise.fractal(v, u + 0.2, pattern.frequency(16.0), 3);
-    let cloud = cloud.clamp(0.0, 1.0) * 0.35;
-    let weight = |k: usize| {
-        let layer = here[k] + blend * (next[k] - here[k]);
-        layer * (1.0 - cloud) + if k == 3 { cloud } else { 0.0 }
-    };
-    // Every third layer or so is stained.
-    let stain = |layer: i64| 0.08 * smoothstep(0.5, 1.0, noise.value(1000 + layer.rem_euclid(layers)));
-    let stain = stain(layer) + blend * (stain(layer + 1) - stain(layer));
-    let pure = 1.0 - stain;
-    mix([
-        (pure * weight(0), "marble"),
-        (pure * weight(1), "apple"),
-        (pure * weight(2), "wholemilk"),
-        (pure * weight(3), "skin2"),
-        (stain, "ketchup"),
-    ])
-}
-
-fn chessboard(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
-    // An even number of squares, so that the board can repeat.
-    #[allow(clippy::cast_possible_truncation, reason = "few squares")]
-    let square = |t: f64, period: f64| (t * (period / 20.0).round().max(1.0) * 2.0).floor() as i64;
-    let (i, j) = (square(u, pattern.period[0]), square(v, pattern.period[1]));
-    let white = f64::from(u8::from((i + j).rem_euclid(2) == 0));
-    // Every square is a piece of its own, and every piece has a grain; dark squares are dyed.
-    let piece = noise.value(i * 31 + j);
-    let grain = (0.5 + 0.5 * noise.fractal(u, v, pattern.frequency(6.0), 3)).clamp(0.0, 1.0);
-    let dye = (1.0 - white) * (0.05 + 0.05 * piece + 0.05 * grain);
-    let cloud = 0.1 * piece + 0.2 * grain;
-    mix([((1.0 - dye) * (1.0 - cloud), "marble"), ((1.0 - dye) * cloud, "apple"), (dye, "ketchup")])
-}
-
-fn jade(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
-    let clouds = noise.fractal(u, v, pattern.frequency(32.0), 4);
-    let streaks = noise.fractal(v + 0.3, u, pattern.frequency(20.0), 3);
-    let a = smoothstep(-0.5, 0.5, clouds);
-    let b = smoothstep(-0.6, 0.8, streaks) * 0.6;
-    mix([(a * (1.0 - b), "apple"), ((1.0 - a) * (1.0 - b), "marble"), (b, "skin2")])
-}
-
-fn marble(noise: &Noise, pattern: &Pattern, [u, v]: [f64; 2]) -> Medium {
-    let vein = noise.ridge(u, v, pattern.frequency(40.0), 5, 0.07).powi(2);
-    let fine = noise.ridge(v, u, pattern.frequency(18.0), 3, 0.05).powi(2) * 0.4;
-    let dark = (vein + fine).min(1.0) * 0.8;
-    let cloud = smoothstep(-0.5, 0.5, noise.fractal(u + 0.5, v, pattern.frequency(30.0), 4));
-    let bright = 1.0 - dark;
-    mix([
-        (bright * (1.0 - cloud), "marble"),
-        (bright * cloud, "wholemilk"),
-        (dark * 0.85, "skin2"),
-        (dark * 0.15, "ketchup"),
-    ])
 }
