@@ -16,10 +16,14 @@ pub(super) struct Albedo {
     /// f_x(r) = exp(½ P̂_x(r)) in mm⁻¹, with one node per ring.
     roots: Field,
     deltas: Vec<isize>,
+    /// w of a squared error against the cost of eq. 5.
+    weight: f32,
 }
 
 /// Albedo error of one pixel as a function of its profile p relative to the mean: ε = k·p − τ per channel.
 pub(super) struct Constraint {
+    /// w.
+    pub(super) weight: f32,
     /// ∂ε/∂p.
     pub(super) k: Vec<Lanes>,
     pub(super) tau: Lanes,
@@ -29,7 +33,7 @@ pub(super) struct Constraint {
 const TRUSTED: f32 = 10.0;
 
 impl Albedo {
-    pub(super) fn new(normal: &Normal, profiles: &Field) -> Self {
+    pub(super) fn new(normal: &Normal, profiles: &Field, weight: f32) -> Self {
         let mut roots = Field::new(Geometry { nodes: normal.rings.len(), ..normal.geometry });
         let rows: Vec<Vec<Lanes>> = (0..normal.geometry.pixels())
             .into_par_iter()
@@ -40,7 +44,7 @@ impl Albedo {
         }
         roots.fill_border();
         let deltas = normal.deltas(&roots);
-        Self { roots, deltas }
+        Self { roots, deltas, weight }
     }
 
     /// Takes over the new profile of a pixel; call [`Albedo::fill_border`] after a batch of these.
@@ -84,7 +88,7 @@ impl Albedo {
             let product: f32 = k.iter().zip(profile).map(|(k, p)| k[c] * p[c]).sum();
             tau[c] = product - (exchange - 1.0);
         }
-        Constraint { k, tau }
+        Constraint { weight: self.weight, k, tau }
     }
 }
 

@@ -8,10 +8,6 @@ use super::super::lanes::{Lanes, ZERO};
 use super::Model;
 use super::albedo::Constraint;
 
-/// Weight of the squared relative albedo error of a pixel against its cost in eq. 5. Large enough that the albedo
-/// decides among mixtures of about the same cost; ten times more or less changes little.
-const ALBEDO_WEIGHT: f32 = 1e4;
-
 /// Σ_h Σ_c p q.
 pub(super) fn product(p: &[Lanes], q: &[Lanes]) -> f32 {
     let mut sum = ZERO;
@@ -298,7 +294,7 @@ pub(super) struct Tilt {
 
 impl Tilt {
     pub(super) fn new(constraint: &Constraint, model: &Model) -> Self {
-        let root = ALBEDO_WEIGHT.sqrt();
+        let root = constraint.weight.sqrt();
         let kappa = [0, 1, 2].map(|c| {
             let along = |base: &[Lanes]| base.iter().zip(&constraint.k).map(|(p, k)| p[c] * k[c]).sum::<f32>();
             model.bases.chunks(model.nodes).map(|base| root * along(base)).collect::<Vec<f32>>()

@@ -30,10 +30,22 @@ const ROUNDS: u64 = 12;
 /// The cost has settled when a round lowers it by less than this share.
 const SETTLED: f64 = 2e-3;
 
-/// Rounds of both steps once ratios or pairs are restricted to what the coding can store.
-const CODED_ROUNDS: u64 = 2;
-/// Sweeps of the search that weigh albedos.
+/// Rounds of both steps after that, in which the search weighs albedos.
+const WEIGHED_ROUNDS: u64 = 4;
+/// Rounds of both steps in which the pairs that pixels may have become fewer, down to a palette.
+const PRUNING_ROUNDS: u8 = 6;
+/// Sweeps of the search that end it all, albedos weighed.
 const POLISH: u64 = 4;
+
+/// Weight of the squared relative albedo error of a pixel against its cost in eq. 5. Large enough that the albedo decides
+/// among mixtures of about the same cost. Ratios in steps leave larger errors to decide about.
+fn albedo_weight(coding: Coding) -> f32 {
+    match coding {
+        Coding::Exact => 1e4,
+        Coding::SmallRatios => 1.2e4,
+        Coding::Palette => 4e4,
+    }
+}
 
 /// A K-BMPP model relative to the mean profile.
 pub(super) struct Model {
@@ -65,8 +77,8 @@ impl Model {
         self.bases.resize(count * self.nodes, ZERO);
     }
 
-    /// Restricts what the search may find to what a coding can store.
-    fn restrict(&mut self, coding: Coding) {
+    /// Restricts what the search may find to what a coding can store; a palette to the `most` used pairs.
+    fn restrict(&mut self, coding: Coding, most: usize) {
         self.levels = match coding {
             Coding::Exact => None,
             Coding::SmallRatios => Some(f32::from(u8::MAX)),
@@ -82,7 +94,7 @@ impl Model {
             let mut pairs: Vec<([usize; 2], usize)> = uses.into_iter().collect();
             pairs.sort_by_key(|(_, uses)| std::cmp::Reverse(*uses));
             let mut pairs: Vec<[usize; 2]> = pairs.into_iter().map(|(pair, _)| pair).collect();
-            pairs.truncate(MAX_PAIRS as usize);
+            pairs.truncate(most);
             pairs.sort_unstable();
             self.palette = Some(pairs);
         }
@@ -133,20 +145,32 @@ pub(super) fn refine(normal: &Normal, model: &mut Model, per_pixel: usize, codin
     // One base material per pixel is where clusters start, and pairs are searched exhaustively from there.
     let stages = MODELS_BMPP.into_iter().map(usize::from).filter(|&k| k == per_pixel || (1 < k && k < per_pixel));
     let stages: Vec<usize> = stages.collect();
-    progress.begin("fitting base materials", ROUNDS * stages.len() as u64 + CODED_ROUNDS + POLISH);
+    let pruning = if coding == Coding::Palette { PRUNING_ROUNDS } else { 0 };
+    progress
+        .begin("fitting base materials", ROUNDS * stages.len() as u64 + WEIGHED_ROUNDS + u64::from(pruning) + POLISH);
     for k in stages {
         model.per_pixel = k;
         alternate(normal, model, &mut field, progress);
     }
-    model.restrict(coding);
-    for _ in 0..CODED_ROUNDS {
-        if coding != Coding::Exact {
-            assign::search(normal, model, &mut field, None);
-            profiles::solve(normal, model, &mut field);
-        }
+    let mut weighed_round = |model: &mut Model, coding| {
+        let mut albedo = Albedo::new(normal, &field, albedo_weight(coding));
+        assign::search(normal, model, &mut field, Some(&mut albedo));
+        profiles::solve(normal, model, &mut field);
         progress.advance(1);
+    };
+    for _ in 0..WEIGHED_ROUNDS {
+        weighed_round(model, Coding::Exact);
     }
-    let mut albedo = Albedo::new(normal, &field);
+    for round in 0..pruning {
+        // From twice as many pairs down to what a palette holds, by equal factors.
+        let left = f64::from(pruning - round) / f64::from(pruning);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 4,096")]
+        let most = (f64::from(MAX_PAIRS) * left.exp2()) as usize;
+        model.restrict(coding, most);
+        weighed_round(model, coding);
+    }
+    model.restrict(coding, MAX_PAIRS.into());
+    let mut albedo = Albedo::new(normal, &field, albedo_weight(coding));
     for _ in 0..POLISH {
         assign::search(normal, model, &mut field, Some(&mut albedo));
         progress.advance(1);
