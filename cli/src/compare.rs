@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::Progress;
 use subsurf_encoder::capture::Capture;
-use subsurf_encoder::metrics::{self, Comparison, Light, psnr_db, ssim};
+use subsurf_encoder::metrics::{self, Comparison, Light};
 
 use crate::failure::bad_request;
 use crate::info::{parse, read_file};
@@ -58,12 +58,10 @@ pub(crate) fn judge(
     progress: &dyn Progress,
 ) -> anyhow::Result<Judgement> {
     let comparison = metrics::compare(capture, material, progress)?;
-    let relative_error_mean = comparison.albedo.mean_relative_error();
-    let lit = comparison.lit.each_ref().map(metrics::Relit::normalised);
     Ok(Judgement {
-        relative_error_mean,
-        psnr_db: lit.each_ref().map(|lit| lit.as_ref().map(|lit| psnr_db(&lit.reference, &lit.image))),
-        ssim: lit.each_ref().map(|lit| ssim(&lit.as_ref()?.reference, &lit.as_ref()?.image, capture.width())),
+        relative_error_mean: comparison.albedo.mean_relative_error(),
+        psnr_db: comparison.psnr_db(),
+        ssim: comparison.ssim(capture.width()),
         bytes,
         capture_bytes: capture.file_bytes(),
         comparison,

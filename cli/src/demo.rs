@@ -73,7 +73,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     for (method, name) in [(Method::Lsp, "onyx-profiles.subsurf"), (Method::Direct, "onyx.subsurf")] {
         let start = Instant::now();
         let options = Options { method, base_materials: BASE_MATERIALS, ..Options::default() };
-        let encoded = encode(&capture, &options, &path(name))?;
+        let encoded = encode(&capture, None, &options, &path(name))?;
         say!("   {name}: {} in {:.1} s", human(encoded.bytes.len() as u64), start.elapsed().as_secs_f64());
         let material = Bssrdf::parse(&encoded.bytes)?;
         judgements.push(judge(&capture, &material, encoded.bytes.len() as u64, &Bars::new())?);

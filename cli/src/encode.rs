@@ -7,18 +7,23 @@ use clap::ValueEnum;
 use serde_json::json;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Coding;
-use subsurf_encoder::bssrdf::{self, Encoded, Method, Options};
+use subsurf_encoder::bssrdf::{self, Encoded, Method, Options, fit_bytes};
 use subsurf_encoder::capture::{Capture, sidecar_path};
+use subsurf_encoder::rate::{self, Point, Target};
 use subsurf_encoder::{check_target, write_bytes};
 
 use crate::compare::{Judgement, judge};
+use crate::curve;
 use crate::failure::bad_request;
-use crate::memory::{human, resident};
-use crate::options::CaptureArgs;
+use crate::interrupt::Graceful;
+use crate::memory::{available, human, resident};
+use crate::options::{ByteCount, CaptureArgs};
 use crate::progress::Bars;
 use crate::say::say;
 
 /// Fit a material to a capture and write a .subsurf file.
+///
+/// Ctrl-C ends the fit early and writes the best model so far; once more ends the program.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The capture: a .npy array of shape (height, width, D, D, 3) of Rd in mm⁻², and its sidecar .json with the pixel pitch
@@ -41,6 +46,12 @@ pub(crate) struct Args {
     /// Store base profiles as half floats: half the size, an error of up to 0.4 % of Rd
     #[arg(long)]
     half_profiles: bool,
+    /// Choose K, M and precision: the smallest file with this PSNR under uniform light, in dB
+    #[arg(long, value_name = "DB", conflicts_with_all = CHOSEN)]
+    target_psnr: Option<f64>,
+    /// Choose K, M and precision: the best file of at most this size; 40000, 40kB
+    #[arg(long, value_name = "SIZE", conflicts_with_all = CHOSEN, conflicts_with = "target_psnr")]
+    target_bytes: Option<ByteCount>,
     /// Nodes of a profile; half the window's width and one if not given
     #[arg(long, short = 'S', value_name = "S")]
     samples: Option<usize>,
@@ -52,10 +63,19 @@ pub(crate) struct Args {
     /// Threads to use; the file is the same for any number
     #[arg(long)]
     threads: Option<usize>,
+    /// Memory that the fit may take besides the mapped capture, 2GB for example; what is free if not given
+    #[arg(long, value_name = "SIZE")]
+    max_memory: Option<ByteCount>,
     /// Report as JSON
     #[arg(long)]
     json: bool,
 }
+
+/// What a target chooses.
+const CHOSEN: [&str; 5] = ["method", "per_pixel", "base_materials", "coding", "half_profiles"];
+
+/// Model of the largest fit that a target may lead to, for the memory it takes.
+const MOST_BASE_MATERIALS: usize = 256;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum MethodArg {
@@ -121,15 +141,52 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         coding: args.coding.into(),
         half_profiles: args.half_profiles,
         base_materials: args.base_materials,
-        samples: args.samples,
         seed: args.seed,
     };
+    check_memory(args, &capture, &options)?;
     let start = Instant::now();
-    let encoded = encode(&capture, &options, &output)?;
+    let graceful = Graceful::new();
+    let target = args.target_psnr.map(Target::PsnrDb).or(args.target_bytes.map(|size| Target::Bytes(size.0)));
+    let (encoded, options, points) = if let Some(target) = target {
+        let (mut points, best) = walk(&capture, args, target)?;
+        let best = points.swap_remove(best);
+        write_bytes(&output, &best.encoded.bytes)?;
+        let encoded = best.encoded.clone();
+        let options = best.options;
+        points.push(best);
+        (encoded, options, points)
+    } else {
+        (encode(&capture, args.samples, &options, &output)?, options, Vec::new())
+    };
+    drop(graceful);
     let seconds = start.elapsed().as_secs_f64();
     let material = Bssrdf::parse(&encoded.bytes).map_err(subsurf_runtime::Error::Read)?;
     let judgement = judge(&capture, &material, encoded.bytes.len() as u64, &Bars::new())?;
-    report(args, &capture, &output, &encoded, &judgement, seconds);
+    let report = Report { capture: &capture, output: &output, options: &options, encoded: &encoded, seconds };
+    if args.json {
+        report.print_json(&judgement, &points)
+    } else {
+        report.print(&judgement, &points)
+    }
+    Ok(())
+}
+
+/// Refuses what the machine's memory does not hold, before it is tried.
+fn check_memory(args: &Args, capture: &Capture, options: &Options) -> anyhow::Result<()> {
+    let targeted = args.target_psnr.is_some() || args.target_bytes.is_some();
+    let base_materials = if targeted { MOST_BASE_MATERIALS } else { options.base_materials };
+    let needed = fit_bytes(capture, args.samples, &Options { base_materials, ..*options })?;
+    let Some(limit) = args.max_memory.map(|size| size.0).or_else(available) else {
+        return Ok(());
+    };
+    if needed > limit {
+        let source = if args.max_memory.is_some() { "--max-memory allows" } else { "this machine has free" };
+        return Err(bad_request(format!(
+            "the fit may take {} of memory, and {source} {}: a smaller -S takes less; --max-memory overrides",
+            human(needed),
+            human(limit),
+        )));
+    }
     Ok(())
 }
 
@@ -138,44 +195,97 @@ fn is_same_file(a: &Path, b: &Path) -> bool {
 }
 
 /// Fits, reads what came of it, and writes.
-pub(crate) fn encode(capture: &Capture, options: &Options, output: &Path) -> anyhow::Result<Encoded> {
-    let encoded = bssrdf::encode(capture, options, &Bars::new())?;
+pub(crate) fn encode(
+    capture: &Capture,
+    samples: Option<usize>,
+    options: &Options,
+    output: &Path,
+) -> anyhow::Result<Encoded> {
+    let encoded = bssrdf::encode(capture, samples, options, &Bars::new())?;
     Bssrdf::parse(&encoded.bytes).map_err(subsurf_runtime::Error::Read)?;
     write_bytes(output, &encoded.bytes)?;
     Ok(encoded)
 }
 
-fn report(args: &Args, capture: &Capture, output: &Path, encoded: &Encoded, judgement: &Judgement, seconds: f64) {
-    let memory = resident().unwrap_or_default();
-    let beside_mapped = memory.peak.saturating_sub(memory.mapped);
-    if args.json {
+struct Report<'a> {
+    capture: &'a Capture,
+    output: &'a Path,
+    options: &'a Options,
+    encoded: &'a Encoded,
+    seconds: f64,
+}
+
+impl Report<'_> {
+    fn print_json(&self, judgement: &Judgement, points: &[Point]) {
+        let memory = resident().unwrap_or_default();
+        let encoded = self.encoded;
         let mut value = json!({
-            "file": output,
-            "method": format!("{:?}", args.method).to_lowercase(),
+            "file": self.output,
+            "method": format!("{:?}", self.options.method).to_lowercase(),
             "per_pixel": encoded.per_pixel,
-            "coding": format!("{:?}", args.coding).to_lowercase(),
+            "coding": coding_name(self.options.coding),
+            "half_profiles": self.options.half_profiles,
             "base_materials": encoded.base_materials,
             "samples": encoded.samples,
             "cost": encoded.cost,
             "entries": encoded.entries,
             "measured": encoded.measured,
-            "seconds": seconds,
+            "stopped": encoded.stopped,
+            "seconds": self.seconds,
             "peak_rss_bytes": memory.peak,
-            "peak_rss_beside_mapped_bytes": beside_mapped,
+            "peak_rss_beside_mapped_bytes": memory.peak.saturating_sub(memory.mapped),
         });
         if let (Some(value), Some(judgement)) = (value.as_object_mut(), judgement.to_json().as_object()) {
             value.extend(judgement.clone());
+            if !points.is_empty() {
+                value.insert("curve".to_owned(), curve::to_json(points));
+            }
         }
         say!("{value:#}");
-        return;
     }
-    say!("{}: {} from {}", output.display(), human(encoded.bytes.len() as u64), human(capture.file_bytes()));
-    let missing = encoded.entries - encoded.measured;
-    if missing > 0 {
-        #[allow(clippy::cast_precision_loss, reason = "a percentage")]
-        let share = 100.0 * missing as f64 / encoded.entries as f64;
-        say!("  {share:.1} % of the entries inside the material were not measured; they weigh nothing");
+
+    fn print(&self, judgement: &Judgement, points: &[Point]) {
+        let encoded = self.encoded;
+        if !points.is_empty() {
+            curve::print(points, encoded.bytes.len());
+        }
+        let size = human(encoded.bytes.len() as u64);
+        say!("{}: {size} from {}", self.output.display(), human(self.capture.file_bytes()));
+        if encoded.stopped {
+            say!("  the fit was interrupted: this is the best model so far");
+        }
+        let missing = encoded.entries - encoded.measured;
+        if missing > 0 {
+            #[allow(clippy::cast_precision_loss, reason = "a percentage")]
+            let share = 100.0 * missing as f64 / encoded.entries as f64;
+            say!("  {share:.1} % of the entries inside the material were not measured; they weigh nothing");
+        }
+        if encoded.per_pixel > 0 && encoded.base_materials < self.options.base_materials {
+            let asked = self.options.base_materials;
+            say!("  {} of {asked} base materials: no pixel had use for the others", encoded.base_materials);
+        }
+        judgement.print();
+        let memory = resident().unwrap_or_default();
+        let beside_mapped = human(memory.peak.saturating_sub(memory.mapped));
+        say!("  {:.1} s, {beside_mapped} of memory besides the mapped capture", self.seconds);
     }
-    judgement.print();
-    say!("  {seconds:.1} s, {} of memory besides the mapped capture", human(beside_mapped));
+}
+
+/// Tries models, and says what came of each.
+fn walk(capture: &Capture, args: &Args, target: Target) -> anyhow::Result<(Vec<Point>, usize)> {
+    let mut said = |point: &Point| {
+        if !args.json {
+            say!("{}", curve::line(point));
+        }
+    };
+    Ok(rate::walk(capture, args.samples, args.seed, target, &Bars::new(), &mut said)?)
+}
+
+/// As on the command line.
+pub(crate) fn coding_name(coding: Coding) -> &'static str {
+    match coding {
+        Coding::Exact => "exact",
+        Coding::SmallRatios => "small",
+        Coding::Palette => "palette",
+    }
 }

@@ -2,11 +2,13 @@
 
 mod bench;
 mod compare;
+mod curve;
 mod demo;
 mod devices;
 mod encode;
 mod failure;
 mod info;
+mod interrupt;
 mod memory;
 mod mesh;
 mod options;
@@ -44,7 +46,7 @@ Exit codes:
   1   this machine failed: disk full, driver crashed
   2   the input or the request is wrong
   3   there is no device that can do it
-  130 interrupted or terminated";
+  130 interrupted or terminated; encode still writes the best fit so far";
 
 #[derive(Subcommand)]
 enum Command {
@@ -60,20 +62,9 @@ enum Command {
     Demo(demo::Args),
 }
 
-/// As shells have it: 128 and the signal's number.
-const INTERRUPTED: i32 = 130;
-
 fn main() -> ExitCode {
     devices::settle_drivers();
-    let interrupted = ctrlc::set_handler(|| {
-        subsurf_encoder::remove_unfinished();
-        eprintln!("subsurf: interrupted; no half files are left");
-        std::process::exit(INTERRUPTED);
-    });
-    if let Err(error) = interrupted {
-        // Without it an interrupted run leaves a hidden temporary file behind, nothing worse.
-        eprintln!("subsurf: cannot watch for interruptions: {error}");
-    }
+    interrupt::watch();
     let result = match Cli::parse().command {
         Command::Simulate(args) => simulate::run(&args),
         Command::Encode(args) => encode::run(&args),
@@ -85,6 +76,7 @@ fn main() -> ExitCode {
         Command::Demo(args) => demo::run(&args),
     };
     match result {
+        Ok(()) if interrupt::came() => ExitCode::from(interrupt::INTERRUPTED),
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => failure::report(&error),
     }

@@ -20,6 +20,14 @@ pub(crate) fn resident() -> Option<Resident> {
     Some(Resident { peak: field("VmHWM:")?, mapped: field("RssFile:").unwrap_or(0) })
 }
 
+/// Bytes that can still be had, as far as the system tells.
+pub(crate) fn available() -> Option<u64> {
+    let memory = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = memory.lines().find(|line| line.starts_with("MemAvailable:"))?;
+    let kib: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(kib * 1024)
+}
+
 /// Bytes for people: three digits and a unit.
 pub(crate) fn human(bytes: u64) -> String {
     #[allow(clippy::cast_precision_loss, reason = "three digits are shown")]

@@ -70,9 +70,43 @@ impl std::fmt::Display for Size {
     }
 }
 
+/// A number of bytes: 40000, 40kB, 1.5GB.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct ByteCount(pub(crate) u64);
+
+impl FromStr for ByteCount {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let end = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
+        let (number, unit) = text.split_at(end);
+        let factor = match unit.to_ascii_lowercase().as_str() {
+            "" | "b" => 1.0,
+            "k" | "kb" => 1e3,
+            "m" | "mb" => 1e6,
+            "g" | "gb" => 1e9,
+            _ => return Err(format!("\"{unit}\" is no unit; B, kB, MB and GB are")),
+        };
+        match number.trim().parse::<f64>() {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+            Ok(number) if number > 0.0 && number.is_finite() => Ok(Self((number * factor) as u64)),
+            _ => Err(format!("\"{text}\" is no size; write for example 40000 or 40kB")),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn byte_counts() {
+        let bytes = |text: &str| text.parse::<ByteCount>().map(|count| count.0);
+        assert_eq!(bytes("40000"), Ok(40_000));
+        assert_eq!(bytes("40kB"), Ok(40_000));
+        assert_eq!(bytes("1.5 GB"), Ok(1_500_000_000));
+        assert!(["", "-1", "4 kib", "NaN", "infGB"].iter().all(|text| bytes(text).is_err()), "no sizes");
+    }
 
     #[test]
     fn sizes() {

@@ -5,6 +5,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::interrupt;
+
 /// One bar after the other, a stage each.
 pub(crate) struct Bars(Mutex<ProgressBar>);
 
@@ -37,5 +39,9 @@ impl subsurf_encoder::Progress for Bars {
 
     fn advance(&self, steps: u64) {
         self.current().inc(steps);
+    }
+
+    fn stopped(&self) -> bool {
+        interrupt::came()
     }
 }

@@ -178,6 +178,39 @@ fn an_interrupted_run_leaves_nothing() {
 }
 
 #[test]
+fn an_interrupted_fit_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    simulate(folder, "a");
+    let mut long = command(folder);
+    long.args(["encode", "a.npy", "--method", "paper", "-K", "5", "-M", "200"]);
+    let mut child = long.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(1_000));
+    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(kill.success(), "the run was still going");
+    let mut out = String::new();
+    std::io::Read::read_to_string(&mut child.stdout.take().unwrap(), &mut out).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{out}");
+    assert!(out.contains("interrupted: this is the best model so far"), "{out}");
+    succeed(folder, "compare a.npy a.subsurf");
+}
+
+#[test]
+fn targets_choose_the_model() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    simulate(folder, "a");
+    let report = json(folder, "encode a.npy --target-bytes 2kB --json");
+    assert!(report["bytes"].as_u64().unwrap() <= 2_000, "{report}");
+    assert!(!report["curve"].as_array().unwrap().is_empty(), "{report}");
+    let told = succeed(folder, "encode a.npy --target-psnr 30");
+    assert!(told.out.contains("rate-distortion curve"), "{}", told.out);
+    assert_refused(&run(folder, "encode a.npy --target-psnr 300"), &["300 dB", "the best has"]);
+    assert_refused(&run(folder, "encode a.npy --max-memory 1kB"), &["memory", "--max-memory allows 1.00 kB"]);
+    assert_eq!(run(folder, "encode a.npy --target-psnr 30 -M 8").code, 2, "M is what is looked for");
+}
+
+#[test]
 fn an_interrupted_benchmark_takes_its_files_along() {
     let folder = tempfile::tempdir().unwrap();
     let mut long = command(folder.path());

@@ -1,7 +1,7 @@
 //! From captures of heterogeneous subsurface scattering to `.subsurf` files.
 //!
 //! [`capture`] reads what was measured, [`simulate`] makes captures where none were, [`bssrdf`] fits per-pixel
-//! profiles and K-BMPP, [`metrics`] judges the result.
+//! profiles and K-BMPP, [`rate`] looks for the best fit of a size, [`metrics`] judges the result.
 
 pub mod bssrdf;
 pub mod capture;
@@ -9,6 +9,7 @@ mod error;
 pub mod metrics;
 mod output;
 mod progress;
+pub mod rate;
 pub mod simulate;
 pub mod synthetic;
 

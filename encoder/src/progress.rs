@@ -6,6 +6,10 @@ pub trait Progress: Sync {
     fn begin(&self, stage: &str, total: u64);
     /// `steps` more of the current stage are done.
     fn advance(&self, steps: u64);
+    /// Whether to make do with what there is: work that gets better step by step then ends early, and says so.
+    fn stopped(&self) -> bool {
+        false
+    }
 }
 
 /// Says nothing.

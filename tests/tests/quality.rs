@@ -18,8 +18,8 @@ struct Quality {
 }
 
 fn quality(capture: &Capture, method: Method, base_materials: usize) -> Quality {
-    let options = Options { method, base_materials, samples: Some(13), ..Options::default() };
-    let encoded = encode(capture, &options, &()).unwrap();
+    let options = Options { method, base_materials, ..Options::default() };
+    let encoded = encode(capture, Some(13), &options, &()).unwrap();
     let material = Bssrdf::parse(&encoded.bytes).unwrap();
     let comparison = compare(capture, &material, &()).unwrap();
     let uniform = comparison.lit[0].normalised().unwrap();

@@ -50,7 +50,7 @@ pub(super) fn cluster(normal: &Normal, profiles: &Field, count: usize, seed: u64
                 *centre = mean;
             }
         }
-        if settled {
+        if settled || progress.stopped() {
             progress.advance(ROUNDS - round);
             break;
         }

@@ -20,6 +20,12 @@ impl Field {
         Self { geometry, stride: width, values: vec![ZERO; width * height * geometry.nodes] }
     }
 
+    /// Bytes of a field's values.
+    pub(super) fn bytes(geometry: &Geometry) -> usize {
+        let [width, height] = geometry.size.map(|n| n + 2 * geometry.radius);
+        width * height * geometry.nodes * size_of::<Lanes>()
+    }
+
     /// First value of a pixel.
     fn start(&self, pixel: usize) -> usize {
         let [x, y] = self.geometry.position(pixel);

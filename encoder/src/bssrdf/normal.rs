@@ -29,7 +29,7 @@ use crate::progress::Progress;
 /// Rows whose sums are made apart from those of others. Fixed, so that results do not depend on the number of threads.
 pub(super) const BLOCK_ROWS: usize = 8;
 /// Blocks that are in memory together.
-const BLOCKS_AT_ONCE: usize = 8;
+pub(super) const BLOCKS_AT_ONCE: usize = 8;
 
 /// A_i, and the part of it that comes from pairs of a pixel with itself.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use half::f16;
 use subsurf_decoder::Section;
-use subsurf_decoder::bssrdf::layout::{MAX_CODED_RATIO, MAX_LOG, MAX_PAIRS, MODEL_2BMPP};
+use subsurf_decoder::bssrdf::layout::{HEADER_BYTES, MAX_CODED_RATIO, MAX_LOG, MAX_PAIRS, MODEL_2BMPP};
 use subsurf_decoder::bssrdf::{Coding, Header, Mixture};
 use subsurf_decoder::container::{ENTRY_BYTES, Entry, FILE_HEADER_BYTES, crc32, file_header};
 
@@ -35,6 +35,26 @@ pub fn write_file(header: &Header, sections: &[(Section, Vec<u8>)]) -> Vec<u8> {
     out.extend(crc32(&out).to_le_bytes());
     out.extend(body);
     out
+}
+
+/// Length of a K-BMPP file, with the largest palette there can be.
+pub(super) fn file_bytes(header: &Header, half_profiles: bool) -> u64 {
+    let profiles = if half_profiles { Section::HalfProfiles } else { Section::BaseProfiles };
+    let of_pixels: &[Section] = match (header.coding, header.model) {
+        (Coding::Palette, _) => &[Section::Codes],
+        (Coding::SmallRatios, _) => &[Section::SmallRatios, Section::BaseIndices],
+        (Coding::Exact, 1) => &[Section::BaseIndices],
+        (Coding::Exact, _) => &[Section::MixtureRatios, Section::BaseIndices],
+    };
+    let mut lengths = vec![HEADER_BYTES as u64, header.section_bytes(profiles)];
+    lengths.extend(of_pixels.iter().map(|section| header.section_bytes(*section)));
+    if header.coding == Coding::Palette {
+        let pairs = u64::from(header.base_materials) * u64::from(header.base_materials + 1) / 2;
+        lengths.push(2 * pairs.min(MAX_PAIRS.into()).min(header.pixels()));
+    }
+    let table = FILE_HEADER_BYTES + lengths.len() * ENTRY_BYTES + 4;
+    let (last, before) = lengths.split_last().expect("at least the header");
+    table as u64 + before.iter().map(|length| length.next_multiple_of(4)).sum::<u64>() + last
 }
 
 /// Little-endian bytes of log-scale profile values, clamped to what the format allows.

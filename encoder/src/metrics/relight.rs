@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
 
+use super::image::{psnr_db, ssim};
 use crate::capture::Capture;
 use crate::error::{Error, Result};
 use crate::progress::Progress;
@@ -114,6 +115,21 @@ pub struct Comparison {
     pub albedo: Relit,
     /// Exitance under uniform, disc and line light.
     pub lit: [Relit; 3],
+}
+
+impl Comparison {
+    /// PSNR in dB under each of [`Light::ALL`], peak 1 the reference's largest value; `None` where the light meets
+    /// nothing that was measured.
+    #[must_use]
+    pub fn psnr_db(&self) -> [Option<f64>; 3] {
+        self.lit.each_ref().map(|lit| lit.normalised().map(|lit| psnr_db(&lit.reference, &lit.image)))
+    }
+
+    /// SSIM of the same pictures, `width` pixels wide; `None` there, too, and for patches smaller than its window.
+    #[must_use]
+    pub fn ssim(&self, width: usize) -> [Option<f64>; 3] {
+        self.lit.each_ref().map(|lit| lit.normalised().and_then(|lit| ssim(&lit.reference, &lit.image, width)))
+    }
 }
 
 /// Rows whose sums are made apart from those of others, so that results do not depend on the number of threads.

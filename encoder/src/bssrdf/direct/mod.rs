@@ -72,9 +72,29 @@ impl Model {
         Self { nodes, per_pixel: 1, levels: None, palette: None, bases: clusters.centres, mixtures }
     }
 
-    /// Fills up to `count` bases with the mean profile: a capture may have fewer distinct profiles than were asked for.
-    pub(super) fn pad(&mut self, count: usize) {
-        self.bases.resize(count * self.nodes, ZERO);
+    /// Leaves out base materials that no pixel has: a capture may have fewer distinct profiles than were asked for.
+    pub(super) fn drop_unused(&mut self) {
+        let mut used = vec![false; self.count()];
+        for (base, _) in (0..self.mixtures.len()).flat_map(|pixel| self.parts(pixel)) {
+            used[base] = true;
+        }
+        let mut kept = 0;
+        let number = |&used: &bool| {
+            let number = u16::try_from(kept).expect("at most 65,536 base materials");
+            kept += usize::from(used);
+            number
+        };
+        let numbers: Vec<u16> = used.iter().map(number).collect();
+        for base in self.mixtures.iter_mut().flat_map(|mixture| &mut mixture.bases[..self.per_pixel]) {
+            *base = numbers[usize::from(*base)];
+        }
+        let bases = self.bases.chunks(self.nodes).zip(&used).filter(|(_, used)| **used);
+        self.bases = bases.flat_map(|(base, _)| base).copied().collect();
+    }
+
+    /// M.
+    pub(super) fn count(&self) -> usize {
+        self.bases.len() / self.nodes
     }
 
     /// Restricts what the search may find to what a coding can store; a palette to the `most` used pairs.
@@ -153,6 +173,9 @@ pub(super) fn refine(normal: &Normal, model: &mut Model, per_pixel: usize, codin
         alternate(normal, model, &mut field, progress);
     }
     let mut weighed_round = |model: &mut Model, coding| {
+        if progress.stopped() {
+            return;
+        }
         let mut albedo = Albedo::new(normal, &field, albedo_weight(coding));
         assign::search(normal, model, &mut field, Some(&mut albedo));
         profiles::solve(normal, model, &mut field);
@@ -172,8 +195,12 @@ pub(super) fn refine(normal: &Normal, model: &mut Model, per_pixel: usize, codin
     model.restrict(coding, MAX_PAIRS.into());
     let mut albedo = Albedo::new(normal, &field, albedo_weight(coding));
     for _ in 0..POLISH {
+        // The first of these sweeps makes ratios and pairs what the coding can store.
         assign::search(normal, model, &mut field, Some(&mut albedo));
         progress.advance(1);
+        if progress.stopped() {
+            break;
+        }
     }
 }
 
@@ -186,7 +213,7 @@ fn alternate(normal: &Normal, model: &mut Model, field: &mut Field, progress: &d
         let next = normal.cost(field);
         let settled = next > cost * (1.0 - SETTLED);
         cost = next;
-        if settled {
+        if settled || progress.stopped() {
             progress.advance(ROUNDS - round);
             break;
         }

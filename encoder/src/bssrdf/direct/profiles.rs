@@ -6,7 +6,7 @@ use super::super::banded::{Banded, Factored};
 use super::super::field::Field;
 use super::super::lanes::{self, Lanes, ZERO};
 use super::super::lsp::{RIDGE, SMOOTHNESS};
-use super::super::normal::{BLOCK_ROWS, Normal};
+use super::super::normal::{BLOCK_ROWS, BLOCKS_AT_ONCE, Normal};
 use super::Model;
 
 /// Steps of conjugate gradients in one round; the next round goes on from there.
@@ -75,27 +75,27 @@ pub(in super::super) fn image_of(normal: &Normal, field: &Field, deltas: &[isize
 pub(in super::super) fn gather(normal: &Normal, model: &Model, v: impl Fn(usize, &mut [Lanes]) + Sync) -> Vec<Lanes> {
     let nodes = model.nodes;
     let [width, height] = normal.geometry.size;
-    let blocks: Vec<Vec<Lanes>> = (0..height)
-        .into_par_iter()
-        .step_by(BLOCK_ROWS)
-        .map(|first| {
-            let mut sums = vec![ZERO; model.bases.len()];
-            let mut image = vec![ZERO; nodes];
-            for pixel in first * width..(first + BLOCK_ROWS).min(height) * width {
-                v(pixel, &mut image);
-                for (base, t) in model.parts(pixel) {
-                    for (sum, image) in sums[base * nodes..].iter_mut().zip(&image) {
-                        lanes::add_scaled(sum, t, image);
-                    }
+    let block = |&first: &usize| {
+        let mut sums = vec![ZERO; model.bases.len()];
+        let mut image = vec![ZERO; nodes];
+        for pixel in first * width..(first + BLOCK_ROWS).min(height) * width {
+            v(pixel, &mut image);
+            for (base, t) in model.parts(pixel) {
+                for (sum, image) in sums[base * nodes..].iter_mut().zip(&image) {
+                    lanes::add_scaled(sum, t, image);
                 }
             }
-            sums
-        })
-        .collect();
+        }
+        sums
+    };
+    let firsts: Vec<usize> = (0..height).step_by(BLOCK_ROWS).collect();
     let mut total = vec![ZERO; model.bases.len()];
-    for block in &blocks {
-        for (total, sum) in total.iter_mut().zip(block) {
-            lanes::add(total, sum);
+    for firsts in firsts.chunks(BLOCKS_AT_ONCE) {
+        let blocks: Vec<Vec<Lanes>> = firsts.par_iter().map(block).collect();
+        for sums in &blocks {
+            for (total, sum) in total.iter_mut().zip(sums) {
+                lanes::add(total, sum);
+            }
         }
     }
     total

@@ -12,7 +12,7 @@
 mod objective;
 mod patch_match;
 
-use basin::{Executor, FirstOrderState, Lbfgs};
+use basin::{CancellationToken, Executor, FirstOrderState, Lbfgs};
 use rand::seq::index::sample;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -45,12 +45,16 @@ pub(super) fn fit(normal: &Normal, per_pixel: usize, count: usize, seed: u64, pr
     let mut acceptance = FIRST_ACCEPTANCE;
     progress.begin("fitting as Yatagawa et al. do", ROUNDS.into());
     for round in 0..ROUNDS {
-        minimise(normal, &mut model, &mut multipliers);
+        minimise(normal, &mut model, &mut multipliers, progress);
+        if progress.stopped() {
+            normalise(&mut model);
+            return model;
+        }
         patch_match::search(normal, &mut model, round % 2 == 1, acceptance, &mut rng);
         acceptance = (acceptance * growth).min(1.0);
         progress.advance(1);
     }
-    minimise(normal, &mut model, &mut multipliers);
+    minimise(normal, &mut model, &mut multipliers, progress);
     normalise(&mut model);
     model
 }
@@ -80,11 +84,17 @@ fn random(normal: &Normal, per_pixel: usize, count: usize, rng: &mut Pcg64) -> M
 }
 
 /// Step 1: profiles and ratios, indices fixed.
-fn minimise(normal: &Normal, model: &mut Model, multipliers: &mut Multipliers) {
+fn minimise(normal: &Normal, model: &mut Model, multipliers: &mut Multipliers, progress: &dyn Progress) {
     let start = FirstOrderState::new(parameters_of(model));
-    let objective = Objective::new(normal, model, multipliers);
+    let stop = CancellationToken::new();
+    let watch = || {
+        if progress.stopped() {
+            stop.cancel();
+        }
+    };
+    let objective = Objective::new(normal, model, multipliers, &watch);
     let solver = Lbfgs::new().with_relative_cost_reduction_tolerance(TOLERANCE);
-    let run = Executor::new(objective, solver, start).max_iter(STEPS).run();
+    let run = Executor::new(objective, solver, start).max_iter(STEPS).with_cancellation_token(stop.clone()).run();
     // A line search that finds nothing better ends the run, too: it has found what single precision allows.
     let found = run.expect("a start within its bounds and a cost that cannot fail").param().clone();
     *model = with_parameters(model, &found);

@@ -46,12 +46,19 @@ pub(super) struct Objective<'a> {
     /// Gives the indices and K; profiles and ratios come from the parameters.
     indices: &'a Model,
     multipliers: &'a Multipliers,
+    /// Called with every evaluation.
+    watch: &'a (dyn Fn() + Sync),
     lower: Vec<f64>,
     upper: Vec<f64>,
 }
 
 impl<'a> Objective<'a> {
-    pub(super) fn new(normal: &'a Normal, model: &'a Model, multipliers: &'a Multipliers) -> Self {
+    pub(super) fn new(
+        normal: &'a Normal,
+        model: &'a Model,
+        multipliers: &'a Multipliers,
+        watch: &'a (dyn Fn() + Sync),
+    ) -> Self {
         let coefficients = model.bases.len() * 3;
         let ratios = free_ratios(model.per_pixel) * model.mixtures.len();
         let bounds = |of_ratio: f64, otherwise: f64| {
@@ -60,10 +67,11 @@ impl<'a> Objective<'a> {
             bounds
         };
         let (lower, upper) = (bounds(EDGE, f64::NEG_INFINITY), bounds(1.0 - EDGE, f64::INFINITY));
-        Self { normal, indices: model, multipliers, lower, upper }
+        Self { normal, indices: model, multipliers, watch, lower, upper }
     }
 
     fn evaluate(&self, parameters: &[f64]) -> (f64, Vec<f64>) {
+        (self.watch)();
         let model = with_parameters(self.indices, parameters);
         let normal = self.normal;
         let nodes = normal.geometry.nodes;
@@ -224,10 +232,9 @@ impl Constraints for Objective<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::geometry;
+    use super::super::super::options::geometry;
     use super::super::random;
     use super::*;
-    use crate::bssrdf::Options;
     use crate::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
     use crate::synthetic::unit;
     use rand::SeedableRng;
@@ -243,12 +250,11 @@ mod tests {
         let rd = |n: u32| if unit(n) < 0.1 { f32::NAN } else { 0.1 + unit(n + 9_000) };
         writer.write(|sink| sink(&(0..6 * 5 * 25 * 3).map(rd).collect::<Vec<f32>>())).unwrap();
         let capture = Capture::open(&path, &Overrides::default()).unwrap();
+        let normal = Normal::of(&capture, geometry(&capture, None).unwrap(), &()).unwrap();
         for per_pixel in [1, 2, 3, 5] {
-            let geometry = geometry(&capture, &Options { per_pixel, ..Options::default() }).unwrap();
-            let normal = Normal::of(&capture, geometry, &()).unwrap();
             let model = random(&normal, per_pixel, 6, &mut Pcg64::seed_from_u64(3));
             let multipliers = Multipliers { lambda: (0..30).map(|n| f64::from(unit(n))).collect(), rho: 3.0 };
-            let objective = Objective::new(&normal, &model, &multipliers);
+            let objective = Objective::new(&normal, &model, &multipliers, &|| ());
             let mut at = parameters_of(&model);
             for (n, parameter) in (0..).zip(&mut at) {
                 // Away from the start, where all ratios of a pixel are equal.

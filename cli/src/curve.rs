@@ -1,0 +1,63 @@
+//! A rate-distortion curve for people and for programs.
+
+use serde_json::{Value, json};
+use subsurf_encoder::rate::Point;
+
+use crate::encode::coding_name;
+use crate::memory::human;
+use crate::say::say;
+
+fn db(value: Option<f64>) -> String {
+    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}"))
+}
+
+/// One model that was tried.
+pub(crate) fn line(point: &Point) -> String {
+    let [uniform, disc, line] = point.psnr_db.map(db);
+    let options = &point.options;
+    format!(
+        "  {:>8}  K = {}  {:<7}  M = {:<3}  {} profiles  error {:.4}  PSNR {uniform} / {disc} / {line} dB",
+        human(point.encoded.bytes.len() as u64),
+        options.per_pixel,
+        coding_name(options.coding),
+        point.encoded.base_materials,
+        if options.half_profiles { "f16" } else { "f32" },
+        point.relative_error,
+    )
+}
+
+/// All of them by size; those that a smaller one beats are set apart.
+pub(crate) fn print(points: &[Point], chosen_bytes: usize) {
+    let mut points: Vec<&Point> = points.iter().collect();
+    points.sort_by_key(|point| point.encoded.bytes.len());
+    say!("rate-distortion curve, PSNR under uniform / disc / line light (* best of its size, > chosen):");
+    let mut highest = f64::NEG_INFINITY;
+    for point in points {
+        let uniform = point.psnr_db[0].unwrap_or(f64::NEG_INFINITY);
+        let mark = if point.encoded.bytes.len() == chosen_bytes {
+            '>'
+        } else if uniform > highest {
+            '*'
+        } else {
+            ' '
+        };
+        highest = highest.max(uniform);
+        say!("{mark}{}", line(point));
+    }
+}
+
+pub(crate) fn to_json(points: &[Point]) -> Value {
+    let points = points.iter().map(|point| {
+        let [uniform, disc, line] = point.psnr_db;
+        json!({
+            "bytes": point.encoded.bytes.len(),
+            "per_pixel": point.options.per_pixel,
+            "coding": coding_name(point.options.coding),
+            "base_materials": point.encoded.base_materials,
+            "half_profiles": point.options.half_profiles,
+            "relative_error_mean": point.relative_error,
+            "psnr_db": { "uniform": uniform, "disc": disc, "line": line },
+        })
+    });
+    points.collect()
+}
