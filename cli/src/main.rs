@@ -17,6 +17,7 @@ mod progress;
 mod render;
 mod say;
 mod simulate;
+mod study;
 
 use std::process::ExitCode;
 
@@ -59,6 +60,7 @@ enum Command {
     Devices,
     #[command(subcommand)]
     Bench(bench::Command),
+    Study(study::Args),
     Demo(demo::Args),
 }
 
@@ -73,6 +75,7 @@ fn main() -> ExitCode {
         Command::Info(args) => info::run(&args),
         Command::Devices => devices::run(),
         Command::Bench(command) => bench::run(&command),
+        Command::Study(args) => study::run(&args),
         Command::Demo(args) => demo::run(&args),
     };
     match result {

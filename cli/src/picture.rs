@@ -41,7 +41,7 @@ pub(crate) fn montage(rows: &[Vec<RgbImage>]) -> RgbImage {
 }
 
 /// Linear values 0 to 1 as sRGB, every pixel a block of `scale` × `scale`.
-fn linear(pixels: &[[f64; 3]], width: u32, scale: u32) -> RgbImage {
+pub(crate) fn linear(pixels: &[[f64; 3]], width: u32, scale: u32) -> RgbImage {
     #[allow(clippy::cast_possible_truncation, reason = "display values")]
     let bytes: Vec<[u8; 3]> = pixels
         .iter()

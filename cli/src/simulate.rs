@@ -172,7 +172,7 @@ pub(crate) struct Request<'a> {
 }
 
 impl Request<'_> {
-    fn check(&self) -> anyhow::Result<()> {
+    pub(crate) fn check(&self) -> anyhow::Result<()> {
         let positive = |what: &str, value: f64| {
             let fine = value.is_finite() && value > 0.0;
             fine.then_some(()).ok_or_else(|| bad_request(format!("{what} is {value}; it must be positive")))
@@ -229,7 +229,7 @@ impl Request<'_> {
     }
 
     #[allow(clippy::cast_possible_truncation, reason = "lengths and indices need no more than f32")]
-    fn sidecar(&self) -> Sidecar {
+    pub(crate) fn sidecar(&self) -> Sidecar {
         let simulated = json!({
             "by": concat!("subsurf ", env!("CARGO_PKG_VERSION")),
             "source": self.source,

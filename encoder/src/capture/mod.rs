@@ -91,6 +91,12 @@ impl Capture {
         self.sidecar.addressing
     }
 
+    /// Where a simulated capture comes from, as its sidecar says.
+    #[must_use]
+    pub fn simulated(&self) -> Option<&serde_json::Value> {
+        self.sidecar.simulated.as_ref()
+    }
+
     /// Refractive index.
     #[must_use]
     pub fn eta(&self) -> f32 {

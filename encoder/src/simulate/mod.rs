@@ -14,7 +14,7 @@ mod slab;
 mod solver;
 
 pub use medium::Medium;
-pub use run::{Finish, Summary, simulate};
+pub use run::{Finish, Summary, expose, simulate};
 pub use scene::Scene;
 pub use sensor::Sensor;
 pub use slab::{MediumMap, Slab};

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::sensor::Sensor;
 use super::slab::Slab;
-use crate::capture::{CaptureWriter, neighbour, way_back};
+use crate::capture::{Capture, CaptureWriter, neighbour, way_back};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 
@@ -72,6 +72,26 @@ pub fn simulate(
         Ok(())
     })?;
     Ok(Summary { window_share, asymmetry: asymmetry.value() })
+}
+
+/// Writes what a sensor makes of a capture without noise.
+///
+/// # Errors
+/// [`Error::Output`].
+pub fn expose(clean: &Capture, sensor: &Sensor, writer: &CaptureWriter<'_>) -> Result<()> {
+    let [width, height] = [clean.width(), clean.height()];
+    writer.write(|sink| {
+        for y in 0..height {
+            let exposed = (y * width..(y + 1) * width).into_par_iter().map(|pixel| {
+                let mut window = vec![0.0; clean.window_len()];
+                clean.read_window(pixel, &mut window);
+                sensor.expose(pixel, clean.pitch_mm().into(), &mut window);
+                window
+            });
+            exposed.collect::<Vec<Vec<f32>>>().iter().try_for_each(|window| sink(window))?;
+        }
+        Ok(())
+    })
 }
 
 /// A file without a name beside `path`: gone when it is closed, whatever happens.

@@ -1,0 +1,34 @@
+//! Maps of numbers as pictures.
+
+use image::{Rgb, RgbImage};
+use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
+
+/// Relative errors that the two ends of the scale stand for; the scale is logarithmic.
+pub(super) const ERRORS: [f64; 2] = [1e-4, 1e-1];
+/// Where nothing was measured.
+const NOTHING: Rgb<u8> = Rgb([128; 3]);
+
+/// Colour of a place on the scale, 0 to 1.
+pub(super) fn colour(place: f64) -> Rgb<u8> {
+    let plotters::style::RGBColor(r, g, b) = ViridisRGB.get_color(place.clamp(0.0, 1.0));
+    Rgb([r, g, b])
+}
+
+/// Errors on the logarithmic scale.
+pub(super) fn error_map(errors: &[Option<f64>], width: u32) -> RgbImage {
+    let [low, high] = ERRORS.map(f64::ln);
+    let place = |error: f64| (error.max(f64::MIN_POSITIVE).ln() - low) / (high - low);
+    map(errors, width, |error| error.map_or(NOTHING, |error| colour(place(error))))
+}
+
+/// Numbers from 0, black, to 1, white.
+pub(super) fn grey_map(values: &[f32], width: u32) -> RgbImage {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+    let grey = |value: f32| (255.0 * value.clamp(0.0, 1.0)).round() as u8;
+    map(values, width, |value| Rgb([grey(value); 3]))
+}
+
+fn map<T: Copy>(values: &[T], width: u32, colour: impl Fn(T) -> Rgb<u8>) -> RgbImage {
+    let height = u32::try_from(values.len()).unwrap_or(0) / width;
+    RgbImage::from_fn(width, height, |x, y| colour(values[(y * width + x) as usize]))
+}
