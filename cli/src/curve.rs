@@ -1,7 +1,7 @@
 //! A rate-distortion curve for people and for programs.
 
 use serde_json::{Value, json};
-use subsurf_encoder::rate::Point;
+use subsurf_encoder::rate::{Point, Walked};
 
 use crate::encode::coding_name;
 use crate::memory::human;
@@ -27,14 +27,14 @@ pub(crate) fn line(point: &Point) -> String {
 }
 
 /// All of them by size; those that a smaller one beats are set apart.
-pub(crate) fn print(points: &[Point], chosen_bytes: usize) {
-    let mut points: Vec<&Point> = points.iter().collect();
-    points.sort_by_key(|point| point.encoded.bytes.len());
+pub(crate) fn print(walked: &Walked) {
+    let mut points: Vec<(usize, &Point)> = walked.points.iter().enumerate().collect();
+    points.sort_by_key(|(_, point)| point.encoded.bytes.len());
     say!("rate-distortion curve, PSNR under uniform / disc / line light (* best of its size, > chosen):");
     let mut highest = f64::NEG_INFINITY;
-    for point in points {
+    for (number, point) in points {
         let uniform = point.psnr_db[0].unwrap_or(f64::NEG_INFINITY);
-        let mark = if point.encoded.bytes.len() == chosen_bytes {
+        let mark = if number == walked.best {
             '>'
         } else if uniform > highest {
             '*'
@@ -46,10 +46,11 @@ pub(crate) fn print(points: &[Point], chosen_bytes: usize) {
     }
 }
 
-pub(crate) fn to_json(points: &[Point]) -> Value {
-    let points = points.iter().map(|point| {
+pub(crate) fn to_json(walked: &Walked) -> Value {
+    let points = walked.points.iter().enumerate().map(|(number, point)| {
         let [uniform, disc, line] = point.psnr_db;
         json!({
+            "chosen": number == walked.best,
             "bytes": point.encoded.bytes.len(),
             "per_pixel": point.options.per_pixel,
             "coding": coding_name(point.options.coding),

@@ -7,9 +7,10 @@ use clap::ValueEnum;
 use serde_json::json;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Coding;
+use subsurf_decoder::bssrdf::layout::MAX_BASE_MATERIALS;
 use subsurf_encoder::bssrdf::{self, Encoded, Method, Options, fit_bytes};
 use subsurf_encoder::capture::{Capture, sidecar_path};
-use subsurf_encoder::rate::{self, Point, Target};
+use subsurf_encoder::rate::{self, Point, Target, Walked};
 use subsurf_encoder::{check_target, write_bytes};
 
 use crate::compare::{Judgement, judge};
@@ -73,9 +74,6 @@ pub(crate) struct Args {
 
 /// What a target chooses.
 const CHOSEN: [&str; 5] = ["method", "per_pixel", "base_materials", "coding", "half_profiles"];
-
-/// Model of the largest fit that a target may lead to, for the memory it takes.
-const MOST_BASE_MATERIALS: usize = 256;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum MethodArg {
@@ -147,16 +145,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let start = Instant::now();
     let graceful = Graceful::new();
     let target = args.target_psnr.map(Target::PsnrDb).or(args.target_bytes.map(|size| Target::Bytes(size.0)));
-    let (encoded, options, points) = if let Some(target) = target {
-        let (mut points, best) = walk(&capture, args, target)?;
-        let best = points.swap_remove(best);
+    let (encoded, options, walked) = if let Some(target) = target {
+        let walked = walk(&capture, args, target)?;
+        let best = &walked.points[walked.best];
         write_bytes(&output, &best.encoded.bytes)?;
-        let encoded = best.encoded.clone();
-        let options = best.options;
-        points.push(best);
-        (encoded, options, points)
+        (Encoded { stopped: walked.stopped, ..best.encoded.clone() }, best.options, Some(walked))
     } else {
-        (encode(&capture, args.samples, &options, &output)?, options, Vec::new())
+        (encode(&capture, args.samples, &options, &output)?, options, None)
     };
     drop(graceful);
     let seconds = start.elapsed().as_secs_f64();
@@ -164,9 +159,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let judgement = judge(&capture, &material, encoded.bytes.len() as u64, &Bars::new())?;
     let report = Report { capture: &capture, output: &output, options: &options, encoded: &encoded, seconds };
     if args.json {
-        report.print_json(&judgement, &points)
+        report.print_json(&judgement, walked.as_ref())
     } else {
-        report.print(&judgement, &points)
+        report.print(&judgement, walked.as_ref())
     }
     Ok(())
 }
@@ -174,7 +169,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 /// Refuses what the machine's memory does not hold, before it is tried.
 fn check_memory(args: &Args, capture: &Capture, options: &Options) -> anyhow::Result<()> {
     let targeted = args.target_psnr.is_some() || args.target_bytes.is_some();
-    let base_materials = if targeted { MOST_BASE_MATERIALS } else { options.base_materials };
+    // A target may lead to the most base materials there can be.
+    let base_materials = if targeted { MAX_BASE_MATERIALS as usize } else { options.base_materials };
     let needed = fit_bytes(capture, args.samples, &Options { base_materials, ..*options })?;
     let Some(limit) = args.max_memory.map(|size| size.0).or_else(available) else {
         return Ok(());
@@ -216,7 +212,7 @@ struct Report<'a> {
 }
 
 impl Report<'_> {
-    fn print_json(&self, judgement: &Judgement, points: &[Point]) {
+    fn print_json(&self, judgement: &Judgement, walked: Option<&Walked>) {
         let memory = resident().unwrap_or_default();
         let encoded = self.encoded;
         let mut value = json!({
@@ -237,22 +233,22 @@ impl Report<'_> {
         });
         if let (Some(value), Some(judgement)) = (value.as_object_mut(), judgement.to_json().as_object()) {
             value.extend(judgement.clone());
-            if !points.is_empty() {
-                value.insert("curve".to_owned(), curve::to_json(points));
+            if let Some(walked) = walked {
+                value.insert("curve".to_owned(), curve::to_json(walked));
             }
         }
         say!("{value:#}");
     }
 
-    fn print(&self, judgement: &Judgement, points: &[Point]) {
+    fn print(&self, judgement: &Judgement, walked: Option<&Walked>) {
         let encoded = self.encoded;
-        if !points.is_empty() {
-            curve::print(points, encoded.bytes.len());
+        if let Some(walked) = walked {
+            curve::print(walked);
         }
         let size = human(encoded.bytes.len() as u64);
         say!("{}: {size} from {}", self.output.display(), human(self.capture.file_bytes()));
         if encoded.stopped {
-            say!("  the fit was interrupted: this is the best model so far");
+            say!("  interrupted: this is the best model so far");
         }
         let missing = encoded.entries - encoded.measured;
         if missing > 0 {
@@ -272,7 +268,7 @@ impl Report<'_> {
 }
 
 /// Tries models, and says what came of each.
-fn walk(capture: &Capture, args: &Args, target: Target) -> anyhow::Result<(Vec<Point>, usize)> {
+fn walk(capture: &Capture, args: &Args, target: Target) -> anyhow::Result<Walked> {
     let mut said = |point: &Point| {
         if !args.json {
             say!("{}", curve::line(point));

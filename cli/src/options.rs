@@ -78,7 +78,7 @@ impl FromStr for ByteCount {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let end = text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len());
+        let end = text.trim_end_matches(|c: char| c.is_ascii_alphabetic()).len();
         let (number, unit) = text.split_at(end);
         let factor = match unit.to_ascii_lowercase().as_str() {
             "" | "b" => 1.0,

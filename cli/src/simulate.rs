@@ -81,7 +81,8 @@ Maps, in one of two ways:
                                                   three (1.5,1.0,0.6), or an image with its range (mfp.png:0.3:2.0)
 Materials: apple chicken1 chicken2 cream ketchup marble potato skimmilk skin1 skin2 spectralon wholemilk.
 
-Built-in materials are synthetic patterns of the same measured media. Nothing here was measured as a patch.";
+Built-in materials are synthetic patterns of the same measured media; blue-wax has an invented pigment beside them. Nothing
+here was measured as a patch.";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SceneArg(pub(crate) Scene);

@@ -4,7 +4,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Coding;
 use subsurf_decoder::bssrdf::layout::MAX_BASE_MATERIALS;
 
-use crate::bssrdf::{Encoded, Options, Problem};
+use crate::bssrdf::{Encoded, Options, Problem, file_bytes};
 use crate::capture::Capture;
 use crate::error::{Error, Result};
 use crate::metrics;
@@ -57,20 +57,31 @@ const KINDS: [(usize, Coding, bool); 6] = [
 /// Numbers of base materials that are tried for a quality: steps of √2.
 const LADDER: [usize; 13] = [4, 6, 8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256];
 
+/// What was tried, and what came of it.
+#[derive(Clone, Debug)]
+pub struct Walked {
+    /// All models, in the order in which they were tried.
+    pub points: Vec<Point>,
+    /// Number of the best one.
+    pub best: usize,
+    /// Whether [`Progress::stopped`] cut the walk short; the best one may then miss a quality.
+    pub stopped: bool,
+}
+
 struct Walk<'a> {
     capture: &'a Capture,
     problem: Problem<'a>,
+    samples: Option<usize>,
     seed: u64,
     progress: &'a dyn Progress,
     found: &'a mut dyn FnMut(&Point),
     points: Vec<Point>,
 }
 
-/// Tries models until it knows the best one for `target`; hands each to `found` as it comes. Gives all of them and the
-/// number of the best.
+/// Tries models until it knows the best one for `target`; hands each to `found` as it comes.
 ///
 /// # Errors
-/// As [`Problem::new`], and [`Error::Request`] if nothing reaches the target.
+/// As [`Problem::new`], and [`Error::Request`] if nothing reaches the target or it is no number.
 pub fn walk(
     capture: &Capture,
     samples: Option<usize>,
@@ -78,15 +89,18 @@ pub fn walk(
     target: Target,
     progress: &dyn Progress,
     found: &mut dyn FnMut(&Point),
-) -> Result<(Vec<Point>, usize)> {
+) -> Result<Walked> {
+    if matches!(target, Target::PsnrDb(least) if !least.is_finite()) {
+        return Err(Error::Request("a PSNR to reach must be a number of dB, for example 40".to_owned()));
+    }
     let problem = Problem::new(capture, samples, progress)?;
-    let mut walk = Walk { capture, problem, seed, progress, found, points: Vec::new() };
+    let mut walk = Walk { capture, problem, samples, seed, progress, found, points: Vec::new() };
     match target {
         Target::Bytes(limit) => walk.along_size(limit)?,
         Target::PsnrDb(least) => walk.along_quality(least)?,
     }
     let best = walk.best(target)?;
-    Ok((walk.points, best))
+    Ok(Walked { points: walk.points, best, stopped: progress.stopped() })
 }
 
 impl Walk<'_> {
@@ -95,23 +109,29 @@ impl Walk<'_> {
         Options { per_pixel, coding, half_profiles, base_materials, seed: self.seed, ..Options::default() }
     }
 
+    fn bytes(&self, kind: (usize, Coding, bool), base_materials: usize) -> Result<u64> {
+        file_bytes(self.capture, self.samples, &self.options(kind, base_materials))
+    }
+
     /// Of every kind the model with the most base materials that fit.
     fn along_size(&mut self, limit: u64) -> Result<()> {
         let most = MAX_BASE_MATERIALS as usize;
         let mut smallest = u64::MAX;
         for kind in KINDS {
-            let fits = |walk: &Self, m: usize| walk.problem.file_bytes(&walk.options(kind, m)) <= limit;
-            smallest = smallest.min(self.problem.file_bytes(&self.options(kind, 1)));
-            let Some(base_materials) = (1..=most).rev().find(|&m| fits(self, m)) else {
+            smallest = smallest.min(self.bytes(kind, 1)?);
+            let mut base_materials = 0;
+            while base_materials < most && self.bytes(kind, base_materials + 1)? <= limit {
+                base_materials += 1;
+            }
+            if base_materials == 0 {
                 continue;
-            };
+            }
             if self.points.is_empty() || !self.progress.stopped() {
                 self.try_out(self.options(kind, base_materials))?;
             }
         }
         if self.points.is_empty() {
-            let message =
-                format!("no model of this capture takes {limit} bytes or less; the smallest takes {smallest}");
+            let message = format!("no model that is tried takes {limit} bytes or less; the smallest takes {smallest}");
             return Err(Error::Request(message));
         }
         Ok(())
@@ -122,9 +142,11 @@ impl Walk<'_> {
     fn along_quality(&mut self, least: f64) -> Result<()> {
         let mut smallest = u64::MAX;
         for kind in KINDS {
-            let small = |walk: &Self, m: usize| walk.problem.file_bytes(&walk.options(kind, m)) < smallest;
             let mut below = 0;
-            let mut enough = LADDER.iter().take_while(|&&m| small(self, m)).count();
+            let mut enough = 0;
+            while enough < LADDER.len() && self.bytes(kind, LADDER[enough])? < smallest {
+                enough += 1;
+            }
             // The largest is tried first: if it does not reach the quality, no other will.
             let mut next = enough.checked_sub(1);
             while let Some(step) = next {
@@ -172,7 +194,7 @@ impl Walk<'_> {
             Some((smallest, _)) => Ok(smallest),
             None if self.progress.stopped() => Ok(highest),
             None => Err(Error::Request(format!(
-                "no model of this capture reaches {least} dB under uniform light; the best has {:.1} dB in {} bytes",
+                "no model that was tried reaches {least} dB under uniform light; the best has {:.1} dB in {} bytes",
                 at_best.uniform_db(),
                 at_best.bytes(),
             ))),

@@ -7,40 +7,45 @@ use plotters::chart::SeriesLabelPosition;
 
 use super::page::Study;
 use super::panel::{Bar, Row, panel};
-use super::plots::{Axis, Series, chart};
+use super::plots::{Axis, Scale, Series, chart};
 use super::record::Record;
 
-/// Range of values, a little wider, in steps of a factor.
-fn decades(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
-    let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
+/// Range of positive values, a little wider.
+fn widened(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+    let (low, high) = values
+        .filter(|value| *value > 0.0 && value.is_finite())
+        .fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
     if low > high { 1.0..10.0 } else { low / 1.5..high * 1.5 }
 }
 
 /// Error against K, and quality against size.
 pub(super) fn charts(study: &Study<'_>, out: &mut String) -> anyhow::Result<()> {
     out.push_str("<h2>Curves</h2><div class=\"charts\">");
-    let halves: &[bool] = if study.has_noise() { &[false, true] } else { &[false] };
-    for &noisy in halves {
+    let halves = study.halves();
+    for &(noisy, with) in &halves {
         let series: Vec<Series> = study
             .materials
             .iter()
             .map(|material| {
                 let record = |k: u32| study.find(material, noisy, &format!("k{k}"));
                 let points = [1, 2, 3, 5].into_iter().filter_map(|k| Some((f64::from(k), record(k)?.relative_error)));
+                // Nothing stands at 0 on a logarithmic axis.
+                let points = points.filter(|point| point.1 > 0.0);
                 Series { title: material.clone(), points: points.collect(), joined: true }
             })
             .collect();
-        let y = decades(series.iter().flat_map(|series| &series.points).map(|point| point.1));
-        let title = format!("Error against K, captures {}", with(noisy));
-        let x = Axis { title: "K", range: 0.5..5.5, logarithmic: false };
-        let y = Axis { title: "mean relative error of the albedo", range: y, logarithmic: true };
+        let y = widened(series.iter().flat_map(|series| &series.points).map(|point| point.1));
+        let title = format!("Error against K, captures {with}");
+        let x = Axis { title: "K", range: 0.5..5.5, scale: Scale::Whole };
+        let y = Axis { title: "mean relative error of the albedo", range: y, scale: Scale::Logarithmic };
         out.push_str(&chart(&title, &x, &y, &series, &SeriesLabelPosition::UpperRight)?);
     }
-    for (material, noisy) in study.materials.iter().flat_map(|m| halves.iter().map(move |noisy| (m, *noisy))) {
+    for (material, (noisy, with)) in study.materials.iter().flat_map(|m| halves.iter().map(move |half| (m, *half))) {
         let points = |labels: &[&str]| -> Vec<(f64, f64)> {
             let records = labels.iter().filter_map(|label| study.find(material, noisy, label));
             #[allow(clippy::cast_precision_loss, reason = "a place in a chart")]
-            let point = |record: &Record| Some((record.bytes as f64 / 1e3, record.psnr_db[0]?));
+            let point =
+                |record: &Record| Some((record.bytes as f64 / 1e3, record.psnr_db[0].filter(|db| db.is_finite())?));
             records.filter_map(point).collect()
         };
         let series =
@@ -59,20 +64,16 @@ pub(super) fn charts(study: &Study<'_>, out: &mut String) -> anyhow::Result<()> 
             continue;
         }
         let every = || all.iter().flat_map(|series| &series.points);
-        let x = decades(every().map(|point| point.0));
+        let x = widened(every().map(|point| point.0));
         let y = every().map(|point| point.1).fold(f64::INFINITY, f64::min) - 4.0
             ..every().map(|point| point.1).fold(0.0, f64::max) + 4.0;
-        let title = format!("Quality against size: {material}, {}", with(noisy));
-        let x = Axis { title: "kB", range: x, logarithmic: true };
-        let y = Axis { title: "PSNR, uniform light (dB)", range: y, logarithmic: false };
+        let title = format!("Quality against size: {material}, {with}");
+        let x = Axis { title: "kB", range: x, scale: Scale::Logarithmic };
+        let y = Axis { title: "PSNR, uniform light (dB)", range: y, scale: Scale::Linear };
         out.push_str(&chart(&title, &x, &y, &all, &SeriesLabelPosition::LowerRight)?);
     }
     out.push_str("</div>");
     Ok(())
-}
-
-fn with(noisy: bool) -> &'static str {
-    if noisy { "with noise" } else { "without noise" }
 }
 
 /// Mixture ratios of K = 3 and 5 in falling order.
@@ -89,8 +90,8 @@ pub(super) fn ratios(study: &Study<'_>, out: &mut String) -> anyhow::Result<()> 
             })
             .collect();
         let title = format!("Mean of the ratios by rank, K = {k}");
-        let x = Axis { title: "rank", range: 0.5..5.5, logarithmic: false };
-        let y = Axis { title: "mean mixture ratio", range: 0.0..1.0, logarithmic: false };
+        let x = Axis { title: "rank", range: 0.5..5.5, scale: Scale::Whole };
+        let y = Axis { title: "mean mixture ratio", range: 0.0..1.0, scale: Scale::Linear };
         out.push_str(&chart(&title, &x, &y, &series, &SeriesLabelPosition::UpperRight)?);
     }
     out.push_str("</div>");

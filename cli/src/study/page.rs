@@ -6,9 +6,9 @@ use std::path::Path;
 use super::colour::{ERRORS, colour};
 use super::panel::{Bar, Row, panel};
 use super::plan::BASE_MATERIALS;
-use super::published::{METHODS, Published, published};
+use super::published::{COMPARED, Published, SIZED, published};
 use super::record::{Record, capture_name, picture_path};
-use super::tables::{cell, claims, precision, table};
+use super::tables::{claims, other, precision, table};
 use super::{figures, plan};
 use crate::memory::human;
 
@@ -33,10 +33,6 @@ impl Study<'_> {
     pub(super) fn title(&self, label: &str) -> String {
         let fit = self.fits.iter().find(|fit| fit.label == label);
         fit.map_or_else(|| label.to_owned(), |fit| fit.title.clone())
-    }
-
-    pub(super) fn has_noise(&self) -> bool {
-        self.records.iter().any(|record| record.noisy)
     }
 
     /// Labels of the paper's own fits that were made.
@@ -69,103 +65,103 @@ impl Study<'_> {
         let [width, height] = self.size;
         let noise = self.photons.map_or(String::new(), |photons| {
             format!(
-                " Captures \u{201c}with noise\u{201d} went through a camera that counts {photons:.0e} photons where all light \
-                 of the lit pixel leaves; fits to them are judged by the capture without noise."
+                "<p class=\"note\">Captures \u{201c}with noise\u{201d} went through a camera that counts {photons:e} photons \
+                 where all light of the lit pixel leaves; fits to them are judged by the capture without noise, which is also \
+                 the \u{201c}original\u{201d} among the pictures.</p>"
             )
         });
         let _ = write!(
             out,
             "<h1>Heterogeneous subsurface scattering in few bytes: a study</h1><p class=\"note\">The experiments of \
              Yatagawa, Todo, Yamaguchi and Morishima 2020 (tables 2, 5 and 6, figures 4, 5, 9 and 10) on <b>simulated</b> \
-             materials: {width} × {height} pixels of {} mm, window {}, {} each as a capture, M = {BASE_MATERIALS} base \
-             materials where nothing else is said.{noise} Fits are ours (alternation of exact steps) but for those called \
-             the paper's fit (L-BFGS-B or multipliers, and PatchMatch, also implemented here). \
-             <span class=\"other\">Numbers like this are the paper's own, of its measured materials on its machine: \
-             another data set, here for orientation.</span></p>",
+             materials, called after the measured ones they are meant to be like: {width} × {height} pixels of {} mm, window \
+             {}, S = {}, M = {BASE_MATERIALS} base materials where nothing else is said, {} threads. Captures are solutions of \
+             the diffusion equation in a slab (coefficients of Jensen et al. 2001; the blue pigment is invented) with the \
+             two directions of every pair made equal, as in nature; measured captures are less kind to any model.</p>\
+             <p class=\"note\">\u{201c}Song et al.\u{201d} are per-pixel profiles, \u{201c}LSP clusters\u{201d} their k-means. \
+             \u{201c}The paper's fit\u{201d} is its own algorithm (L-BFGS-B or multipliers, and PatchMatch: 20 rounds of at most \
+             500 steps) implemented here; on these captures it does not beat the clusters, as it does on theirs. All other \
+             fits alternate exact steps, and in the end weigh errors of the albedo beside the cost of eq. 5 that the \
+             baselines minimise: the albedo and the picture under uniform light profit. With 24 and 16 bits per pixel they \
+             weigh 1.2 and 4 times as much.</p>{noise}<p class=\"note\">{}</p>",
             self.pitch_mm,
             self.window,
-            human(self.capture_bytes),
+            self.window / 2 + 1,
+            rayon::current_num_threads(),
+            other(
+                "Rows like this are numbers from the paper, of its measured materials on its machine: another data set, for \
+                 orientation."
+            ),
         );
     }
 
-    /// A table of one number per material and method, the paper's own beneath.
+    /// A table with a row per fit, then the paper's own rows; `theirs` gives its numbers by row.
     fn by_material(
         &self,
         noisy: bool,
         labels: &[&str],
         number: impl Fn(&Record) -> Option<String>,
-        theirs: impl Fn(&Published, usize) -> Option<String>,
+        names: &[&str],
+        theirs: impl Fn(&'static Published, usize) -> &'static str,
     ) -> String {
-        let rows = labels.iter().map(|label| {
-            let cells = self.materials.iter().map(|material| {
-                let ours = self.find(material, noisy, label).and_then(&number);
-                let column = METHODS.iter().position(|method| method == label);
-                let theirs = column.zip(published(material)).and_then(|(column, paper)| theirs(paper, column));
-                cell(ours, theirs)
-            });
-            std::iter::once(self.title(label)).chain(cells).collect()
-        });
-        let titles = std::iter::once(String::new()).chain(self.materials.iter().map(|material| {
-            published(material).map_or(material.clone(), |paper| {
-                format!("{material}<br><span class=\"other\">{}, {}</span>", paper.name, paper.pixels)
+        let none = || "\u{2013}".to_owned();
+        let mut rows: Vec<Vec<String>> = labels
+            .iter()
+            .map(|label| {
+                let find = |material: &String| self.find(material, noisy, label).and_then(&number).unwrap_or_else(none);
+                std::iter::once(self.title(label)).chain(self.materials.iter().map(find)).collect()
             })
-        }));
-        table(&titles.collect::<Vec<_>>(), &rows.collect::<Vec<_>>())
+            .collect();
+        // Their materials were measured, and had their own noise: one set of rows will do.
+        for (at, name) in names.iter().enumerate().filter(|_| !noisy) {
+            let cell = |material: &String| other(published(material).map_or("\u{2013}", |paper| theirs(paper, at)));
+            let name = other(&format!("their {name}"));
+            rows.push(std::iter::once(name).chain(self.materials.iter().map(cell)).collect());
+        }
+        let title = |material: &String| match published(material) {
+            Some(paper) if !noisy => {
+                format!("{material}<br>{}", other(&format!("{}, {} pixels", paper.name, paper.pixels)))
+            }
+            _ => material.clone(),
+        };
+        let titles: Vec<String> = std::iter::once(String::new()).chain(self.materials.iter().map(title)).collect();
+        table(&titles, &rows)
     }
 
     fn sizes_and_times(&self, out: &mut String) {
-        out.push_str("<h2>Sizes and times (their table 2)</h2><h3>Bytes</h3>");
-        let bytes = |paper: &Published, at: usize| {
-            // Their table 2 has K = 1 with 128 base materials.
-            let at = if at == 1 { None } else { Some(at) };
-            at.and_then(|at| paper.bytes[at]).map(|bytes| human(bytes.round() as u64))
+        let _ = write!(
+            out,
+            "<h2>Sizes and times (their table 2)</h2><h3>Bytes; a capture has {}</h3>",
+            human(self.capture_bytes)
+        );
+        let mut labels = vec!["song", "k1", "k2", "k3", "k5", "clusters-equal", "k1-equal"];
+        labels.extend(self.papers());
+        let size = |record: &Record| {
+            let bases = match record.base_materials {
+                0 => String::new(),
+                count => format!(", M = {count}"),
+            };
+            Some(format!("{}{bases}", human(record.bytes)))
         };
-        let labels = ["song", "k1", "k2", "k3", "k5"];
-        let of_k1 = |label: &'static str| if label == "k1" { "k1-equal" } else { label };
-        let theirs = |value: fn(&Published, usize) -> Option<String>, label: &'static str, paper: &Published| {
-            METHODS.iter().position(|method| *method == of_k1(label)).and_then(|at| value(paper, at))
-        };
-        let rows = |number: &dyn Fn(&Record) -> String, value: fn(&Published, usize) -> Option<String>| {
-            labels.map(|label| {
-                let cells = self.materials.iter().map(|material| {
-                    let ours = self.find(material, false, label).map(number);
-                    cell(ours, published(material).and_then(|paper| theirs(value, label, paper)))
-                });
-                std::iter::once(self.title(label)).chain(cells).collect::<Vec<_>>()
-            })
-        };
-        let titles: Vec<String> = std::iter::once(String::new()).chain(self.materials.iter().cloned()).collect();
-        let mut sizes = vec![
-            std::iter::once("capture".to_owned())
-                .chain(self.materials.iter().map(|material| {
-                    let theirs = published(material).map(|paper| human((paper.original_mb * 1e6) as u64));
-                    cell(Some(human(self.capture_bytes)), theirs)
-                }))
-                .collect::<Vec<_>>(),
-        ];
-        sizes.extend(rows(&|record| human(record.bytes), bytes));
-        out.push_str(&table(&titles, &sizes));
-        out.push_str("<h3>Time from capture to file</h3>");
-        let mut times = rows(&|record| duration(record.seconds), |paper, at| paper.seconds[at].map(duration)).to_vec();
-        times.extend(self.papers().map(|label| {
-            let cells = self.materials.iter();
-            let cells =
-                cells.map(|material| cell(self.find(material, false, label).map(|r| duration(r.seconds)), None));
-            std::iter::once(self.title(label)).chain(cells).collect()
+        let names: Vec<&str> = std::iter::once("original").chain(SIZED).collect();
+        out.push_str(&self.by_material(false, &labels, size, &names, |paper, at| {
+            if at == 0 { paper.original } else { paper.bytes[at - 1] }
         }));
-        out.push_str(&table(&titles, &times));
+        out.push_str("<h3>Time from capture to file, measured once</h3>");
+        let time = |record: &Record| Some(duration(record.seconds));
+        out.push_str(&self.by_material(false, &labels, time, &SIZED[1..], |paper, at| paper.times[at]));
     }
 
     fn labels_compared(&self) -> Vec<&str> {
-        let mut labels = METHODS.to_vec();
-        labels.insert(2, "k1");
+        let mut labels = vec!["song", "clusters-equal", "k1", "k1-equal", "k2", "k3", "k5"];
         labels.extend(self.papers());
         labels
     }
 
-    fn halves(&self) -> Vec<(bool, &'static str)> {
+    /// Captures without noise and, if there are any, with noise.
+    pub(super) fn halves(&self) -> Vec<(bool, &'static str)> {
         let mut halves = vec![(false, "without noise")];
-        if self.has_noise() {
+        if self.records.iter().any(|record| record.noisy) {
             halves.push((true, "with noise"));
         }
         halves
@@ -179,7 +175,8 @@ impl Study<'_> {
                 noisy,
                 &self.labels_compared(),
                 |record| Some(format!("{:.5}", record.relative_error)),
-                |paper, at| (!noisy).then(|| format!("{:.4}", paper.relative_error[at])),
+                &COMPARED,
+                |paper, at| paper.relative_error[at],
             ));
         }
     }
@@ -196,14 +193,16 @@ impl Study<'_> {
                     let [uniform, disc, line] = record.psnr_db.map(db);
                     Some(format!("{uniform} ({disc} / {line})"))
                 },
-                |paper, at| (!noisy).then(|| format!("{:.1}", paper.psnr_db[at])),
+                &COMPARED,
+                |paper, at| paper.psnr_db[at],
             ));
             let _ = write!(out, "<h3>SSIM, uniform light, captures {title}</h3>");
             out.push_str(&self.by_material(
                 noisy,
                 &self.labels_compared(),
                 |record| record.ssim[0].map(|ssim| format!("{ssim:.5}")),
-                |paper, at| (!noisy).then(|| format!("{:.3}", paper.ssim[at])),
+                &COMPARED,
+                |paper, at| paper.ssim[at],
             ));
         }
     }
@@ -270,7 +269,17 @@ impl Study<'_> {
 fn error_bar() -> Bar {
     let [low, high] = ERRORS.map(f64::log10);
     let ticks = [1e-4, 1e-3, 1e-2, 1e-1];
-    let ticks = ticks.map(|error: f64| (format!("{error}"), (error.log10() - low) / (high - low)));
+    let ticks = ticks.map(|error: f64| {
+        // The ends stand for what lies beyond them, too.
+        let bound = if error == ERRORS[0] {
+            "≤ "
+        } else if error == ERRORS[1] {
+            "≥ "
+        } else {
+            ""
+        };
+        (format!("{bound}{error}"), (error.log10() - low) / (high - low))
+    });
     Bar { title: "relative error", ticks: ticks.to_vec(), colour }
 }
 

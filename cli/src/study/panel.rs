@@ -30,7 +30,8 @@ pub(super) struct Bar {
 
 /// A panel of PNG pictures, each `mm` wide and high.
 pub(super) fn panel(columns: &[String], rows: &[Row], mm: [f64; 2], bar: Option<&Bar>) -> String {
-    let height = (SIDE as f64 * mm[1] / mm[0]).round() as usize;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pixels on a page")]
+    let height = (SIDE as f64 * mm[1] / mm[0]).round().max(1.0) as usize;
     let step = [SIDE + GAP, height + GAP];
     let size =
         [LEFT + columns.len() * step[0] + if bar.is_some() { BAR } else { 0 }, TOP + rows.len() * step[1] + BOTTOM];

@@ -13,23 +13,35 @@ pub(super) struct Series {
 pub(super) struct Axis {
     pub(super) title: &'static str,
     pub(super) range: std::ops::Range<f64>,
-    /// Whether equal factors are equally far apart.
-    pub(super) logarithmic: bool,
+    pub(super) scale: Scale,
+}
+
+/// How values stand along an axis.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Scale {
+    Linear,
+    /// Equal factors are equally far apart.
+    Logarithmic,
+    /// Only whole numbers mean something.
+    Whole,
 }
 
 impl Axis {
     /// Place of a value along the axis.
     fn place(&self, value: f64) -> f64 {
-        if self.logarithmic { value.log10() } else { value }
+        if self.scale == Scale::Logarithmic { value.log10() } else { value }
     }
 
     fn places(&self) -> std::ops::Range<f64> {
         self.place(self.range.start)..self.place(self.range.end)
     }
 
-    /// What stands beside a place: two digits of the value.
+    /// What stands beside a place: the value to two digits, or whole.
     fn label(&self, place: f64) -> String {
-        let value = if self.logarithmic { 10_f64.powf(place) } else { place };
+        if self.scale == Scale::Whole && place.fract() != 0.0 {
+            return String::new();
+        }
+        let value = if self.scale == Scale::Logarithmic { 10_f64.powf(place) } else { place };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few digits")]
         let digits = (1.0 - value.abs().max(1e-9).log10().floor()).clamp(0.0, 6.0) as usize;
         let text = format!("{value:.digits$}");
@@ -70,7 +82,8 @@ pub(super) fn chart(
             .y_desc(y.title)
             .x_label_formatter(&|place| x.label(*place))
             .y_label_formatter(&|place| y.label(*place))
-            .light_line_style(RGBColor(240, 240, 240))
+            .max_light_lines(1)
+            .light_line_style(WHITE)
             .draw()?;
         for (number, series) in series.iter().enumerate() {
             let colour = COLOURS[number % COLOURS.len()];
@@ -91,5 +104,6 @@ pub(super) fn chart(
             .draw()?;
         area.present()?;
     }
-    Ok(svg)
+    // Inside a page, SVG needs no name of its own.
+    Ok(svg.replace(" xmlns=\"http://www.w3.org/2000/svg\"", ""))
 }

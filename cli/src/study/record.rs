@@ -9,7 +9,8 @@ use flate2::write::DeflateEncoder;
 use serde::{Deserialize, Serialize};
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Model;
-use subsurf_encoder::bssrdf::{self, Options, Problem};
+use subsurf_decoder::bssrdf::layout::MAX_SINGLE_BASE_MATERIALS;
+use subsurf_encoder::bssrdf::{self, Method, Options, file_bytes};
 use subsurf_encoder::capture::Capture;
 use subsurf_encoder::metrics::Light;
 use subsurf_encoder::write_bytes;
@@ -61,8 +62,11 @@ impl Subject<'_> {
 
     /// The record of a fit: the kept one if it is still the answer, else fits; true if it had to.
     pub(super) fn record(&self, fit: &Fit) -> anyhow::Result<(Record, bool)> {
-        let options = self.settled(fit)?;
-        let request = format!("{} {:?} {:?}", env!("CARGO_PKG_VERSION"), options, self.capture.simulated());
+        let options = self.settled(fit);
+        let capture = self.capture;
+        let shape = [capture.width(), capture.height(), capture.radius()];
+        let source = (capture.pitch_mm(), capture.addressing(), capture.eta(), capture.simulated());
+        let request = format!("{} {options:?} {shape:?} {source:?}", env!("CARGO_PKG_VERSION"));
         let path = self.folder.join("fits").join(format!("{}-{}.json", self.name(), fit.label));
         if let Some(kept) = std::fs::read(&path).ok().and_then(|bytes| serde_json::from_slice::<Record>(&bytes).ok())
             && kept.request == request
@@ -97,19 +101,16 @@ impl Subject<'_> {
     }
 
     /// Options with M settled.
-    fn settled(&self, fit: &Fit) -> anyhow::Result<Options> {
+    fn settled(&self, fit: &Fit) -> Options {
         if !fit.equal_bytes {
-            return Ok(fit.options);
+            return fit.options;
         }
-        let problem = Problem::new(self.capture, None, &())?;
-        let two = Options { per_pixel: 2, method: bssrdf::Method::Direct, ..fit.options };
-        let limit = problem.file_bytes(&two);
-        let fits = |m: &usize| {
-            let options = Options { base_materials: *m, ..fit.options };
-            problem.file_bytes(&options) <= limit
-        };
-        let most = (1..=self.capture.pixels().min(65_536)).rev().find(fits).unwrap_or(1);
-        Ok(Options { base_materials: most, ..fit.options })
+        let bytes = |options: &Options| file_bytes(self.capture, None, options).unwrap_or(u64::MAX);
+        let limit = bytes(&Options { per_pixel: 2, method: Method::Direct, ..fit.options });
+        let with = |base_materials| Options { base_materials, ..fit.options };
+        let fits = |m: &usize| bytes(&with(*m)) <= limit;
+        let most = MAX_SINGLE_BASE_MATERIALS as usize;
+        with((1..=most).rev().find(fits).unwrap_or(1))
     }
 
     /// Small pictures for the page: under every light, the errors, and the sorted ratios, whose means it gives.

@@ -50,7 +50,7 @@ pub(super) fn fit(normal: &Normal, progress: &dyn Progress) -> Field {
 
     progress.begin("fitting per-pixel profiles", MAX_ITERATIONS);
     for iteration in 0..MAX_ITERATIONS {
-        if (0..3).all(|c| rho[c] <= limit[c]) || progress.stopped() {
+        if (0..3).all(|c| rho[c] <= limit[c]) {
             progress.advance(MAX_ITERATIONS - iteration);
             break;
         }

@@ -3,7 +3,7 @@
 use super::field::Field;
 use super::lanes::Lanes;
 use super::normal::{BLOCK_ROWS, BLOCKS_AT_ONCE};
-use super::options::{Options, geometry};
+use super::options::{Method, Options, geometry};
 use super::window::rings;
 use crate::capture::Capture;
 use crate::error::Result;
@@ -14,6 +14,7 @@ use crate::error::Result;
 /// # Errors
 /// As [`Problem::new`](super::Problem::new), for S out of range.
 pub fn fit_bytes(capture: &Capture, samples: Option<usize>, options: &Options) -> Result<u64> {
+    options.check()?;
     let geometry = geometry(capture, samples)?;
     let lanes = size_of::<Lanes>();
     let profiles = geometry.pixels() * geometry.nodes * lanes;
@@ -27,9 +28,15 @@ pub fn fit_bytes(capture: &Capture, samples: Option<usize>, options: &Options) -
     let rings = rings(&geometry).len();
     let roots = Field::bytes(&super::window::Geometry { nodes: rings, ..geometry }) + geometry.pixels() * rings * lanes;
     let bases = options.base_materials * geometry.nodes * lanes;
-    let direct = 2 * field + profiles + roots + (BLOCKS_AT_ONCE + 8) * bases;
+    // Costs of all pairs for every border shape that some pixels share.
+    let several = matches!(options.method, Method::Direct) && options.per_pixel > 1;
+    let tables = if several { (4 * geometry.radius + 2) * options.base_materials.pow(2) * 2 } else { 0 };
+    let direct = 2 * field + profiles + roots + (BLOCKS_AT_ONCE + 8) * bases + tables;
+    // Some thirty vectors of all parameters, in double precision, and a field for every evaluation.
+    let parameters = 3 * options.base_materials * geometry.nodes + geometry.pixels() * options.per_pixel;
+    let paper = if options.method == Method::Paper { 30 * 8 * parameters + 2 * field + 2 * profiles } else { 0 };
     // What stays: b, which directions were measured, and a matrix for every pixel whose neighbours were not all.
     let places = capture.window_len() / 3;
     let kept = profiles + geometry.pixels() * (2 * places + 6 * geometry.nodes * lanes);
-    Ok((kept + reading.max(song).max(direct)) as u64)
+    Ok((kept + reading.max(song).max(direct).max(paper)) as u64)
 }

@@ -101,14 +101,9 @@ impl<'a> Problem<'a> {
             per_pixel: header.model.into(),
             base_materials: header.base_materials as usize,
             samples: self.normal.geometry.nodes,
-            stopped: progress.stopped(),
+            // Per-pixel profiles are solved for to the end in any case.
+            stopped: options.method != Method::Lsp && progress.stopped(),
         })
-    }
-
-    /// Bytes of the file of a K-BMPP fit; an upper bound for palettes, and where base materials turn out to be unused.
-    #[must_use]
-    pub fn file_bytes(&self, options: &Options) -> u64 {
-        write::file_bytes(&options.header(self.capture, &self.normal.geometry), options.half_profiles)
     }
 
     /// Sections and cost of a model, and in the header the base materials that are left.
@@ -119,6 +114,16 @@ impl<'a> Problem<'a> {
         sections.extend(write::mixtures(header, &model.mixtures));
         (sections, self.normal.cost(&model.field(&self.normal)))
     }
+}
+
+/// Bytes of the file of a K-BMPP fit; an upper bound for palettes, and where base materials turn out to be unused.
+///
+/// # Errors
+/// [`Error::Request`](crate::Error::Request) for S or options out of range.
+pub fn file_bytes(capture: &Capture, samples: Option<usize>, options: &Options) -> Result<u64> {
+    options.check()?;
+    let geometry = options::geometry(capture, samples)?;
+    Ok(write::file_bytes(&options.header(capture, &geometry), options.half_profiles))
 }
 
 /// Fits a capture once.

@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 /// How to fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// A profile for every pixel (Song et al. 2009): large, and the best that any of the others can do.
+    /// A profile for every pixel (Song et al. 2009): large, and the lowest cost of eq. 5 that there is.
     Lsp,
     /// k-means clusters of the per-pixel profiles, one per pixel: a baseline for K-BMPP.
     Clusters,

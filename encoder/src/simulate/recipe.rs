@@ -1,4 +1,5 @@
-//! What built-in materials are made of: mixtures of measured media in patterns made from a seed.
+//! What built-in materials are made of: mixtures of measured media, and of an invented pigment, in patterns made from a
+//! seed.
 
 use std::f64::consts::TAU;
 

@@ -159,7 +159,7 @@ impl Model {
 }
 
 /// Alternates both steps from a model of one base material per pixel until the cost settles, then lets the search weigh
-/// albedos. Models of more base materials per pixel start from those of fewer, so that they cannot fit worse.
+/// albedos. Three and five base materials per pixel start from the model of fewer, so that they begin no worse.
 pub(super) fn refine(normal: &Normal, model: &mut Model, per_pixel: usize, coding: Coding, progress: &dyn Progress) {
     let mut field = model.field(normal);
     // One base material per pixel is where clusters start, and pairs are searched exhaustively from there.
@@ -170,7 +170,9 @@ pub(super) fn refine(normal: &Normal, model: &mut Model, per_pixel: usize, codin
         .begin("fitting base materials", ROUNDS * stages.len() as u64 + WEIGHED_ROUNDS + u64::from(pruning) + POLISH);
     for k in stages {
         model.per_pixel = k;
-        alternate(normal, model, &mut field, progress);
+        if !progress.stopped() {
+            alternate(normal, model, &mut field, progress);
+        }
     }
     let mut weighed_round = |model: &mut Model, coding| {
         if progress.stopped() {
