@@ -13,7 +13,7 @@ use subsurf_encoder::metrics::Light;
 use subsurf_encoder::simulate::{Finish, Scene};
 use subsurf_encoder::write_bytes;
 use subsurf_runtime::scene::torus;
-use subsurf_runtime::{Backend, Gpu, Material, PatchRenderer, Region, storage_of};
+use subsurf_runtime::{Backend, Gpu, Material, PatchLight, PatchRenderer, Region, storage_of};
 use subsurf_shaders::cpu;
 
 use crate::bench::{Case, markdown, measure};
@@ -24,7 +24,7 @@ use crate::failure::bad_request;
 use crate::memory::human;
 use crate::picture::{montage, triptych, write_png};
 use crate::progress::Bars;
-use crate::render::{MappingArg, Shot, draw_mesh, draw_patch, patch_irradiance};
+use crate::render::{MappingArg, PathArg, Shot, draw_mesh, draw_patch, patch_irradiance};
 use crate::say::say;
 use crate::simulate::Request;
 
@@ -141,7 +141,7 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
     for gpu in &gpus {
         let uploaded = Material::upload(gpu, material)?;
         let renderer = PatchRenderer::new(gpu, storage_of(material))?;
-        let light = renderer.light(gpu, &uploaded, &irradiance)?;
+        let light = PatchLight::upload(gpu, [header.width, header.height], &irradiance)?;
         let found = renderer.gather(gpu, &uploaded, &light, whole)?.read(gpu)?;
         let largest = expected.iter().flatten().copied().fold(0.0, f32::max);
         let differences = found.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| (a - b).abs() / largest);
@@ -154,7 +154,7 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
         devices.push(name);
     }
     let gpu = gpus.first();
-    let (patch, _) = draw_patch(gpu, material, Light::Disc, [512, 512], None)?;
+    let (patch, _) = draw_patch(gpu, material, PathArg::Gather, Light::Disc, [512, 512], None)?;
     write_png(&dir.join("patch.png"), &patch)?;
     let (mesh, _) = draw_mesh(gpu, material, torus(18.0, 8.0, 64), MappingArg::Auto, &Shot::usual([800, 600]))?;
     write_png(&dir.join("mesh.png"), &mesh)?;

@@ -11,8 +11,12 @@ use subsurf_decoder::Bssrdf;
 use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::Light;
 use subsurf_runtime::scene::{Mapping, Mesh, Surface};
-use subsurf_runtime::{BACKGROUND, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchRenderer, Region, View};
+use subsurf_runtime::{
+    BACKGROUND, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchLight, PatchRenderer, Region, SeparableMaterial,
+    SeparableRenderer, View, storage_of,
+};
 use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_shaders::separable::{Detail, Factors};
 
 use crate::devices::{self, BackendArg, check_picture};
 use crate::failure::bad_request;
@@ -37,6 +41,9 @@ pub(crate) struct Args {
     /// Longest side of the mesh in mm: the material has its real size
     #[arg(long, default_value_t = 60.0, value_name = "MM", requires = "mesh")]
     extent: f32,
+    /// How a flat patch is computed
+    #[arg(long, value_enum, default_value = "gather", conflicts_with = "mesh")]
+    path: PathArg,
     /// Which way is up in the mesh
     #[arg(long, value_enum, default_value = "y", requires = "mesh")]
     up: Up,
@@ -61,6 +68,14 @@ pub(crate) struct Args {
     /// Report as JSON
     #[arg(long)]
     json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum PathArg {
+    /// Light from every pixel of the window: the reference
+    Gather,
+    /// Weighted irradiance maps and shared Gaussians: many times faster, and an approximation
+    Separable,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -134,9 +149,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let gpu = args.backend.open()?;
     let start = Instant::now();
     let (picture, facts) = match (&args.mesh, args.light) {
-        (None, None) => draw_patch(gpu.as_ref(), &material, Light::Disc, args.size.0, args.exposure)?,
+        (None, None) => draw_patch(gpu.as_ref(), &material, args.path, Light::Disc, args.size.0, args.exposure)?,
         (None, Some(LightArg::Pattern(light))) => {
-            draw_patch(gpu.as_ref(), &material, light, args.size.0, args.exposure)?
+            draw_patch(gpu.as_ref(), &material, args.path, light, args.size.0, args.exposure)?
         }
         (None, Some(LightArg::Direction(_))) => {
             return Err(bad_request("--light X,Y,Z is for meshes; on a patch it is uniform, disc or line"));
@@ -203,6 +218,7 @@ pub(crate) fn patch_irradiance(material: &Bssrdf<'_>, light: Light) -> Vec<Rgb> 
 pub(crate) fn draw_patch(
     gpu: Option<&Gpu>,
     material: &Bssrdf<'_>,
+    path: PathArg,
     light: Light,
     size: [u32; 2],
     exposure: Option<f32>,
@@ -219,20 +235,32 @@ pub(crate) fn draw_patch(
     facts.insert("size".to_owned(), json!(size));
     let pixels = match gpu {
         Some(gpu) => {
-            let uploaded = Material::upload(gpu, material)?;
-            let renderer = PatchRenderer::new(gpu, uploaded.storage())?;
-            let light = renderer.light(gpu, &uploaded, &irradiance)?;
-            let exitance = renderer.gather(gpu, &uploaded, &light, whole)?;
+            let renderer = PatchRenderer::new(gpu, storage_of(material))?;
+            let light = PatchLight::upload(gpu, whole.size, &irradiance)?;
+            let (exitance, gpu_bytes) = match path {
+                PathArg::Gather => {
+                    let uploaded = Material::upload(gpu, material)?;
+                    (renderer.gather(gpu, &uploaded, &light, whole)?, uploaded.gpu_bytes())
+                }
+                PathArg::Separable => {
+                    let uploaded = SeparableMaterial::upload(gpu, &Factors::of(material, Detail::default()))?;
+                    let exitance = SeparableRenderer::new(gpu)?.exitance(gpu, &uploaded, &light)?;
+                    (exitance, uploaded.gpu_bytes())
+                }
+            };
             let exposure = match exposure {
                 Some(exposure) => exposure,
                 None => exposure_for(exitance.read(gpu)?.iter()),
             };
-            facts.insert("gpu_bytes".to_owned(), json!(uploaded.gpu_bytes()));
+            facts.insert("gpu_bytes".to_owned(), json!(gpu_bytes));
             facts.insert("exposure".to_owned(), json!(exposure));
             renderer.picture(gpu, &exitance, size, exposure)?
         }
         None => {
-            let exitance = cpu::gather(material, &irradiance, whole.origin, whole.size);
+            let exitance = match path {
+                PathArg::Gather => cpu::gather(material, &irradiance, whole.origin, whole.size),
+                PathArg::Separable => cpu::separable(&Factors::of(material, Detail::default()), &irradiance),
+            };
             let exposure = exposure.unwrap_or_else(|| exposure_for(exitance.iter()));
             facts.insert("exposure".to_owned(), json!(exposure));
             cpu::present(&exitance, whole.size, size, exposure)

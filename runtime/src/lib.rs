@@ -11,6 +11,7 @@ mod pass;
 mod patch;
 mod resource;
 pub mod scene;
+mod separable;
 
 pub use context::{Backend, Gpu, devices};
 pub use error::{Error, Result};
@@ -18,4 +19,5 @@ pub use ledger::Ledger;
 pub use material::{Material, storage_of};
 pub use mesh_renderer::{BACKGROUND, GpuMesh, MeshExitance, MeshLight, MeshRenderer, View};
 pub use patch::{Exitance, PatchLight, PatchRenderer, Region};
+pub use separable::{SeparableMaterial, SeparableRenderer};
 pub use subsurf_shaders::Storage;

@@ -223,7 +223,7 @@ impl Planes<'_> {
     }
 }
 
-fn layers_of(surface: &Surface2d) -> TextureView {
+pub(crate) fn layers_of(surface: &Surface2d) -> TextureView {
     surface
         .texture
         .create_view(&TextureViewDescriptor { dimension: Some(TextureViewDimension::D2Array), ..Default::default() })

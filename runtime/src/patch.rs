@@ -1,7 +1,7 @@
 //! Draws a flat patch: irradiance in, exitance and a picture out.
 
 use subsurf_shaders::{Storage, source, uniform};
-use wgpu::{BindingResource, TextureFormat};
+use wgpu::{BindingResource, TextureFormat, TextureView};
 
 use crate::context::Gpu;
 use crate::error::Result;
@@ -52,17 +52,6 @@ impl PatchRenderer {
         })
     }
 
-    /// Uploads irradiance that has entered the material, one linear rgb value per pixel, row by row.
-    ///
-    /// # Errors
-    /// [`crate::Error::Unsupported`] if the patch is too large for a texture.
-    pub fn light(&self, gpu: &Gpu, material: &Material, irradiance: &[[f32; 3]]) -> Result<PatchLight> {
-        let header = material.header();
-        let texels: Vec<[f32; 4]> = irradiance.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]).collect();
-        let spec = TextureSpec::table("patch irradiance", [header.width, header.height], TextureFormat::Rgba32Float);
-        Ok(PatchLight(gpu.filled(&spec, bytemuck::cast_slice(&texels))?))
-    }
-
     /// Exitance Σ Rd(x_i, x_o) E(x_i) pitch² of a region.
     ///
     /// # Errors
@@ -79,7 +68,7 @@ impl PatchRenderer {
         for rows in Rows::bands(region.size, d * d * u64::from(region.size[0])) {
             self.gather.draw(gpu, &surface.view, &[&of_material, &of_view], rows)?;
         }
-        Ok(Exitance { surface, size: region.size })
+        Ok(Exitance::new(surface, region.size))
     }
 
     /// The picture of an exitance: `size` pixels of 8-bit sRGB, tone-mapped after multiplication with `exposure`.
@@ -99,7 +88,27 @@ impl PatchRenderer {
     }
 }
 
+impl PatchLight {
+    /// Uploads irradiance that has entered the material, one linear rgb value per pixel of a patch of `size`, row by row.
+    ///
+    /// # Errors
+    /// [`crate::Error::Unsupported`] if the patch is too large for a texture.
+    pub fn upload(gpu: &Gpu, size: [u32; 2], irradiance: &[[f32; 3]]) -> Result<Self> {
+        let texels: Vec<[f32; 4]> = irradiance.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]).collect();
+        let spec = TextureSpec::table("patch irradiance", size, TextureFormat::Rgba32Float);
+        Ok(Self(gpu.filled(&spec, bytemuck::cast_slice(&texels))?))
+    }
+
+    pub(crate) fn view(&self) -> &TextureView {
+        &self.0.view
+    }
+}
+
 impl Exitance {
+    pub(crate) fn new(surface: Surface2d, size: [u32; 2]) -> Self {
+        Self { surface, size }
+    }
+
     /// Reads it back, linear rgb, row by row.
     ///
     /// # Errors

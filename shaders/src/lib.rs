@@ -4,6 +4,7 @@
 //! Each pass `wgsl/NAME.wgsl` that computes something has a twin `cpu/NAME.rs` which gives the same numbers.
 
 pub mod cpu;
+pub mod separable;
 pub mod source;
 pub mod uniform;
 

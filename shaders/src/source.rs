@@ -74,6 +74,15 @@ pub const IRRADIANCE: &str = concat!(
     include_str!("../wgsl/irradiance.wgsl")
 );
 
+/// One weighted irradiance map of the separable path; entry points `cover` and `weigh`.
+pub const WEIGH: &str = concat!(include_str!("../wgsl/cover.wgsl"), include_str!("../wgsl/weigh.wgsl"));
+
+/// A Gaussian along one axis; entry points `cover` and `blur`.
+pub const BLUR: &str = concat!(include_str!("../wgsl/cover.wgsl"), include_str!("../wgsl/blur.wgsl"));
+
+/// Exitance from blurred maps; entry points `cover` and `combine`.
+pub const COMBINE: &str = concat!(include_str!("../wgsl/cover.wgsl"), include_str!("../wgsl/combine.wgsl"));
+
 /// Picture of a mesh; entry points `project` and `shade`.
 pub const SHADE: &str = concat!(
     include_str!("../wgsl/fresnel.wgsl"),
@@ -94,6 +103,7 @@ pub fn all() -> Vec<(String, &'static str)> {
     let gathers = Storage::ALL.into_iter().map(|storage| (format!("gather, {storage:?}"), gather(storage)));
     let fitted = Storage::ALL.into_iter().filter(|storage| *storage != Storage::Capture);
     let on_surfaces = fitted.map(|storage| (format!("surface gather, {storage:?}"), surface_gather(storage)));
-    let others = [("irradiance", IRRADIANCE), ("shade", SHADE), ("present", PRESENT)];
+    let separable = [("weigh", WEIGH), ("blur", BLUR), ("combine", COMBINE)];
+    let others = [("irradiance", IRRADIANCE), ("shade", SHADE), ("present", PRESENT)].into_iter().chain(separable);
     gathers.chain(on_surfaces).chain(others.map(|(name, text)| (name.to_owned(), text))).collect()
 }

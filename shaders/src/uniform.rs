@@ -3,6 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use subsurf_decoder::bssrdf::Header;
 
+use crate::separable::Factors;
+
 /// `Material` of `material.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -123,6 +125,82 @@ pub struct Camera {
     pub sky: [f32; 3],
     #[doc(hidden)]
     pub pad_1: u32,
+}
+
+/// `Term` of `weigh.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Term {
+    /// l.
+    pub layer: u32,
+    #[doc(hidden)]
+    pub pad: [u32; 3],
+}
+
+/// `Blur` of `blur.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Blur {
+    /// Pixels of the patch.
+    pub size: [u32; 2],
+    /// (1, 0) or (0, 1).
+    pub axis: [i32; 2],
+    /// Standard deviation in pixels.
+    pub sigma: f32,
+    /// Pixels to both sides.
+    pub reach: i32,
+    /// 0 clamp, 1 repeat, 2 mirror.
+    pub addressing: u32,
+    #[doc(hidden)]
+    pub pad: u32,
+}
+
+impl Blur {
+    /// The block for a patch, a width and an axis.
+    #[must_use]
+    pub fn new(header: &Header, sigma: f32, axis: [i32; 2]) -> Self {
+        let size = [header.width, header.height];
+        Self { size, axis, sigma, reach: reach(sigma), addressing: header.addressing.code().into(), pad: 0 }
+    }
+}
+
+/// Pixels to both sides beyond which a Gaussian is nothing.
+#[must_use]
+pub fn reach(sigma: f32) -> i32 {
+    #[allow(clippy::cast_possible_truncation, reason = "saturates, and windows are small")]
+    let reach = (4.0 * sigma).ceil() as i32;
+    reach
+}
+
+/// Most weights that `combine.wgsl` takes.
+pub const MAX_WEIGHTS: usize = 128;
+
+/// `Combine` of `combine.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Combine {
+    /// w_lma pitch².
+    pub weights: [[f32; 4]; MAX_WEIGHTS],
+    /// L.
+    pub terms: u32,
+    /// A.
+    pub gaussians: u32,
+    #[doc(hidden)]
+    pub pad: [u32; 2],
+}
+
+impl Combine {
+    /// The block for a factorised material.
+    #[must_use]
+    pub fn new(factors: &Factors) -> Self {
+        let small = |n: usize| u32::try_from(n).unwrap_or(0);
+        let area = factors.header.pitch_mm * factors.header.pitch_mm;
+        let mut weights = [[0.0; 4]; MAX_WEIGHTS];
+        for (block, [r, g, b]) in weights.iter_mut().zip(&factors.weights) {
+            *block = [r * area, g * area, b * area, 0.0];
+        }
+        Self { weights, terms: small(factors.detail.terms), gaussians: small(factors.detail.gaussians), pad: [0; 2] }
+    }
 }
 
 /// `Frame` of `present.wgsl`.

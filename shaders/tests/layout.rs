@@ -44,6 +44,9 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(Light: direction, irradiance, sky, sky_transmittance, eta);
     assert_layout_of!(Camera: clip_from_world, eye_mm, exposure, exit_scale, eta, row, sky);
     assert_layout_of!(Frame: size, texels, exposure);
+    assert_layout_of!(Term: layer);
+    assert_layout_of!(Blur: size, axis, sigma, reach, addressing);
+    assert_layout_of!(Combine: weights, terms, gaussians);
 }
 
 #[test]

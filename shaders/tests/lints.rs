@@ -138,6 +138,9 @@ fn texture_loads_are_accounted_for() {
             ("irradiance", 1),
             ("shade", 1),
             ("present", 1),
+            ("weigh", 2),
+            ("blur", 1),
+            ("combine", 2),
         ]
     );
 }

@@ -8,10 +8,11 @@ use subsurf_decoder::bssrdf::{Addressing, Coding};
 use subsurf_encoder::synthetic::{Shape, capture_row, unit};
 use subsurf_runtime::scene::{Mapping, Mesh, Surface, sphere, torus};
 use subsurf_runtime::{
-    BACKGROUND, Backend, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchRenderer, Region, Storage, View,
-    storage_of,
+    BACKGROUND, Backend, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchLight, PatchRenderer, Region,
+    SeparableMaterial, SeparableRenderer, Storage, View, storage_of,
 };
 use subsurf_shaders::cpu;
+use subsurf_shaders::separable::{Detail, Factors};
 use subsurf_tests::shape;
 
 /// Targets are half floats: software drivers truncate to 11 bits, so that every target on the way costs up to 2⁻¹⁰.
@@ -95,7 +96,7 @@ fn patch(backend: Backend) {
                 let material = Bssrdf::parse(&file).unwrap();
                 let what = format!("{backend}, {storage:?}, {addressing:?}, radius {radius}");
                 let uploaded = Material::upload(&gpu, &material).unwrap();
-                let light = renderer.light(&gpu, &uploaded, &irradiance).unwrap();
+                let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
                 let region = Region { origin: [2, 1], size: [21, 16] };
                 let exitance = renderer.gather(&gpu, &uploaded, &light, region).unwrap();
                 let expected = cpu::gather(&material, &irradiance, region.origin, region.size);
@@ -112,6 +113,44 @@ fn patch(backend: Backend) {
     }
 }
 
+/// Maps, blurs along rows and columns, and their sum are half floats, with weights of both signs: errors are compared with
+/// the brightest value.
+fn separable(backend: Backend) {
+    let gpu = open(backend);
+    let size = [23, 17];
+    let irradiance = patterned_light(size);
+    let renderer = SeparableRenderer::new(&gpu).unwrap();
+    for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
+        // The second window is wider than the patch: it wraps more than once.
+        for (radius, terms, gaussians) in [(4, 2, 4), (20, 3, 2), (4, 1, 6)] {
+            let file = shape(size, radius, addressing).bmpp();
+            let material = Bssrdf::parse(&file).unwrap();
+            let factors = Factors::of(&material, Detail { terms, gaussians });
+            let uploaded = SeparableMaterial::upload(&gpu, &factors).unwrap();
+            let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
+            let found = renderer.exitance(&gpu, &uploaded, &light).unwrap().read(&gpu).unwrap();
+            let expected = cpu::separable(&factors, &irradiance);
+            let largest = expected.iter().flatten().copied().fold(0.0, f32::max);
+            let errors = found.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| (a - b).abs() / largest);
+            let worst = errors.fold(0.0, f32::max);
+            println!(
+                "{backend}, {addressing:?}, radius {radius}, L = {terms}, A = {gaussians}: {worst:.2e} of the brightest"
+            );
+            assert!(worst <= 4.0 * HALF_ULP + SUM_TOLERANCE, "{backend}, {addressing:?}, radius {radius}: {worst}");
+        }
+    }
+}
+
+#[test]
+fn separable_on_vulkan() {
+    separable(Backend::Vulkan);
+}
+
+#[test]
+fn separable_on_gles_3_0() {
+    separable(Backend::Gl);
+}
+
 fn patch_variants(backend: Backend) {
     let gpu = open(backend);
     let size = [23, 17];
@@ -120,7 +159,7 @@ fn patch_variants(backend: Backend) {
         let material = Bssrdf::parse(file).unwrap();
         let renderer = PatchRenderer::new(&gpu, storage_of(&material)).unwrap();
         let uploaded = Material::upload(&gpu, &material).unwrap();
-        let light = renderer.light(&gpu, &uploaded, &irradiance).unwrap();
+        let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
         let found = renderer.gather(&gpu, &uploaded, &light, Region { origin: [0, 0], size }).unwrap();
         let expected = cpu::gather(&material, &irradiance, [0, 0], size);
         assert_close(&found.read(&gpu).unwrap(), &expected, 1.0, &format!("{backend}, variant {number}"));
@@ -158,7 +197,7 @@ fn capture_patch(backend: Backend) {
     let irradiance = patterned_light(size);
     let renderer = PatchRenderer::new(&gpu, Storage::Capture).unwrap();
     let uploaded = Material::upload_capture(&gpu, material.header(), &entries).unwrap();
-    let light = renderer.light(&gpu, &uploaded, &irradiance).unwrap();
+    let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
     let region = Region { origin: [0, 0], size };
     let found = renderer.gather(&gpu, &uploaded, &light, region).unwrap().read(&gpu).unwrap();
     let expected = cpu::gather(&material, &irradiance, region.origin, size);
@@ -251,7 +290,7 @@ fn ledger(backend: Backend) {
 
     let other = PatchRenderer::new(&gpu, Storage::PerPixel).unwrap();
     let uploaded = Material::upload(&gpu, &material).unwrap();
-    let light = other.light(&gpu, &uploaded, &patterned_light([40, 30])).unwrap();
+    let light = PatchLight::upload(&gpu, [40, 30], &patterned_light([40, 30])).unwrap();
     let region = Region { origin: [0, 0], size: [4, 4] };
     assert!(other.gather(&gpu, &uploaded, &light, region).is_err(), "a renderer for another storage");
 }

@@ -7,14 +7,17 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::bssrdf::{Method, Options, encode};
 use subsurf_encoder::capture::{Capture, CaptureWriter, Scalar, Sidecar};
-use subsurf_encoder::metrics::{compare, psnr_db};
+use subsurf_encoder::metrics::{Light, compare, psnr_db};
 use subsurf_encoder::simulate::{Finish, Scene, Slab, simulate};
+use subsurf_shaders::cpu;
+use subsurf_shaders::separable::{Detail, Factors};
 use subsurf_tests::open;
 
 struct Quality {
     relative_error: f64,
     uniform_db: f64,
     bytes: usize,
+    file: Vec<u8>,
 }
 
 fn quality(capture: &Capture, method: Method, base_materials: usize) -> Quality {
@@ -27,7 +30,27 @@ fn quality(capture: &Capture, method: Method, base_materials: usize) -> Quality 
         relative_error: comparison.albedo.mean_relative_error(),
         uniform_db: psnr_db(&uniform.reference, &uniform.image),
         bytes: encoded.bytes.len(),
+        file: encoded.bytes,
     }
+}
+
+/// PSNR of the separable path against the reference gather of the same file, under each light.
+fn separable_db(file: &[u8]) -> [(Light, f64); 3] {
+    let material = Bssrdf::parse(file).unwrap();
+    let header = material.header();
+    let size = [header.width, header.height];
+    let factors = Factors::of(&material, Detail::default());
+    Light::ALL.map(|light| {
+        let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x as usize, y as usize]));
+        let irradiance: Vec<[f32; 3]> =
+            pixels.map(|pixel| [light.irradiance(pixel, size.map(|side| side as usize)); 3]).collect();
+        let expected = cpu::gather(&material, &irradiance, [0, 0], size);
+        let largest = expected.iter().flatten().copied().fold(0.0, f32::max);
+        let normalised = |image: &[[f32; 3]]| -> Vec<[f64; 3]> {
+            image.iter().map(|rgb| rgb.map(|value| f64::from(value / largest))).collect()
+        };
+        (light, psnr_db(&normalised(&expected), &normalised(&cpu::separable(&factors, &irradiance))))
+    })
 }
 
 /// Simulates a scene and asserts that 2-BMPP reaches 46 dB under uniform light, and at most `share` of the relative
@@ -69,6 +92,10 @@ fn judge(scene: Scene, share: f64) {
     assert!(direct.relative_error < more.relative_error, "{scene:?}: {}", more.relative_error);
     assert!(direct.uniform_db > more.uniform_db, "{scene:?}: {} dB", more.uniform_db);
     assert!(direct.uniform_db >= 46.0, "{scene:?}: {} dB", direct.uniform_db);
+    for (light, db) in separable_db(&direct.file) {
+        println!("  separable path against the gather: {db:.1} dB, {}", light.name());
+        assert!(db >= 44.0, "{scene:?}, {light:?}: {db} dB");
+    }
     let reached = direct.relative_error / clusters.relative_error;
     assert!(reached <= share, "{scene:?}: {reached} of the clusters' error");
 }

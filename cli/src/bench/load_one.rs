@@ -121,11 +121,6 @@ impl<'a> Bench<'a> {
         })
     }
 
-    fn light(&self, gpu: &Gpu, material: &Material) -> anyhow::Result<Option<PatchLight>> {
-        let light = self.renderer.as_ref().map(|renderer| renderer.light(gpu, material, &self.irradiance));
-        Ok(light.transpose()?)
-    }
-
     /// File to picture, once; and the material's bytes on the device.
     fn once(&self) -> anyhow::Result<(Steps, u64)> {
         let mut clock = Clock::new();
@@ -143,7 +138,7 @@ impl<'a> Bench<'a> {
         let (upload, first_frame, gpu_bytes) = match (self.gpu, &self.renderer) {
             (Some(gpu), Some(renderer)) => {
                 let uploaded = self.upload(gpu, material.as_ref(), entries.unwrap_or(&[]))?;
-                let light = self.light(gpu, &uploaded)?.context("a renderer has a light")?;
+                let light = PatchLight::upload(gpu, [self.header.width, self.header.height], &self.irradiance)?;
                 gpu.finish()?;
                 let upload = clock.lap();
                 let exitance = renderer.gather(gpu, &uploaded, &light, self.region)?;

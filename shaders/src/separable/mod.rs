@@ -1,0 +1,76 @@
+//! A material as a few weighted irradiance maps and shared Gaussians: heterogeneous scattering at the cost of separable
+//! blurs.
+//!
+//! Rd(i, j) = f_i(r) f_j(r) with f_x(r) = exp(½ P̂_x(r)) (Yatagawa et al. 2020, eq. 2). With f_x(r) ≈ Σ_l c_l(x) g_l(r) and
+//! every product g_l g_m as a sum of the same A Gaussians,
+//!
+//! M(x_o) = Σ_m c_m(x_o) Σ_l Σ_a w_lma [G_a * (c_l E)](x_o),
+//!
+//! which takes L maps and A separable blurs of each, whatever the material.
+
+mod gaussians;
+mod radial;
+
+use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::Header;
+
+use crate::cpu::Rgb;
+
+/// How finely a material is factorised.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Detail {
+    /// L, the radial functions, 1 to 4.
+    pub terms: usize,
+    /// A, the Gaussians, 1 to 8.
+    pub gaussians: usize,
+}
+
+impl Default for Detail {
+    fn default() -> Self {
+        Self { terms: 2, gaussians: 4 }
+    }
+}
+
+/// A factorised material; lengths are in pixels.
+#[derive(Clone, Debug)]
+pub struct Factors {
+    /// Size, pitch, window and addressing.
+    pub header: Header,
+    /// L and A.
+    pub detail: Detail,
+    /// c_l of every pixel; shape `[L][height][width]`, mm⁻¹.
+    pub coefficients: Vec<Rgb>,
+    /// Standard deviations σ_a by rising width.
+    pub sigmas: Vec<f32>,
+    /// w_lma, symmetric in l and m; shape `[L][L][A]`. G_a sums to 1.
+    pub weights: Vec<Rgb>,
+}
+
+impl Factors {
+    /// Factorises a material: a tenth of a second for one of 96 × 96 pixels.
+    ///
+    /// # Panics
+    /// If `detail` is out of range.
+    #[must_use]
+    pub fn of(material: &Bssrdf<'_>, detail: Detail) -> Self {
+        assert!((1..=4).contains(&detail.terms) && (1..=8).contains(&detail.gaussians), "{detail:?}");
+        let header = *material.header();
+        let radial = radial::Radial::of(material, detail.terms);
+        let (sigmas, weights) = gaussians::fit(&header, &radial, detail);
+        Self { header, detail, coefficients: radial.coefficients, sigmas, weights }
+    }
+
+    /// w_lma of all Gaussians.
+    #[must_use]
+    pub fn weights_of(&self, l: usize, m: usize) -> &[Rgb] {
+        let count = self.detail.gaussians;
+        &self.weights[(l * self.detail.terms + m) * count..][..count]
+    }
+
+    /// c_l of all pixels.
+    #[must_use]
+    pub fn coefficients_of(&self, l: usize) -> &[Rgb] {
+        let pixels = self.coefficients.len() / self.detail.terms;
+        &self.coefficients[l * pixels..][..pixels]
+    }
+}
