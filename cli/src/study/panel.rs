@@ -7,7 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use image::Rgb;
 
 /// Side of a picture on the page.
-const SIDE: usize = 150;
+const SIDE: usize = 130;
 const GAP: usize = 10;
 const LEFT: usize = 74;
 const TOP: usize = 24;

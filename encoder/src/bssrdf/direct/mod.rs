@@ -26,7 +26,7 @@ use crate::progress::Progress;
 use albedo::Albedo;
 
 /// Rounds of both steps, at most.
-const ROUNDS: u64 = 12;
+const ROUNDS: u64 = 6;
 /// The cost has settled when a round lowers it by less than this share.
 const SETTLED: f64 = 2e-3;
 
