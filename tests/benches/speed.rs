@@ -1,21 +1,17 @@
-//! How long fits take and how much memory, and how fast files are parsed and evaluated: `cargo bench -p subsurf-tests`.
+//! How long fits take, and how fast files are parsed and evaluated: `cargo bench -p subsurf-tests`.
 //!
-//! Captures are synthetic: a random 2-BMPP material of 96 × 96 pixels and one of the size of the paper's onyx. "max alloc"
-//! is the most memory that was in use at a time, besides the mapped capture.
+//! Captures are synthetic: a random 2-BMPP material of 96 × 96 pixels and one of the size of the paper's onyx.
 
 use std::sync::LazyLock;
 
 use divan::counter::{BytesCount, ItemsCount};
-use divan::{AllocProfiler, Bencher};
+use divan::Bencher;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{Addressing, Coding};
 use subsurf_encoder::bssrdf::{Method, Options, encode};
 use subsurf_encoder::capture::{Capture, CaptureWriter, Scalar, Sidecar};
 use subsurf_encoder::synthetic::{Shape, capture_row, unit};
 use subsurf_tests::open;
-
-#[global_allocator]
-static MEMORY: AllocProfiler = AllocProfiler::system();
 
 fn main() {
     divan::main();
