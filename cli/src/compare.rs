@@ -50,6 +50,11 @@ pub(crate) struct Judgement {
     pub(crate) capture_bytes: u64,
 }
 
+/// A PSNR for tables, in dB; a dash where the light meets nothing that was measured.
+pub(crate) fn db(psnr: Option<f64>) -> String {
+    psnr.map_or_else(|| "-".to_owned(), |psnr| format!("{psnr:.1}"))
+}
+
 /// Evaluates all measured pairs.
 pub(crate) fn judge(
     capture: &Capture,

@@ -3,13 +3,10 @@
 use serde_json::{Value, json};
 use subsurf_encoder::rate::{Point, Walked};
 
+use crate::compare::db;
 use crate::encode::coding_name;
 use crate::memory::human;
 use crate::say::say;
-
-fn db(value: Option<f64>) -> String {
-    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}"))
-}
 
 /// One model that was tried.
 pub(crate) fn line(point: &Point) -> String {

@@ -17,7 +17,7 @@ use subsurf_runtime::{Backend, Gpu, Material, PatchLight, PatchRenderer, Region,
 use subsurf_shaders::cpu;
 
 use crate::bench::{Case, markdown, measure};
-use crate::compare::{Judgement, judge};
+use crate::compare::{Judgement, db, judge};
 use crate::devices::{self, BackendArg};
 use crate::encode::encode;
 use crate::failure::bad_request;
@@ -169,7 +169,6 @@ fn quality_table(capture: &Capture, judgements: &[Judgement]) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(out, "| capture | {} | | | |", human(capture.file_bytes()));
     for (name, judgement) in ["per-pixel profiles", "2-BMPP"].iter().zip(judgements) {
-        let db = |psnr: Option<f64>| psnr.map_or("-".to_owned(), |psnr| format!("{psnr:.1}"));
         let [uniform, disc, line] = judgement.psnr_db.map(db);
         let _ = writeln!(
             out,

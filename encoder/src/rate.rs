@@ -4,7 +4,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Coding;
 use subsurf_decoder::bssrdf::layout::MAX_BASE_MATERIALS;
 
-use crate::bssrdf::{Encoded, Options, Problem, file_bytes};
+use crate::bssrdf::{Encoded, Options, Problem, base_materials_within, file_bytes};
 use crate::capture::Capture;
 use crate::error::{Error, Result};
 use crate::metrics;
@@ -119,10 +119,8 @@ impl Walk<'_> {
         let mut smallest = u64::MAX;
         for kind in KINDS {
             smallest = smallest.min(self.bytes(kind, 1)?);
-            let mut base_materials = 0;
-            while base_materials < most && self.bytes(kind, base_materials + 1)? <= limit {
-                base_materials += 1;
-            }
+            let any = self.options(kind, 1);
+            let base_materials = base_materials_within(self.capture, self.samples, &any, limit)?.min(most);
             if base_materials == 0 {
                 continue;
             }

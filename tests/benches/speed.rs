@@ -17,7 +17,7 @@ fn main() {
     divan::main();
 }
 
-/// The prototype of the paper's stone: 96 × 96 pixels, window 25.
+/// Nearly as large as the paper's stone: 96 × 96 pixels, window 25.
 const STONE: Shape =
     Shape { size: [96; 2], radius: 12, samples: 13, base_materials: 128, addressing: Addressing::Clamp };
 /// Its onyx: 229 × 229 pixels, window 39.
@@ -46,7 +46,11 @@ fn capture(shape: &Shape) -> Capture {
     open(&path)
 }
 
-/// What is fitted, by name.
+/// What is fitted.
+const MODELS: [&str; 8] =
+    ["Song", "LSP clusters", "K = 1", "K = 2", "K = 3", "K = 5", "K = 2, 24 bits", "K = 2, 16 bits"];
+
+/// A model by its name.
 fn options(model: &str) -> Options {
     let direct = Options::default();
     let k = |per_pixel| Options { per_pixel, ..direct };
@@ -71,11 +75,7 @@ fn fit(bencher: Bencher<'_, '_>, capture: &Capture, samples: u16, model: &str) {
     });
 }
 
-#[divan::bench(
-    sample_count = 3,
-    sample_size = 1,
-    args = ["Song", "LSP clusters", "K = 1", "K = 2", "K = 3", "K = 5", "K = 2, 24 bits", "K = 2, 16 bits"]
-)]
+#[divan::bench(sample_count = 3, sample_size = 1, args = MODELS)]
 fn encode_96(bencher: Bencher<'_, '_>, model: &str) {
     fit(bencher, &STONE_CAPTURE, STONE.samples, model);
 }
@@ -85,11 +85,7 @@ fn encode_96_baseline(bencher: Bencher<'_, '_>, model: &str) {
     fit(bencher, &STONE_CAPTURE, STONE.samples, model);
 }
 
-#[divan::bench(
-    sample_count = 1,
-    sample_size = 1,
-    args = ["Song", "LSP clusters", "K = 1", "K = 2", "K = 3", "K = 5", "K = 2, 24 bits", "K = 2, 16 bits"]
-)]
+#[divan::bench(sample_count = 1, sample_size = 1, args = MODELS)]
 fn encode_onyx(bencher: Bencher<'_, '_>, model: &str) {
     fit(bencher, &ONYX_CAPTURE, ONYX.samples, model);
 }

@@ -2,6 +2,9 @@
 
 use image::{Rgb, RgbImage};
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
+use subsurf_shaders::cpu::display;
+
+use crate::picture;
 
 /// Relative errors that the two ends of the scale stand for; the scale is logarithmic.
 pub(super) const ERRORS: [f64; 2] = [1e-4, 1e-1];
@@ -21,14 +24,17 @@ pub(super) fn error_map(errors: &[Option<f64>], width: u32) -> RgbImage {
     map(errors, width, |error| error.map_or(NOTHING, |error| colour(place(error))))
 }
 
+/// Shade of a number from 0, black, to 1, white.
+pub(super) fn grey(value: f32) -> Rgb<u8> {
+    Rgb(display([value; 3]))
+}
+
 /// Numbers from 0, black, to 1, white.
 pub(super) fn grey_map(values: &[f32], width: u32) -> RgbImage {
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
-    let grey = |value: f32| (255.0 * value.clamp(0.0, 1.0)).round() as u8;
-    map(values, width, |value| Rgb([grey(value); 3]))
+    map(values, width, grey)
 }
 
 fn map<T: Copy>(values: &[T], width: u32, colour: impl Fn(T) -> Rgb<u8>) -> RgbImage {
-    let height = u32::try_from(values.len()).unwrap_or(0) / width;
-    RgbImage::from_fn(width, height, |x, y| colour(values[(y * width + x) as usize]))
+    let pixels: Vec<[u8; 3]> = values.iter().map(|&value| colour(value).0).collect();
+    picture::image(&pixels, width)
 }

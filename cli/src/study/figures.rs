@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use image::Rgb;
 use plotters::chart::SeriesLabelPosition;
 
+use super::colour::grey;
 use super::page::Study;
 use super::panel::{Bar, Row, panel};
 use super::plots::{Axis, Scale, Series, chart};
@@ -95,22 +95,18 @@ pub(super) fn ratios(study: &Study<'_>, out: &mut String) -> anyhow::Result<()> 
         out.push_str(&chart(&title, &x, &y, &series, &SeriesLabelPosition::UpperRight)?);
     }
     out.push_str("</div>");
-    let grey = |place: f64| {
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
-        let value = (255.0 * place).round() as u8;
-        Rgb([value; 3])
-    };
     let ticks = ["0", "0.5", "1"].map(str::to_owned).into_iter().zip([0.0, 0.5, 1.0]).collect();
-    let bar = Bar { title: "mixture ratio", ticks, colour: grey };
-    let columns: Vec<String> =
-        [3, 5].iter().flat_map(|k| (1..=*k).map(move |rank| format!("K = {k}, #{rank}"))).collect();
+    #[allow(clippy::cast_possible_truncation, reason = "a shade")]
+    let bar = Bar { title: "mixture ratio", ticks, colour: |place| grey(place as f32) };
+    let maps: Vec<(u32, u32)> = [3, 5].into_iter().flat_map(|k| (1..=k).map(move |rank| (k, rank))).collect();
+    let columns: Vec<String> = maps.iter().map(|(k, rank)| format!("K = {k}, #{rank}")).collect();
     let rows: Vec<Row> = study
         .materials
         .iter()
         .map(|material| {
-            let maps = [3, 5].iter().flat_map(|k| (1..=*k).map(move |rank| (k, rank)));
-            let picture = |(k, rank)| study.picture(material, false, &format!("k{k}"), &format!("ratio{rank}"));
-            Row { title: material.clone(), pictures: maps.map(picture).collect() }
+            let picture =
+                |(k, rank): &(u32, u32)| study.picture(material, false, &format!("k{k}"), &format!("ratio{rank}"));
+            Row { title: material.clone(), pictures: maps.iter().map(picture).collect() }
         })
         .collect();
     let _ = write!(out, "<div class=\"wide\">{}</div>", panel(&columns, &rows, study.mm(), Some(&bar)));

@@ -30,8 +30,8 @@ use record::{Record, Subject, capture_name};
 /// Repeat the experiments of Yatagawa et al. 2020 on simulated materials, with and without measurement noise.
 ///
 /// Writes DIR/study.html, a page with tables, curves and pictures that needs nothing beside it, and DIR/study.csv. Captures
-/// and fits are kept in DIR: a study that was interrupted goes on where it was. The whole of it takes about an hour and a
-/// half on two cores, most of it for the paper's own method; the page is there, and grows, after every capture.
+/// and fits are kept in DIR: a study that was interrupted goes on where it was. The whole of it takes about an hour on
+/// two cores, most of it for the paper's own method; the page is there, and grows, after every capture.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The folder

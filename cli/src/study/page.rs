@@ -10,6 +10,7 @@ use super::published::{COMPARED, Published, SIZED, published};
 use super::record::{Record, capture_name, picture_path};
 use super::tables::{claims, other, precision, table};
 use super::{figures, plan};
+use crate::compare::db;
 use crate::memory::human;
 
 /// Everything the page is made from.
@@ -183,7 +184,6 @@ impl Study<'_> {
 
     fn similarity(&self, out: &mut String) {
         out.push_str("<h2>PSNR and SSIM of the lit patch (their table 6)</h2>");
-        let db = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
         for (noisy, title) in self.halves() {
             let _ = write!(out, "<h3>PSNR in dB, uniform light (disc / line), captures {title}</h3>");
             out.push_str(&self.by_material(
@@ -218,8 +218,7 @@ impl Study<'_> {
 
     fn appearance(&self, out: &mut String) {
         out.push_str("<h2>Appearance under three lights, and errors of the albedo (their figures 5 and 9)</h2>");
-        let mut labels = vec!["original", "song", "clusters-equal", "k1", "k1-equal", "k2", "k3", "k5"];
-        labels.extend(self.papers());
+        let labels: Vec<&str> = std::iter::once("original").chain(self.labels_compared()).collect();
         for (noisy, title) in self.halves() {
             for material in self.materials {
                 let _ = write!(out, "<h3>{material}, {title}</h3><div class=\"wide\">");
@@ -255,7 +254,7 @@ impl Study<'_> {
                         format!("M = {}", record.base_materials),
                         human(record.bytes),
                         format!("{:.5}", record.relative_error),
-                        record.psnr_db[0].map_or("-".to_owned(), |db| format!("{db:.1}")),
+                        db(record.psnr_db[0]),
                     ]
                 })
                 .collect();

@@ -9,8 +9,7 @@ use flate2::write::DeflateEncoder;
 use serde::{Deserialize, Serialize};
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Model;
-use subsurf_decoder::bssrdf::layout::MAX_SINGLE_BASE_MATERIALS;
-use subsurf_encoder::bssrdf::{self, Method, Options, file_bytes};
+use subsurf_encoder::bssrdf::{self, Method, Options, base_materials_within, file_bytes};
 use subsurf_encoder::capture::Capture;
 use subsurf_encoder::metrics::Light;
 use subsurf_encoder::write_bytes;
@@ -62,7 +61,7 @@ impl Subject<'_> {
 
     /// The record of a fit: the kept one if it is still the answer, else fits; true if it had to.
     pub(super) fn record(&self, fit: &Fit) -> anyhow::Result<(Record, bool)> {
-        let options = self.settled(fit);
+        let options = self.settled(fit)?;
         let capture = self.capture;
         let shape = [capture.width(), capture.height(), capture.radius()];
         let source = (capture.pitch_mm(), capture.addressing(), capture.eta(), capture.simulated());
@@ -101,16 +100,14 @@ impl Subject<'_> {
     }
 
     /// Options with M settled.
-    fn settled(&self, fit: &Fit) -> Options {
+    fn settled(&self, fit: &Fit) -> anyhow::Result<Options> {
         if !fit.equal_bytes {
-            return fit.options;
+            return Ok(fit.options);
         }
-        let bytes = |options: &Options| file_bytes(self.capture, None, options).unwrap_or(u64::MAX);
-        let limit = bytes(&Options { per_pixel: 2, method: Method::Direct, ..fit.options });
-        let with = |base_materials| Options { base_materials, ..fit.options };
-        let fits = |m: &usize| bytes(&with(*m)) <= limit;
-        let most = MAX_SINGLE_BASE_MATERIALS as usize;
-        with((1..=most).rev().find(fits).unwrap_or(1))
+        let two = Options { per_pixel: 2, method: Method::Direct, ..fit.options };
+        let limit = file_bytes(self.capture, None, &two)?;
+        let base_materials = base_materials_within(self.capture, None, &fit.options, limit)?.max(1);
+        Ok(Options { base_materials, ..fit.options })
     }
 
     /// Small pictures for the page: under every light, the errors, and the sorted ratios, whose means it gives.

@@ -45,11 +45,8 @@ fn least_gain(a: &Record, b: &Record) -> Option<f64> {
 }
 
 /// `a` against `b`: share of its error, and the least gain in PSNR.
-fn better(a: Option<&Record>, b: Option<&Record>) -> String {
-    let (Some(a), Some(b)) = (a, b) else {
-        return "\u{2013}".to_owned();
-    };
-    let Some(gain) = least_gain(a, b) else {
+fn better(a: &Record, b: Option<&Record>) -> String {
+    let Some((b, gain)) = b.and_then(|b| Some((b, least_gain(a, b)?))) else {
         return "\u{2013}".to_owned();
     };
     let share = a.relative_error / b.relative_error;
@@ -87,8 +84,8 @@ pub(super) fn claims(study: &Study<'_>) -> String {
         };
         rows.push(vec![
             format!("{material}{}", if noisy { ", with noise" } else { "" }),
-            better(Some(two), find("paper-k2")),
-            better(Some(two), find("clusters-equal")),
+            better(two, find("paper-k2")),
+            better(two, find("clusters-equal")),
             faster,
             mark(falling, &shown),
             within("k2-small", 0.05),

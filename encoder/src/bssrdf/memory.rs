@@ -4,7 +4,7 @@ use super::field::Field;
 use super::lanes::Lanes;
 use super::normal::{BLOCK_ROWS, BLOCKS_AT_ONCE};
 use super::options::{Method, Options, geometry};
-use super::window::rings;
+use super::window::{Geometry, rings};
 use crate::capture::Capture;
 use crate::error::Result;
 
@@ -26,7 +26,7 @@ pub fn fit_bytes(capture: &Capture, samples: Option<usize>, options: &Options) -
     let song = 2 * field + 5 * profiles;
     // A field, a copy while it is written, and √Rd at every ring with a copy.
     let rings = rings(&geometry).len();
-    let roots = Field::bytes(&super::window::Geometry { nodes: rings, ..geometry }) + geometry.pixels() * rings * lanes;
+    let roots = Field::bytes(&Geometry { nodes: rings, ..geometry }) + geometry.pixels() * rings * lanes;
     let bases = options.base_materials * geometry.nodes * lanes;
     // Costs of all pairs for every border shape that some pixels share.
     let several = matches!(options.method, Method::Direct) && options.per_pixel > 1;

@@ -126,6 +126,29 @@ pub fn file_bytes(capture: &Capture, samples: Option<usize>, options: &Options) 
     Ok(write::file_bytes(&options.header(capture, &geometry), options.half_profiles))
 }
 
+/// The largest M with which the file of a K-BMPP fit takes at most `limit` bytes, by [`file_bytes`]; 0 if none does.
+///
+/// # Errors
+/// As [`file_bytes`].
+pub fn base_materials_within(
+    capture: &Capture,
+    samples: Option<usize>,
+    options: &Options,
+    limit: u64,
+) -> Result<usize> {
+    // Every base material takes bytes: all up to `fits` do, and none from `too_many` on.
+    let (mut fits, mut too_many) = (0, options.most_base_materials() + 1);
+    while fits + 1 < too_many {
+        let base_materials = fits.midpoint(too_many);
+        if file_bytes(capture, samples, &Options { base_materials, ..*options })? <= limit {
+            fits = base_materials;
+        } else {
+            too_many = base_materials;
+        }
+    }
+    Ok(fits)
+}
+
 /// Fits a capture once.
 ///
 /// # Errors

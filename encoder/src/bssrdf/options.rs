@@ -62,6 +62,11 @@ impl Options {
         }
     }
 
+    /// The largest M that a file of this K holds.
+    pub(super) fn most_base_materials(&self) -> usize {
+        if self.model() == 1 { MAX_SINGLE_BASE_MATERIALS as usize } else { MAX_BASE_MATERIALS as usize }
+    }
+
     /// Whether a file can hold what is asked for.
     pub(super) fn check(&self) -> Result<()> {
         let model = self.model();
@@ -77,7 +82,7 @@ impl Options {
         if self.half_profiles && model == 0 {
             return refuse("profiles of every pixel are stored in single precision only".to_owned());
         }
-        let limit = if model == 1 { MAX_SINGLE_BASE_MATERIALS } else { MAX_BASE_MATERIALS } as usize;
+        let limit = self.most_base_materials();
         if !(1..=limit).contains(&self.base_materials) {
             return refuse(format!("{} base materials; a file holds 1 to {limit}", self.base_materials));
         }

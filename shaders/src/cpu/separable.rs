@@ -1,7 +1,5 @@
 //! Twin of the separable passes on a flat patch.
 
-#![allow(clippy::cast_possible_truncation, reason = "results in double precision are kept in single; counts are small")]
-
 use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Header;
 
@@ -48,42 +46,25 @@ fn multiply(a: Rgb, b: Rgb) -> Rgb {
 fn blur(image: &[Rgb], header: &Header, sigma: f32) -> Vec<Rgb> {
     let [width, height] = [header.width, header.height];
     let taps = taps(sigma);
-    let across = pass(
-        image,
-        width,
-        |x, y, k| {
-            let column = header.addressing.map(x.cast_signed() + k, width);
-            (y * width + column) as usize
-        },
-        &taps,
-    );
-    pass(
-        &across,
-        width,
-        |x, y, k| {
-            let row = header.addressing.map(y.cast_signed() + k, height);
-            (row * width + x) as usize
-        },
-        &taps,
-    )
+    let beside = |x: u32, k: i32, n: u32| header.addressing.map(x.cast_signed() + k, n);
+    let across = pass([width, height], &taps, |x, y, k| image[(y * width + beside(x, k, width)) as usize]);
+    pass([width, height], &taps, |x, y, k| across[(beside(y, k, height) * width + x) as usize])
 }
 
-fn pass(image: &[Rgb], width: u32, at: impl Fn(u32, u32, i32) -> usize + Sync, taps: &[(i32, f32)]) -> Vec<Rgb> {
-    let rows = image.par_chunks(width as usize).zip(0_u32..image.len() as u32 / width);
-    let rows = rows.flat_map_iter(|(_, y)| {
-        let at = &at;
-        (0..width).map(move |x| {
-            let mut sum = [0.0; 3];
-            for &(k, weight) in taps {
-                let value = image[at(x, y, k)];
-                for c in 0..3 {
-                    sum[c] += weight * value[c];
-                }
+/// Weighted sums of what lies `k` pixels from every pixel.
+fn pass([width, height]: [u32; 2], taps: &[(i32, f32)], at: impl Fn(u32, u32, i32) -> Rgb + Sync) -> Vec<Rgb> {
+    let sum = |x, y| {
+        let mut sum = [0.0; 3];
+        for &(k, weight) in taps {
+            let value = at(x, y, k);
+            for c in 0..3 {
+                sum[c] += weight * value[c];
             }
-            sum
-        })
-    });
-    rows.collect()
+        }
+        sum
+    };
+    let sum = &sum;
+    (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| sum(x, y))).collect()
 }
 
 /// Offsets and weights of a Gaussian, of sum 1.

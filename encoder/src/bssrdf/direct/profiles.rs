@@ -120,7 +120,7 @@ fn regulariser(nodes: usize) -> Banded {
 
 /// Every base's own block of the matrix, pairs of pixels left out: Σ_i u_ib² A_i + λ_reg R.
 fn preconditioners(normal: &Normal, model: &Model) -> Vec<Factored> {
-    let mut blocks = vec![regulariser(model.nodes); model.bases.len() / model.nodes];
+    let mut blocks = vec![regulariser(model.nodes); model.count()];
     for pixel in 0..model.mixtures.len() {
         for (base, t) in model.parts(pixel) {
             blocks[base].add_scaled(t * t, &normal.matrix(pixel).all);
