@@ -244,8 +244,10 @@ pub(crate) fn draw_patch(
                 }
                 PathArg::Separable => {
                     let uploaded = SeparableMaterial::upload(gpu, &Factors::of(material, Detail::default()))?;
-                    let exitance = SeparableRenderer::new(gpu)?.exitance(gpu, &uploaded, &light)?;
-                    (exitance, uploaded.gpu_bytes())
+                    let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
+                    let patch = renderer.prepare(gpu, &uploaded, &light)?;
+                    renderer.draw(gpu, &patch)?;
+                    (patch.into_exitance(), uploaded.gpu_bytes())
                 }
             };
             let exposure = match exposure {

@@ -2,8 +2,10 @@
 //!
 //! Everything keeps within `Limits::downlevel_webgl2_defaults()`: no compute, no storage buffers, tables in textures.
 
+mod cascade;
 mod context;
 mod error;
+mod factors;
 mod ledger;
 mod material;
 mod mesh_renderer;
@@ -15,9 +17,10 @@ mod separable;
 
 pub use context::{Backend, Gpu, devices};
 pub use error::{Error, Result};
+pub use factors::SeparableMaterial;
 pub use ledger::Ledger;
 pub use material::{Material, storage_of};
 pub use mesh_renderer::{BACKGROUND, GpuMesh, MeshExitance, MeshLight, MeshRenderer, View};
 pub use patch::{Exitance, PatchLight, PatchRenderer, Region};
-pub use separable::{SeparableMaterial, SeparableRenderer};
+pub use separable::{HomogeneousPatch, HomogeneousRenderer, SeparablePatch, SeparableRenderer};
 pub use subsurf_shaders::Storage;

@@ -8,7 +8,7 @@ use subsurf_shaders::{Storage, source, uniform};
 use wgpu::{
     BindGroupLayout, BindingResource, Buffer, BufferUsages, Color, ColorTargetState, ColorWrites,
     CommandEncoderDescriptor, CompareFunction, DepthStencilState, FragmentState, IndexFormat, LoadOp, MultisampleState,
-    Operations, PipelineLayoutDescriptor, PrimitiveState, RenderPassColorAttachment, RenderPassDepthStencilAttachment,
+    Operations, PipelineLayoutDescriptor, PrimitiveState, RenderPassDepthStencilAttachment,
     RenderPassDescriptor, RenderPipeline, RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp,
     TextureFormat, TextureUsages, VertexBufferLayout, VertexState, VertexStepMode, vertex_attr_array,
 };
@@ -17,7 +17,7 @@ use crate::context::Gpu;
 use crate::error::{Error, Result};
 use crate::ledger::Tracked;
 use crate::material::{Material, slots};
-use crate::pass::{CoverPass, Rows, bind, bind_group_layouts};
+use crate::pass::{CoverPass, Rows, attachment, bind, bind_group_layouts};
 use crate::resource::{ROW, Slot, Surface2d, TextureSpec, array_size};
 use crate::scene::{Mesh, Surface};
 
@@ -144,7 +144,7 @@ impl MeshRenderer {
         let of_points = [Slot::Uniform, Slot::Float, Slot::Uint, Slot::Uint, Slot::Float];
         let of_light: [&[Slot]; 1] = [&[Slot::Uniform, Slot::Float]];
         let shade_group = bind_group_layouts(gpu, &of_light).remove(0);
-        let half = TextureFormat::Rgba16Float;
+        let half = &[TextureFormat::Rgba16Float];
         Ok(Self {
             storage,
             irradiance: CoverPass::new(gpu, source::IRRADIANCE, "irradiance", &of_light, half)?,
@@ -167,8 +167,7 @@ impl MeshRenderer {
         let block = gpu.uniform("light", &light.block(material.header().eta));
         let group = [block.as_entire_binding(), BindingResource::TextureView(&mesh.normals.view)];
         let group = self.irradiance.bind(gpu, 0, &group)?;
-        let all = Rows { width: size[0], first: 0, count: size[1] };
-        self.irradiance.draw(gpu, &irradiance.view, &[&group], all)?;
+        self.irradiance.draw(gpu, &irradiance.view, &[&group], Rows::all(size))?;
 
         let exitance = target("exitance")?;
         let of_material = self.gather.bind(gpu, 0, &material.resources())?;
@@ -211,15 +210,10 @@ impl MeshRenderer {
             let grey = f64::from(BACKGROUND) / 255.0;
             let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
                 label: Some("shade"),
-                color_attachments: &[Some(RenderPassColorAttachment {
-                    view: &colour.view,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: Operations {
-                        load: LoadOp::Clear(Color { r: grey, g: grey, b: grey, a: 1.0 }),
-                        store: StoreOp::Store,
-                    },
-                })],
+                color_attachments: &[Some(attachment(
+                    &colour.view,
+                    LoadOp::Clear(Color { r: grey, g: grey, b: grey, a: 1.0 }),
+                ))],
                 depth_stencil_attachment: Some(RenderPassDepthStencilAttachment {
                     view: &depth.view,
                     depth_ops: Some(Operations { load: LoadOp::Clear(1.0), store: StoreOp::Discard }),

@@ -1,8 +1,8 @@
 //! Pipelines: one shader, its bind groups, one target.
 
 use wgpu::{
-    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindingResource,
-    ColorTargetState, ColorWrites, CommandEncoderDescriptor, FragmentState, LoadOp, MultisampleState, Operations,
+    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindingResource, Color,
+    ColorTargetState, CommandEncoder, CommandEncoderDescriptor, FragmentState, LoadOp, MultisampleState, Operations,
     PipelineLayoutDescriptor, PrimitiveState, RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline,
     RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp, TextureFormat, TextureView, VertexState,
 };
@@ -19,13 +19,14 @@ pub(crate) struct CoverPass {
 }
 
 impl CoverPass {
-    /// Builds the pipeline of a shader with the entry points `cover` and `fragment`, and bind groups of these slots.
+    /// Builds the pipeline of a shader with the entry points `cover` and `fragment`, bind groups of these slots, and
+    /// targets of these formats.
     pub(crate) fn new(
         gpu: &Gpu,
         shader: &str,
         fragment: &str,
         groups: &[&[Slot]],
-        target: TextureFormat,
+        targets: &[TextureFormat],
     ) -> Result<Self> {
         gpu.checked(|| {
             let groups = bind_group_layouts(gpu, groups);
@@ -34,6 +35,7 @@ impl CoverPass {
                 source: ShaderSource::Wgsl(shader.into()),
             });
             let bind_group_layouts: Vec<Option<&BindGroupLayout>> = groups.iter().map(Some).collect();
+            let targets: Vec<Option<ColorTargetState>> = targets.iter().map(|format| Some((*format).into())).collect();
             let layout = gpu.device.create_pipeline_layout(&PipelineLayoutDescriptor {
                 label: Some(fragment),
                 bind_group_layouts: &bind_group_layouts,
@@ -55,7 +57,7 @@ impl CoverPass {
                     module: &module,
                     entry_point: Some(fragment),
                     compilation_options: Default::default(),
-                    targets: &[Some(ColorTargetState { format: target, blend: None, write_mask: ColorWrites::ALL })],
+                    targets: &targets,
                 }),
                 multiview_mask: None,
                 cache: None,
@@ -69,32 +71,50 @@ impl CoverPass {
         bind(gpu, &self.groups[group], resources)
     }
 
-    /// Draws `rows` rows of the target from `first` on, and hands them to the device.
+    /// Draws `rows` rows of the targets from `first` on.
+    pub(crate) fn record(
+        &self,
+        encoder: &mut CommandEncoder,
+        targets: &[&TextureView],
+        groups: &[&BindGroup],
+        rows: Rows,
+    ) {
+        // What stood there before is only wanted by bands after the first: loading it costs a tiler dearly.
+        let load = if rows.first == 0 { LoadOp::Clear(Color::TRANSPARENT) } else { LoadOp::Load };
+        let attachments: Vec<_> = targets.iter().map(|view| Some(attachment(view, load))).collect();
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: None,
+            color_attachments: &attachments,
+            depth_stencil_attachment: None,
+            timestamp_writes: None,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pass.set_pipeline(&self.pipeline);
+        for (group, index) in groups.iter().zip(0..) {
+            pass.set_bind_group(index, *group, &[]);
+        }
+        pass.set_scissor_rect(0, rows.first, rows.width, rows.count);
+        pass.draw(0..3, 0..1);
+    }
+
+    /// The same on one target, handed to the device.
     pub(crate) fn draw(&self, gpu: &Gpu, target: &TextureView, groups: &[&BindGroup], rows: Rows) -> Result<()> {
         gpu.checked(|| {
             let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-            let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
-                label: None,
-                color_attachments: &[Some(RenderPassColorAttachment {
-                    view: target,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: Operations { load: LoadOp::Load, store: StoreOp::Store },
-                })],
-                depth_stencil_attachment: None,
-                timestamp_writes: None,
-                occlusion_query_set: None,
-                multiview_mask: None,
-            });
-            pass.set_pipeline(&self.pipeline);
-            for (index, group) in groups.iter().enumerate() {
-                pass.set_bind_group(u32::try_from(index).unwrap_or(0), *group, &[]);
-            }
-            pass.set_scissor_rect(0, rows.first, rows.width, rows.count);
-            pass.draw(0..3, 0..1);
-            drop(pass);
+            self.record(&mut encoder, &[target], groups, rows);
             gpu.queue.submit([encoder.finish()]);
         })
+    }
+}
+
+/// A colour target that is kept.
+pub(crate) fn attachment<'a>(view: &'a TextureView, load: LoadOp<Color>) -> RenderPassColorAttachment<'a> {
+    RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: Operations { load, store: StoreOp::Store },
     }
 }
 
@@ -107,6 +127,11 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
+    /// All of a target of `size`.
+    pub(crate) fn all(size: [u32; 2]) -> Self {
+        Self { width: size[0], first: 0, count: size[1] }
+    }
+
     /// All of a target of `size`, in bands of at most `work_per_row` · rows ≈ 2²⁸ steps of a loop each: one submission
     /// that runs for seconds trips a driver's watchdog.
     pub(crate) fn bands(size: [u32; 2], work_per_row: u64) -> impl Iterator<Item = Self> {

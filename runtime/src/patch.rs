@@ -47,8 +47,8 @@ impl PatchRenderer {
         let present_groups: [&[Slot]; 1] = [&[Slot::Uniform, Slot::Float]];
         Ok(Self {
             storage,
-            gather: CoverPass::new(gpu, source::gather(storage), "gather", &gather_groups, TextureFormat::Rgba16Float)?,
-            present: CoverPass::new(gpu, source::PRESENT, "present", &present_groups, TextureFormat::Rgba8Unorm)?,
+            gather: CoverPass::new(gpu, source::gather(storage), "gather", &gather_groups, &[TextureFormat::Rgba16Float])?,
+            present: CoverPass::new(gpu, source::PRESENT, "present", &present_groups, &[TextureFormat::Rgba8Unorm])?,
         })
     }
 
@@ -81,8 +81,7 @@ impl PatchRenderer {
         let frame = gpu.uniform("frame", &frame);
         let resources = [frame.as_entire_binding(), BindingResource::TextureView(&exitance.surface.view)];
         let group = self.present.bind(gpu, 0, &resources)?;
-        let all = Rows { width: size[0], first: 0, count: size[1] };
-        self.present.draw(gpu, &target.view, &[&group], all)?;
+        self.present.draw(gpu, &target.view, &[&group], Rows::all(size))?;
         let texels: Vec<[u8; 4]> = gpu.read(&target.texture)?;
         Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect())
     }
@@ -107,6 +106,10 @@ impl PatchLight {
 impl Exitance {
     pub(crate) fn new(surface: Surface2d, size: [u32; 2]) -> Self {
         Self { surface, size }
+    }
+
+    pub(crate) fn view(&self) -> &TextureView {
+        &self.surface.view
     }
 
     /// Reads it back, linear rgb, row by row.

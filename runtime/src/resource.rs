@@ -5,7 +5,7 @@ use half::f16;
 use wgpu::util::DeviceExt;
 use wgpu::{
     BindGroupLayoutEntry, BindingType, Buffer, BufferBindingType, BufferUsages, CommandEncoderDescriptor, Extent3d,
-    ShaderStages, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture, TextureDescriptor, TextureDimension,
+    SamplerBindingType, ShaderStages, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture, TextureDescriptor, TextureDimension,
     TextureFormat, TextureSampleType, TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
 };
 
@@ -22,6 +22,8 @@ pub(crate) struct TextureSpec {
     pub(crate) size: [u32; 2],
     /// More than one makes an array.
     pub(crate) layers: u32,
+    /// Levels, each half as large as the one before.
+    pub(crate) levels: u32,
     pub(crate) format: TextureFormat,
     pub(crate) usage: TextureUsages,
 }
@@ -29,13 +31,13 @@ pub(crate) struct TextureSpec {
 impl TextureSpec {
     /// A texture that is written from the CPU and read by shaders.
     pub(crate) fn table(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
-        Self { label, size, layers: 1, format, usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST }
+        Self { label, size, layers: 1, levels: 1, format, usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST }
     }
 
     /// A texture that shaders write and read, and that can be read back.
     pub(crate) fn target(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
-        Self { label, size, layers: 1, format, usage }
+        Self { label, size, layers: 1, levels: 1, format, usage }
     }
 
     /// Layers of a table, at least as many as asked for.
@@ -53,9 +55,10 @@ impl TextureSpec {
         Self::table(label, array_size(len), format)
     }
 
-    fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         let texel = u64::from(self.format.block_copy_size(None).unwrap_or(4));
-        u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(self.layers) * texel
+        let texels = |level: u32| self.size.map(|side| u64::from((side >> level).max(1))).iter().product::<u64>();
+        (0..self.levels).map(texels).sum::<u64>() * u64::from(self.layers) * texel
     }
 }
 
@@ -70,6 +73,17 @@ pub(crate) fn array_size(len: usize) -> [u32; 2] {
 pub(crate) struct Surface2d {
     pub(crate) texture: Tracked<Texture>,
     pub(crate) view: TextureView,
+}
+
+/// One layer, to be drawn to.
+pub(crate) fn layer_of(surface: &Surface2d, layer: u32) -> TextureView {
+    surface.texture.create_view(&TextureViewDescriptor {
+        dimension: Some(TextureViewDimension::D2),
+        base_array_layer: layer,
+        array_layer_count: Some(1),
+        mip_level_count: Some(1),
+        ..Default::default()
+    })
 }
 
 impl Gpu {
@@ -89,7 +103,7 @@ impl Gpu {
             self.device.create_texture(&TextureDescriptor {
                 label: Some(spec.label),
                 size: extent(spec.size, spec.layers),
-                mip_level_count: 1,
+                mip_level_count: spec.levels,
                 sample_count: 1,
                 dimension: TextureDimension::D2,
                 format: spec.format,
@@ -103,15 +117,21 @@ impl Gpu {
 
     /// Fills whole rows of one layer from `bytes`; what is missing of the last row is left alone.
     pub(crate) fn fill(&self, texture: &Texture, layer: u32, bytes: &[u8]) {
+        self.fill_level(texture, layer, 0, bytes);
+    }
+
+    /// The same on a level of a layer.
+    pub(crate) fn fill_level(&self, texture: &Texture, layer: u32, mip_level: u32, bytes: &[u8]) {
         let texel = texture.format().block_copy_size(None).unwrap_or(4);
-        let row = (texture.width() * texel) as usize;
+        let columns = (texture.width() >> mip_level).max(1);
+        let row = (columns * texel) as usize;
         let (whole, part) = bytes.split_at(bytes.len() / row * row);
         let rows = u32::try_from(whole.len() / row).unwrap_or(u32::MAX);
         let rest = u32::try_from(part.len()).unwrap_or(0) / texel;
-        for (bytes, y, width, height) in [(whole, 0, texture.width(), rows), (part, rows, rest, 1)] {
+        for (bytes, y, width, height) in [(whole, 0, columns, rows), (part, rows, rest, 1)] {
             if width > 0 && height > 0 {
-                let mut to = texture.as_image_copy();
-                to.origin = wgpu::Origin3d { x: 0, y, z: layer };
+                let origin = wgpu::Origin3d { x: 0, y, z: layer };
+                let to = wgpu::TexelCopyTextureInfo { origin, mip_level, ..texture.as_image_copy() };
                 let layout = TexelCopyBufferLayout {
                     offset: 0,
                     bytes_per_row: Some(width * texel),
@@ -222,6 +242,12 @@ pub(crate) enum Slot {
     Float,
     /// Layers of one.
     FloatLayers,
+    /// A float texture that is filtered.
+    Filtered,
+    /// Layers of one.
+    FilteredLayers,
+    /// What filters them.
+    Sampler,
     /// An unsigned integer texture.
     Uint,
     /// Layers of one.
@@ -233,6 +259,7 @@ pub(crate) fn layout_entries(slots: &[Slot]) -> Vec<BindGroupLayoutEntry> {
     let texture =
         |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };
     let unfiltered = TextureSampleType::Float { filterable: false };
+    let filtered = TextureSampleType::Float { filterable: true };
     let bindings = slots.iter().zip(0..);
     bindings
         .map(|(slot, binding)| BindGroupLayoutEntry {
@@ -246,6 +273,9 @@ pub(crate) fn layout_entries(slots: &[Slot]) -> Vec<BindGroupLayoutEntry> {
                 },
                 Slot::Float => texture(unfiltered, TextureViewDimension::D2),
                 Slot::FloatLayers => texture(unfiltered, TextureViewDimension::D2Array),
+                Slot::Filtered => texture(filtered, TextureViewDimension::D2),
+                Slot::FilteredLayers => texture(filtered, TextureViewDimension::D2Array),
+                Slot::Sampler => BindingType::Sampler(SamplerBindingType::Filtering),
                 Slot::Uint => texture(TextureSampleType::Uint, TextureViewDimension::D2),
                 Slot::UintLayers => texture(TextureSampleType::Uint, TextureViewDimension::D2Array),
             },

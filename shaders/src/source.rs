@@ -1,5 +1,7 @@
 //! The passes, as WGSL text.
 
+use crate::separable::MAX_TERMS;
+
 /// How a material's reflectance is stored on the device; each has the functions `load_pixel`, `partner_at` and
 /// `reflectance`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,14 +76,61 @@ pub const IRRADIANCE: &str = concat!(
     include_str!("../wgsl/irradiance.wgsl")
 );
 
-/// One weighted irradiance map of the separable path; entry points `cover` and `weigh`.
-pub const WEIGH: &str = concat!(include_str!("../wgsl/cover.wgsl"), include_str!("../wgsl/weigh.wgsl"));
+/// Files one after another, what says how many weighted maps there are first.
+macro_rules! with_terms {
+    ($terms:expr, $($part:literal),+) => {
+        match $terms {
+            1 => concat!(include_str!("../wgsl/terms_1.wgsl"), $(include_str!(concat!("../wgsl/", $part))),+),
+            _ => concat!(include_str!("../wgsl/terms_2.wgsl"), $(include_str!(concat!("../wgsl/", $part))),+),
+        }
+    };
+}
 
-/// A Gaussian along one axis; entry points `cover` and `blur`.
-pub const BLUR: &str = concat!(include_str!("../wgsl/cover.wgsl"), include_str!("../wgsl/blur.wgsl"));
+/// L weighted irradiance maps of a flat patch; entry points `cover` and `weigh`.
+#[must_use]
+pub const fn weigh(terms: usize) -> &'static str {
+    with_terms!(terms, "cover.wgsl", "weigh.wgsl")
+}
 
-/// Exitance from blurred maps; entry points `cover` and `combine`.
-pub const COMBINE: &str = concat!(include_str!("../wgsl/cover.wgsl"), include_str!("../wgsl/combine.wgsl"));
+/// Where maps lie that are blurred.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Domain {
+    /// On a flat patch.
+    Patch,
+    /// On the screen.
+    Screen,
+}
+
+/// One stage of the cascade along rows; entry points `cover` and `blur`.
+#[must_use]
+pub const fn blur_rows(domain: Domain, terms: usize) -> &'static str {
+    match domain {
+        Domain::Patch => with_terms!(terms, "cover.wgsl", "on_patch.wgsl", "blur.wgsl", "blur_rows.wgsl"),
+        Domain::Screen => with_terms!(terms, "cover.wgsl", "on_screen.wgsl", "blur.wgsl", "blur_rows.wgsl"),
+    }
+}
+
+/// The same along columns, and the sum of the stages; entry points `cover` and `blur`.
+#[must_use]
+pub const fn blur_columns(domain: Domain, terms: usize) -> &'static str {
+    match domain {
+        Domain::Patch => with_terms!(terms, "cover.wgsl", "on_patch.wgsl", "blur.wgsl", "blur_columns.wgsl"),
+        Domain::Screen => with_terms!(terms, "cover.wgsl", "on_screen.wgsl", "blur.wgsl", "blur_columns.wgsl"),
+    }
+}
+
+/// Exitance of a flat patch from the sums; entry points `cover` and `combine`.
+#[must_use]
+pub const fn combine(terms: usize) -> &'static str {
+    with_terms!(terms, "cover.wgsl", "combine.wgsl")
+}
+
+/// One kernel for a whole patch, along one axis; entry points `cover` and `homogeneous`.
+pub const HOMOGENEOUS: &str = concat!(
+    include_str!("../wgsl/cover.wgsl"),
+    include_str!("../wgsl/on_patch.wgsl"),
+    include_str!("../wgsl/homogeneous.wgsl")
+);
 
 /// Picture of a mesh; entry points `project` and `shade`.
 pub const SHADE: &str = concat!(
@@ -103,7 +152,17 @@ pub fn all() -> Vec<(String, &'static str)> {
     let gathers = Storage::ALL.into_iter().map(|storage| (format!("gather, {storage:?}"), gather(storage)));
     let fitted = Storage::ALL.into_iter().filter(|storage| *storage != Storage::Capture);
     let on_surfaces = fitted.map(|storage| (format!("surface gather, {storage:?}"), surface_gather(storage)));
-    let separable = [("weigh", WEIGH), ("blur", BLUR), ("combine", COMBINE)];
-    let others = [("irradiance", IRRADIANCE), ("shade", SHADE), ("present", PRESENT)].into_iter().chain(separable);
-    gathers.chain(on_surfaces).chain(others.map(|(name, text)| (name.to_owned(), text))).collect()
+    let separable = (1..=MAX_TERMS).flat_map(|terms| {
+        let of_domain = |domain| {
+            [
+                (format!("blur rows, {domain:?}, L = {terms}"), blur_rows(domain, terms)),
+                (format!("blur columns, {domain:?}, L = {terms}"), blur_columns(domain, terms)),
+            ]
+        };
+        let flat = [(format!("weigh, L = {terms}"), weigh(terms)), (format!("combine, L = {terms}"), combine(terms))];
+        flat.into_iter().chain(of_domain(Domain::Patch)).chain(of_domain(Domain::Screen))
+    });
+    let others = [("irradiance", IRRADIANCE), ("shade", SHADE), ("present", PRESENT), ("homogeneous", HOMOGENEOUS)];
+    let others = others.into_iter().map(|(name, text)| (name.to_owned(), text));
+    gathers.chain(on_surfaces).chain(separable).chain(others).collect()
 }

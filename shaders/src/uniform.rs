@@ -3,7 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use subsurf_decoder::bssrdf::Header;
 
-use crate::separable::Factors;
+use crate::cpu::Rgb;
+use crate::separable::{self, Factors, MAX_TERMS};
 
 /// `Material` of `material.wgsl`.
 #[repr(C)]
@@ -127,79 +128,123 @@ pub struct Camera {
     pub pad_1: u32,
 }
 
-/// `Term` of `weigh.wgsl`.
+/// `Stage` of `blur.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Term {
-    /// l.
-    pub layer: u32,
-    #[doc(hidden)]
-    pub pad: [u32; 3],
-}
-
-/// `Blur` of `blur.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Blur {
-    /// Pixels of the patch.
-    pub size: [u32; 2],
+pub struct Stage {
+    /// w_lma pitch² of this stage's a; shape `[l][m]`, rgb.
+    pub weights: [[f32; 4]; MAX_TERMS * MAX_TERMS],
     /// (1, 0) or (0, 1).
     pub axis: [i32; 2],
-    /// Standard deviation in pixels.
+    /// Standard deviation on a flat patch, in pixels.
     pub sigma: f32,
-    /// Pixels to both sides.
-    pub reach: i32,
+    /// Pixels from one tap to the next on a flat patch.
+    pub stride: i32,
+    /// Taps to each side on a flat patch.
+    pub taps: i32,
+    /// Standard deviation of the stage anywhere else, in pixels of the material.
+    pub step: f32,
+    /// Distance of taps that what is blurred already allows, in pixels of the material.
+    pub sparse: f32,
+    /// 0 for the first stage.
+    pub begun: u32,
+}
+
+impl Stage {
+    /// The blocks of all stages of a factorised material, along rows and along columns.
+    #[must_use]
+    pub fn cascade(factors: &Factors) -> Vec<[Self; 2]> {
+        let area = factors.header.pitch_mm * factors.header.pitch_mm;
+        let terms = factors.detail.terms;
+        let stages = separable::Stage::cascade(&factors.sigmas);
+        let blocks = stages.iter().enumerate().map(|(a, stage)| {
+            let mut weights = [[0.0; 4]; MAX_TERMS * MAX_TERMS];
+            for (l, m) in (0..terms).flat_map(|l| (0..terms).map(move |m| (l, m))) {
+                let [r, g, b] = factors.weights_of(l, m)[a].map(|weight| weight * area);
+                weights[l * MAX_TERMS + m] = [r, g, b, 0.0];
+            }
+            [[1, 0], [0, 1]].map(|axis| Self {
+                weights,
+                axis,
+                sigma: stage.sigma,
+                stride: stage.stride,
+                taps: stage.taps,
+                step: stage.step,
+                sparse: stage.sparse,
+                begun: u32::from(a > 0),
+            })
+        });
+        blocks.collect()
+    }
+}
+
+/// `Domain` of `on_patch.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct PatchDomain {
+    /// Pixels of the patch.
+    pub size: [u32; 2],
     /// 0 clamp, 1 repeat, 2 mirror.
     pub addressing: u32,
     #[doc(hidden)]
     pub pad: u32,
 }
 
-impl Blur {
-    /// The block for a patch, a width and an axis.
+impl PatchDomain {
+    /// The block for a patch.
     #[must_use]
-    pub fn new(header: &Header, sigma: f32, axis: [i32; 2]) -> Self {
-        let size = [header.width, header.height];
-        Self { size, axis, sigma, reach: reach(sigma), addressing: header.addressing.code().into(), pad: 0 }
+    pub fn new(header: &Header) -> Self {
+        Self { size: [header.width, header.height], addressing: header.addressing.code().into(), pad: 0 }
     }
 }
 
-/// Pixels to both sides beyond which a Gaussian is nothing.
-#[must_use]
-pub fn reach(sigma: f32) -> i32 {
-    #[allow(clippy::cast_possible_truncation, reason = "saturates, and windows are small")]
-    let reach = (4.0 * sigma).ceil() as i32;
-    reach
-}
-
-/// Most weights that `combine.wgsl` takes.
-pub const MAX_WEIGHTS: usize = 128;
-
-/// `Combine` of `combine.wgsl`.
+/// `Domain` of `on_screen.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Combine {
-    /// w_lma pitch².
-    pub weights: [[f32; 4]; MAX_WEIGHTS],
-    /// L.
-    pub terms: u32,
-    /// A.
-    pub gaussians: u32,
+pub struct ScreenDomain {
+    /// Texels of the maps.
+    pub size: [u32; 2],
+    /// Texels that a pixel of the material covers at a distance of 1 mm.
+    pub focal_texels: f32,
+    /// Distance from the eye to depth 0.
+    pub middle_mm: f32,
+    /// Pixel of the material.
+    pub pitch_mm: f32,
     #[doc(hidden)]
-    pub pad: [u32; 2],
+    pub pad: [u32; 3],
 }
 
-impl Combine {
-    /// The block for a factorised material.
+/// Most taps to one side of `homogeneous.wgsl`, the middle one counted.
+pub const MAX_KERNEL: usize = 64;
+
+/// `Stage` of `homogeneous.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Kernel {
+    /// Weights at 0, 1, 2 ... pixels to either side; rgb.
+    pub kernel: [[f32; 4]; MAX_KERNEL],
+    /// (1, 0) or (0, 1).
+    pub axis: [i32; 2],
+    /// Pixels from one tap to the next.
+    pub stride: i32,
+    /// Taps to each side.
+    pub taps: i32,
+    #[doc(hidden)]
+    pub sigma: f32,
+    #[doc(hidden)]
+    pub pad: [u32; 3],
+}
+
+impl Kernel {
+    /// The blocks along rows and along columns for weights at 0, 1, 2 ... pixels.
     #[must_use]
-    pub fn new(factors: &Factors) -> Self {
-        let small = |n: usize| u32::try_from(n).unwrap_or(0);
-        let area = factors.header.pitch_mm * factors.header.pitch_mm;
-        let mut weights = [[0.0; 4]; MAX_WEIGHTS];
-        for (block, [r, g, b]) in weights.iter_mut().zip(&factors.weights) {
-            *block = [r * area, g * area, b * area, 0.0];
+    pub fn new(weights: &[Rgb]) -> [Self; 2] {
+        let mut kernel = [[0.0; 4]; MAX_KERNEL];
+        for (block, [r, g, b]) in kernel.iter_mut().zip(weights) {
+            *block = [*r, *g, *b, 0.0];
         }
-        Self { weights, terms: small(factors.detail.terms), gaussians: small(factors.detail.gaussians), pad: [0; 2] }
+        let taps = i32::try_from(weights.len().clamp(1, MAX_KERNEL) - 1).unwrap_or(0);
+        [[1, 0], [0, 1]].map(|axis| Self { kernel, axis, stride: 1, taps, sigma: 1.0, pad: [0; 3] })
     }
 }
 

@@ -135,12 +135,23 @@ fn texture_loads_are_accounted_for() {
             ("surface gather, Three", 9),
             ("surface gather, Five", 9),
             ("surface gather, PerPixel", 9),
+            // At the target's own texel; taps clamped or wrapped to the size of the maps.
+            ("weigh, L = 1", 2),
+            ("combine, L = 1", 2),
+            ("blur rows, Patch, L = 1", 3),
+            ("blur columns, Patch, L = 1", 4),
+            ("blur rows, Screen, L = 1", 3),
+            ("blur columns, Screen, L = 1", 4),
+            ("weigh, L = 2", 2),
+            ("combine, L = 2", 2),
+            ("blur rows, Patch, L = 2", 3),
+            ("blur columns, Patch, L = 2", 4),
+            ("blur rows, Screen, L = 2", 3),
+            ("blur columns, Screen, L = 2", 4),
             ("irradiance", 1),
             ("shade", 1),
             ("present", 1),
-            ("weigh", 2),
-            ("blur", 1),
-            ("combine", 2),
+            ("homogeneous", 1),
         ]
     );
 }

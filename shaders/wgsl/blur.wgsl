@@ -1,47 +1,51 @@
-// Convolution with a Gaussian of sum 1 along one axis.
+// One stage of the cascade of Gaussians, along one axis, of all maps at once.
 
-struct Blur {
-    // Pixels of the patch.
-    size: vec2<u32>,
+struct Stage {
+    // w_lma pitch^2 of this stage's a, shape [l][m]; rgb.
+    weights: array<vec4<f32>, 4>,
     // (1, 0) or (0, 1).
     axis: vec2<i32>,
-    // Standard deviation in pixels.
+    // Standard deviation and distance of taps on a flat patch, in pixels; taps to each side.
     sigma: f32,
-    // Pixels to both sides.
-    reach: i32,
-    // 0 clamp, 1 repeat, 2 mirror.
-    addressing: u32,
-    pad: u32,
+    stride: i32,
+    taps: i32,
+    // Anywhere else: standard deviation of this stage, and distance of taps that what is blurred already allows, in pixels
+    // of the material.
+    step: f32,
+    sparse: f32,
+    // 0 for the first stage: there is no sum yet.
+    begun: u32,
 }
 
-@group(0) @binding(0) var<uniform> settings: Blur;
-@group(0) @binding(1) var image: texture_2d<f32>;
+@group(0) @binding(0) var<uniform> stage: Stage;
+// c_l E, blurred by the stages before; in the fourth place what the domain wants to know of a texel.
+@group(0) @binding(2) var maps: texture_2d_array<f32>;
 
-// The pixel that a coordinate names. Steps beyond the border may be longer than the patch.
-fn wrapped(x: vec2<i32>) -> vec2<u32> {
-    let size = vec2<i32>(settings.size);
-    if settings.addressing == 0u {
-        return vec2<u32>(clamp(x, vec2<i32>(0), size - 1));
-    }
-    let period = size * select(1, 2, settings.addressing == 2u);
-    // Made positive first: GLSL's remainder of negative numbers is another one.
-    let m = (x + period * (settings.reach + 1)) % period;
-    if settings.addressing == 1u {
-        return vec2<u32>(m);
-    }
-    return vec2<u32>(min(m, period - 1 - m));
+// Taps at k stride texels, |k| <= count.
+struct Taps {
+    stride: i32,
+    count: i32,
+    sigma: f32,
 }
 
-@fragment
-fn blur(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
-    let x = vec2<i32>(at.xy);
-    var sum = vec3<f32>(0.0);
+fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
+    let centre = textureLoad(maps, vec2<u32>(x), 0u, 0);
+    let taps = taps_at(centre);
+    var sums: array<vec4<f32>, TERMS>;
     var weights = 0.0;
-    for (var k = -settings.reach; k <= settings.reach; k++) {
-        let distance = f32(k) / settings.sigma;
-        let weight = exp(-0.5 * distance * distance);
-        sum += weight * textureLoad(image, wrapped(x + k * settings.axis), 0).xyz;
+    for (var k = -taps.count; k <= taps.count; k++) {
+        let texel = texel_at(x + k * taps.stride * stage.axis);
+        let first = textureLoad(maps, texel, 0u, 0);
+        let distance = f32(k * taps.stride) / taps.sigma;
+        let weight = exp(-0.5 * distance * distance) * nearness(centre, first, taps.sigma);
         weights += weight;
+        sums[0] += weight * first;
+        for (var l = 1u; l < TERMS; l++) {
+            sums[l] += weight * textureLoad(maps, texel, l, 0);
+        }
     }
-    return vec4<f32>(sum / weights, 1.0);
+    for (var l = 0u; l < TERMS; l++) {
+        sums[l] = vec4<f32>(sums[l].xyz / weights, centre.w);
+    }
+    return sums;
 }

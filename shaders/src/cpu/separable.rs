@@ -4,8 +4,7 @@ use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Header;
 
 use super::Rgb;
-use crate::separable::Factors;
-use crate::uniform::reach;
+use crate::separable::{Factors, Stage};
 
 /// Exitance of the whole patch, row by row, for `irradiance` of the whole patch.
 ///
@@ -18,15 +17,14 @@ pub fn separable(factors: &Factors, irradiance: &[Rgb]) -> Vec<Rgb> {
     let area = header.pitch_mm * header.pitch_mm;
     let mut exitance = vec![[0.0; 3]; irradiance.len()];
     for l in 0..terms {
-        // c_l E.
-        let weighted: Vec<Rgb> =
-            factors.coefficients_of(l).iter().zip(irradiance).map(|(c, e)| multiply(*c, *e)).collect();
-        for (a, &sigma) in factors.sigmas.iter().enumerate() {
-            let blurred = blur(&weighted, header, sigma);
+        // c_l E, then what every stage of the cascade makes of it.
+        let mut map: Vec<Rgb> = factors.coefficients_of(l).iter().zip(irradiance).map(|(c, e)| multiply(*c, *e)).collect();
+        for (a, stage) in Stage::cascade(&factors.sigmas).iter().enumerate() {
+            map = blur(&map, header, stage);
             for m in 0..terms {
                 let weight = factors.weights_of(l, m)[a].map(|weight| weight * area);
                 let coefficients = factors.coefficients_of(m);
-                for ((sum, blurred), c) in exitance.iter_mut().zip(&blurred).zip(coefficients) {
+                for ((sum, blurred), c) in exitance.iter_mut().zip(&map).zip(coefficients) {
                     let light = multiply(multiply(*c, weight), *blurred);
                     for k in 0..3 {
                         sum[k] += light[k];
@@ -42,10 +40,10 @@ fn multiply(a: Rgb, b: Rgb) -> Rgb {
     [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
 }
 
-/// Convolution with a Gaussian of sum 1, along rows and then along columns.
-fn blur(image: &[Rgb], header: &Header, sigma: f32) -> Vec<Rgb> {
+/// One stage along rows and then along columns.
+fn blur(image: &[Rgb], header: &Header, stage: &Stage) -> Vec<Rgb> {
     let [width, height] = [header.width, header.height];
-    let taps = taps(sigma);
+    let taps = stage.weights();
     let beside = |x: u32, k: i32, n: u32| header.addressing.map(x.cast_signed() + k, n);
     let across = pass([width, height], &taps, |x, y, k| image[(y * width + beside(x, k, width)) as usize]);
     pass([width, height], &taps, |x, y, k| across[(beside(y, k, height) * width + x) as usize])
@@ -65,12 +63,4 @@ fn pass([width, height]: [u32; 2], taps: &[(i32, f32)], at: impl Fn(u32, u32, i3
     };
     let sum = &sum;
     (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| sum(x, y))).collect()
-}
-
-/// Offsets and weights of a Gaussian, of sum 1.
-fn taps(sigma: f32) -> Vec<(i32, f32)> {
-    let reach = reach(sigma);
-    let weight = |k: i32| (-0.5 * (k as f32 / sigma).powi(2)).exp();
-    let sum: f32 = (-reach..=reach).map(weight).sum();
-    (-reach..=reach).map(|k| (k, weight(k) / sum)).collect()
 }

@@ -8,20 +8,30 @@
 //!
 //! which takes L maps and A separable blurs of each, whatever the material.
 
+mod cascade;
 mod gaussians;
+mod homogeneous;
 mod radial;
+
+pub use cascade::Stage;
+pub use homogeneous::mean_kernel;
 
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Header;
 
 use crate::cpu::Rgb;
 
+/// Most radial functions: their maps and the sums of them fit the four targets that every device draws to at once.
+pub const MAX_TERMS: usize = 2;
+/// Most Gaussians.
+pub const MAX_GAUSSIANS: usize = 8;
+
 /// How finely a material is factorised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Detail {
-    /// L, the radial functions, 1 to 4.
+    /// L, the radial functions: 1 or 2.
     pub terms: usize,
-    /// A, the Gaussians, 1 to 8.
+    /// A, the Gaussians, 1 to [`MAX_GAUSSIANS`].
     pub gaussians: usize,
 }
 
@@ -53,7 +63,7 @@ impl Factors {
     /// If `detail` is out of range.
     #[must_use]
     pub fn of(material: &Bssrdf<'_>, detail: Detail) -> Self {
-        assert!((1..=4).contains(&detail.terms) && (1..=8).contains(&detail.gaussians), "{detail:?}");
+        assert!((1..=MAX_TERMS).contains(&detail.terms) && (1..=MAX_GAUSSIANS).contains(&detail.gaussians), "{detail:?}");
         let header = *material.header();
         let radial = radial::Radial::of(material, detail.terms);
         let (sigmas, weights) = gaussians::fit(&header, &radial, detail);

@@ -69,6 +69,26 @@ impl Radial {
     }
 }
 
+/// Mean over all pixels of Rd between two pixels alike, in mm⁻², as a function of their distance in mm.
+pub(super) fn mean_reflectance(material: &Bssrdf<'_>) -> impl Fn(f32) -> Rgb {
+    let r_max_mm = material.header().r_max_mm;
+    let samples = samples(material);
+    let mean = |k: usize| {
+        let sum = samples.iter().fold([0.0; 3], |sum: Rgb, f| [0, 1, 2].map(|c| sum[c] + f[k][c] * f[k][c]));
+        sum.map(|sum| sum / samples.len() as f32)
+    };
+    let means: Vec<Rgb> = (0..RADII).map(mean).collect();
+    move |r_mm| {
+        if r_mm > r_max_mm {
+            return [0.0; 3];
+        }
+        let position = r_mm / r_max_mm * (RADII - 1) as f32;
+        let k = (position as usize).min(RADII - 2);
+        let w = position - k as f32;
+        [0, 1, 2].map(|c| (1.0 - w) * means[k][c] + w * means[k + 1][c])
+    }
+}
+
 /// f_x at all radii, mm⁻¹.
 fn samples(material: &Bssrdf<'_>) -> Vec<Vec<Rgb>> {
     let header = material.header();

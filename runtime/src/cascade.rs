@@ -1,0 +1,129 @@
+//! Weighted irradiance maps, and the cascade of Gaussians over them.
+
+use subsurf_shaders::source::{self, Domain};
+use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoder, TextureFormat, TextureView};
+
+use crate::context::Gpu;
+use crate::error::Result;
+use crate::factors::SeparableMaterial;
+use crate::material::layers_of;
+use crate::pass::{CoverPass, Rows};
+use crate::resource::{Slot, Surface2d, TextureSpec, layer_of};
+
+/// Format of maps: depth in the fourth place needs its half floats too.
+pub(crate) const MAP: TextureFormat = TextureFormat::Rgba16Float;
+
+/// L maps in one texture.
+#[derive(Debug)]
+pub(crate) struct Maps {
+    surface: Surface2d,
+    /// All of them, to be read.
+    pub(crate) all: TextureView,
+    /// Each, to be drawn to.
+    pub(crate) layers: Vec<TextureView>,
+}
+
+impl Maps {
+    pub(crate) fn new(gpu: &Gpu, label: &'static str, size: [u32; 2], terms: usize) -> Result<Self> {
+        let count = u32::try_from(terms).unwrap_or(u32::MAX);
+        let target = TextureSpec::target(label, size, MAP);
+        let surface = gpu.texture(&TextureSpec {
+            usage: target.usage,
+            ..TextureSpec::layered(label, size, count, MAP)
+        })?;
+        let layers = (0..count).map(|layer| layer_of(&surface, layer)).collect();
+        Ok(Self { all: layers_of(&surface), layers, surface })
+    }
+
+    /// What [`Maps::new`] takes on the device.
+    pub(crate) fn bytes_of(size: [u32; 2], terms: usize) -> u64 {
+        let count = u32::try_from(terms).unwrap_or(u32::MAX);
+        TextureSpec::layered("", size, count, MAP).bytes()
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
+        self.surface.texture.bytes()
+    }
+}
+
+/// The passes of the cascade, for maps that lie on a patch or on the screen.
+#[derive(Debug)]
+pub(crate) struct BlurPasses {
+    terms: usize,
+    rows: CoverPass,
+    columns: CoverPass,
+}
+
+impl BlurPasses {
+    pub(crate) fn new(gpu: &Gpu, domain: Domain, terms: usize) -> Result<Self> {
+        let of_rows = [Slot::Uniform, Slot::Uniform, Slot::FloatLayers];
+        let of_columns = [Slot::Uniform, Slot::Uniform, Slot::FloatLayers, Slot::FloatLayers];
+        let targets = vec![MAP; 2 * terms];
+        Ok(Self {
+            terms,
+            rows: CoverPass::new(gpu, source::blur_rows(domain, terms), "blur", &[&of_rows], &targets[..terms])?,
+            columns: CoverPass::new(gpu, source::blur_columns(domain, terms), "blur", &[&of_columns], &targets)?,
+        })
+    }
+}
+
+/// Maps of one size, and everything that is bound to blur them.
+#[derive(Debug)]
+pub(crate) struct Cascade {
+    size: [u32; 2],
+    /// c_l E, where the cascade begins and what it leaves of it, and the same between rows and columns.
+    pub(crate) maps: [Maps; 2],
+    /// S_m of the stage before and of this one, by turns.
+    sums: [Maps; 2],
+    groups: Vec<[BindGroup; 2]>,
+}
+
+impl Cascade {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        passes: &BlurPasses,
+        material: &SeparableMaterial,
+        domain: &Buffer,
+        size: [u32; 2],
+    ) -> Result<Self> {
+        let map = |label| Maps::new(gpu, label, size, passes.terms);
+        let maps = [map("weighted irradiance")?, map("irradiance blurred along rows")?];
+        let sums = [map("sums of stages")?, map("sums of stages, by turns")?];
+        let texture = BindingResource::TextureView;
+        let groups = material.stages().iter().enumerate().map(|(a, [rows, columns])| {
+            let of_rows = [rows.as_entire_binding(), domain.as_entire_binding(), texture(&maps[0].all)];
+            let so_far = texture(&sums[(a + 1) % 2].all);
+            let of_columns =
+                [columns.as_entire_binding(), domain.as_entire_binding(), texture(&maps[1].all), so_far];
+            Ok([passes.rows.bind(gpu, 0, &of_rows)?, passes.columns.bind(gpu, 0, &of_columns)?])
+        });
+        let groups = groups.collect::<Result<_>>()?;
+        Ok(Self { size, maps, sums, groups })
+    }
+
+    /// Bytes of all maps of a cascade.
+    pub(crate) fn bytes_of(size: [u32; 2], terms: usize) -> u64 {
+        4 * Maps::bytes_of(size, terms)
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
+        self.maps.iter().chain(&self.sums).map(Maps::bytes).sum()
+    }
+
+    /// S_m once all stages are through.
+    pub(crate) fn sums(&self) -> &Maps {
+        &self.sums[(self.groups.len() + 1) % 2]
+    }
+
+    /// Blurs what stands in the first maps, stage by stage.
+    pub(crate) fn record(&self, encoder: &mut CommandEncoder, passes: &BlurPasses) {
+        let [maps, between] = &self.maps;
+        let all = Rows::all(self.size);
+        for (a, [rows, columns]) in self.groups.iter().enumerate() {
+            let to: Vec<&TextureView> = between.layers.iter().collect();
+            passes.rows.record(encoder, &to, &[rows], all);
+            let to: Vec<&TextureView> = maps.layers.iter().chain(&self.sums[a % 2].layers).collect();
+            passes.columns.record(encoder, &to, &[columns], all);
+        }
+    }
+}

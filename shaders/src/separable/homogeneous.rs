@@ -1,0 +1,27 @@
+//! What separable scattering is without heterogeneity: one profile for the whole patch.
+
+use subsurf_decoder::Bssrdf;
+
+use super::radial::mean_reflectance;
+use crate::cpu::Rgb;
+
+/// Weights at 0, 1, 2 ... pixels to either side of a kernel whose product along both axes carries the light of the mean
+/// profile: a(x) = Σ_y R(√(x² + y²)) pitch², divided by √Σ R pitch² (Jimenez et al. 2015, eq. 10).
+#[must_use]
+pub fn mean_kernel(material: &Bssrdf<'_>) -> Vec<Rgb> {
+    let header = material.header();
+    let radius = i32::from(header.window_radius);
+    let profile = mean_reflectance(material);
+    let area = header.pitch_mm * header.pitch_mm;
+    let line = |x: i32| {
+        (-radius..=radius).fold([0.0; 3], |sum: Rgb, y| {
+            #[allow(clippy::cast_precision_loss, reason = "pixels of a window")]
+            let reflectance = profile(((x * x + y * y) as f32).sqrt() * header.pitch_mm);
+            [0, 1, 2].map(|c| sum[c] + reflectance[c] * area)
+        })
+    };
+    let lines: Vec<Rgb> = (0..=radius).map(line).collect();
+    let albedo = [0, 1, 2].map(|c| lines[0][c] + 2.0 * lines[1..].iter().map(|line| line[c]).sum::<f32>());
+    lines.iter().map(|line| [0, 1, 2].map(|c| line[c] / albedo[c].max(1e-30).sqrt())).collect()
+}
+

@@ -1,0 +1,42 @@
+// Blurs on the screen: distances are those in space, from pixels and depth.
+
+struct Domain {
+    // Texels of the maps.
+    size: vec2<u32>,
+    // Texels that a pixel of the material covers at a distance of 1 mm.
+    focal_texels: f32,
+    // Distance from the eye to depth 0, in mm.
+    middle_mm: f32,
+    // Pixel of the material in mm.
+    pitch_mm: f32,
+
+    pad_0: u32,
+    pad_1: u32,
+    pad_2: u32,
+}
+
+@group(0) @binding(1) var<uniform> domain: Domain;
+
+// Most taps to one side, close to the eye.
+const MOST_TAPS: f32 = 16.0;
+
+// The cascade is that of the material, seen from the distance of this texel: depth is in the fourth place, in mm.
+fn taps_at(centre: vec4<f32>) -> Taps {
+    let texels_per_pixel = domain.focal_texels / max(domain.middle_mm + centre.w, 1e-3);
+    let sigma = stage.step * texels_per_pixel;
+    let sparse = max(floor(stage.sparse * texels_per_pixel), 1.0);
+    // What is cut off is close to nothing, until the eye is so close that taps would be too many.
+    let taps = clamp(ceil(3.2 * sigma / sparse), 1.0, MOST_TAPS);
+    let stride = max(sparse, floor(3.2 * sigma / taps));
+    return Taps(i32(stride), i32(taps), max(sigma, 1e-3));
+}
+
+fn texel_at(x: vec2<i32>) -> vec2<u32> {
+    return vec2<u32>(clamp(x, vec2<i32>(0), vec2<i32>(domain.size) - 1));
+}
+
+// The part of exp(-r^2 / 2 sigma^2) that lies in the difference of depth (Jimenez et al. 2015, supplement, section E).
+fn nearness(centre: vec4<f32>, other: vec4<f32>, sigma: f32) -> f32 {
+    let d = (other.w - centre.w) / (stage.step * domain.pitch_mm);
+    return exp(-0.5 * min(d * d, 80.0));
+}
