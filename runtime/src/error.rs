@@ -17,6 +17,17 @@ pub enum Error {
     /// The mesh is broken or empty.
     #[error("mesh: {0}")]
     Mesh(String),
+    /// The environment's picture is broken or empty.
+    #[error("environment: {0}")]
+    Environment(String),
+    /// What is asked for does not fit the budget; nothing was allocated.
+    #[error("this takes {need_bytes} bytes on the device, more than the budget of {budget_bytes}")]
+    OverBudget {
+        /// What is used already and what is needed at least.
+        need_bytes: u64,
+        /// The budget.
+        budget_bytes: u64,
+    },
     /// There is no device of that kind.
     #[error("no {backend} device on this machine ({reason})")]
     NoDevice {

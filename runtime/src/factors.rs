@@ -26,6 +26,8 @@ pub struct SeparableMaterial {
     pub(crate) sampler: Sampler,
     /// Along rows and along columns, for each a.
     stages: Vec<[Tracked<Buffer>; 2]>,
+    sums: uniform::Sums,
+    narrowest_pixels: f32,
 }
 
 impl SeparableMaterial {
@@ -56,6 +58,8 @@ impl SeparableMaterial {
         Ok(Self {
             header,
             terms,
+            sums: uniform::Sums::new(factors),
+            narrowest_pixels: factors.sigmas.first().copied().unwrap_or(1.0),
             layers: layers_of(&texture),
             factors: texture,
             sampler: sampler(gpu, header.addressing),
@@ -79,6 +83,16 @@ impl SeparableMaterial {
     #[must_use]
     pub fn gpu_bytes(&self) -> u64 {
         self.factors.texture.bytes() + self.stages.iter().flatten().map(Tracked::bytes).sum::<u64>()
+    }
+
+    /// Weights of all Gaussians.
+    pub(crate) fn sums(&self) -> &uniform::Sums {
+        &self.sums
+    }
+
+    /// σ of the narrowest Gaussian, in pixels of the patch.
+    pub(crate) fn narrowest_pixels(&self) -> f32 {
+        self.narrowest_pixels
     }
 
     pub(crate) fn stages(&self) -> &[[Tracked<Buffer>; 2]] {

@@ -24,6 +24,8 @@ pub(crate) struct TextureSpec {
     pub(crate) layers: u32,
     /// Levels, each half as large as the one before.
     pub(crate) levels: u32,
+    /// Samples to a texel.
+    pub(crate) samples: u32,
     pub(crate) format: TextureFormat,
     pub(crate) usage: TextureUsages,
 }
@@ -31,13 +33,13 @@ pub(crate) struct TextureSpec {
 impl TextureSpec {
     /// A texture that is written from the CPU and read by shaders.
     pub(crate) fn table(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
-        Self { label, size, layers: 1, levels: 1, format, usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST }
+        Self { label, size, layers: 1, levels: 1, samples: 1, format, usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST }
     }
 
     /// A texture that shaders write and read, and that can be read back.
     pub(crate) fn target(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
-        Self { label, size, layers: 1, levels: 1, format, usage }
+        Self { label, size, layers: 1, levels: 1, samples: 1, format, usage }
     }
 
     /// Layers of a table, at least as many as asked for.
@@ -58,7 +60,7 @@ impl TextureSpec {
     pub(crate) fn bytes(&self) -> u64 {
         let texel = u64::from(self.format.block_copy_size(None).unwrap_or(4));
         let texels = |level: u32| self.size.map(|side| u64::from((side >> level).max(1))).iter().product::<u64>();
-        (0..self.levels).map(texels).sum::<u64>() * u64::from(self.layers) * texel
+        (0..self.levels).map(texels).sum::<u64>() * u64::from(self.layers) * u64::from(self.samples) * texel
     }
 }
 
@@ -77,10 +79,16 @@ pub(crate) struct Surface2d {
 
 /// One layer, to be drawn to.
 pub(crate) fn layer_of(surface: &Surface2d, layer: u32) -> TextureView {
+    level_of(surface, layer, 0)
+}
+
+/// One level of a layer, to be drawn to.
+pub(crate) fn level_of(surface: &Surface2d, layer: u32, level: u32) -> TextureView {
     surface.texture.create_view(&TextureViewDescriptor {
         dimension: Some(TextureViewDimension::D2),
         base_array_layer: layer,
         array_layer_count: Some(1),
+        base_mip_level: level,
         mip_level_count: Some(1),
         ..Default::default()
     })
@@ -104,7 +112,7 @@ impl Gpu {
                 label: Some(spec.label),
                 size: extent(spec.size, spec.layers),
                 mip_level_count: spec.levels,
-                sample_count: 1,
+                sample_count: spec.samples,
                 dimension: TextureDimension::D2,
                 format: spec.format,
                 usage: spec.usage,

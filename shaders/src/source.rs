@@ -72,8 +72,18 @@ pub const fn surface_gather(storage: Storage) -> &'static str {
 /// Irradiance at the points of a surface; entry points `cover` and `irradiance`.
 pub const IRRADIANCE: &str = concat!(
     include_str!("../wgsl/fresnel.wgsl"),
+    include_str!("../wgsl/scene.wgsl"),
     include_str!("../wgsl/cover.wgsl"),
     include_str!("../wgsl/irradiance.wgsl")
+);
+
+/// What a light sees of a mesh; entry points `project` and `see`.
+pub const LIGHT_VIEW: &str = concat!(
+    include_str!("../wgsl/fresnel.wgsl"),
+    include_str!("../wgsl/scene.wgsl"),
+    include_str!("../wgsl/mapping.wgsl"),
+    include_str!("../wgsl/light_depth.wgsl"),
+    include_str!("../wgsl/light_view.wgsl")
 );
 
 /// Files one after another, what says how many weighted maps there are first.
@@ -132,12 +142,66 @@ pub const HOMOGENEOUS: &str = concat!(
     include_str!("../wgsl/homogeneous.wgsl")
 );
 
-/// Picture of a mesh; entry points `project` and `shade`.
-pub const SHADE: &str = concat!(
-    include_str!("../wgsl/fresnel.wgsl"),
-    include_str!("../wgsl/tone.wgsl"),
-    include_str!("../wgsl/shade.wgsl")
-);
+/// L weighted irradiance maps where the eye sees a mesh; entry points `project` and `weigh`.
+#[must_use]
+pub const fn weigh_mesh(terms: usize) -> &'static str {
+    with_terms!(
+        terms,
+        "fresnel.wgsl",
+        "scene.wgsl",
+        "mapping.wgsl",
+        "light_depth.wgsl",
+        "shadow.wgsl",
+        "factors.wgsl",
+        "no_points.wgsl",
+        "vertex.wgsl",
+        "weigh_mesh.wgsl"
+    )
+}
+
+/// Who encodes linear light for the display.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Encoding {
+    /// The shader: the target takes display values.
+    Here,
+    /// The target, by its format.
+    There,
+}
+
+/// A picture's shader for both encodings.
+macro_rules! shading {
+    ($encoding:expr, $with:ident!($($first:expr)?), $($part:literal),+) => {
+        match $encoding {
+            Encoding::Here => $with!($($first,)? "encode_here.wgsl", "fresnel.wgsl", "scene.wgsl", "coat.wgsl", "vertex.wgsl", "tone.wgsl", "shade.wgsl", $($part),+),
+            Encoding::There => $with!($($first,)? "encode_there.wgsl", "fresnel.wgsl", "scene.wgsl", "coat.wgsl", "vertex.wgsl", "tone.wgsl", "shade.wgsl", $($part),+),
+        }
+    };
+}
+
+macro_rules! joined {
+    ($($part:literal),+) => { concat!($(include_str!(concat!("../wgsl/", $part))),+) };
+}
+
+/// Picture of a mesh from the exitance of its vertices; entry points `project` and `shade`.
+#[must_use]
+pub const fn shade_points(encoding: Encoding) -> &'static str {
+    shading!(encoding, joined!(), "from_points.wgsl")
+}
+
+/// Picture of a mesh from L blurred maps; entry points `project` and `shade`.
+#[must_use]
+pub const fn shade_sums(encoding: Encoding, terms: usize) -> &'static str {
+    shading!(
+        encoding,
+        with_terms!(terms),
+        "mapping.wgsl",
+        "light_depth.wgsl",
+        "shadow.wgsl",
+        "factors.wgsl",
+        "no_points.wgsl",
+        "from_sums.wgsl"
+    )
+}
 
 /// Picture of a flat patch; entry points `cover` and `present`.
 pub const PRESENT: &str = concat!(
@@ -159,10 +223,23 @@ pub fn all() -> Vec<(String, &'static str)> {
                 (format!("blur columns, {domain:?}, L = {terms}"), blur_columns(domain, terms)),
             ]
         };
-        let flat = [(format!("weigh, L = {terms}"), weigh(terms)), (format!("combine, L = {terms}"), combine(terms))];
-        flat.into_iter().chain(of_domain(Domain::Patch)).chain(of_domain(Domain::Screen))
+        let others = [
+            (format!("weigh, L = {terms}"), weigh(terms)),
+            (format!("combine, L = {terms}"), combine(terms)),
+            (format!("weigh mesh, L = {terms}"), weigh_mesh(terms)),
+            (format!("shade sums, L = {terms}"), shade_sums(Encoding::Here, terms)),
+            (format!("shade sums there, L = {terms}"), shade_sums(Encoding::There, terms)),
+        ];
+        others.into_iter().chain(of_domain(Domain::Patch)).chain(of_domain(Domain::Screen))
     });
-    let others = [("irradiance", IRRADIANCE), ("shade", SHADE), ("present", PRESENT), ("homogeneous", HOMOGENEOUS)];
+    let others = [
+        ("irradiance", IRRADIANCE),
+        ("light view", LIGHT_VIEW),
+        ("shade points", shade_points(Encoding::Here)),
+        ("shade points there", shade_points(Encoding::There)),
+        ("present", PRESENT),
+        ("homogeneous", HOMOGENEOUS),
+    ];
     let others = others.into_iter().map(|(name, text)| (name.to_owned(), text));
     gathers.chain(on_surfaces).chain(separable).chain(others).collect()
 }

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use subsurf_decoder::bssrdf::Header;
 
 use crate::cpu::Rgb;
-use crate::separable::{self, Factors, MAX_TERMS};
+use crate::separable::{self, Factors, MAX_GAUSSIANS, MAX_TERMS};
 
 /// `Material` of `material.wgsl`.
 #[repr(C)]
@@ -82,50 +82,112 @@ pub struct Surface {
     pub points: u32,
 }
 
-/// `Light` of `irradiance.wgsl`.
+/// Most lights of a scene.
+pub const MAX_LIGHTS: usize = 4;
+
+/// `LightSource` of `scene.wgsl`.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Light {
-    /// Unit vector towards the light.
-    pub direction: [f32; 3],
-    #[doc(hidden)]
-    pub pad_0: f32,
-    /// Irradiance on a plane that faces the light, linear Rec. 709.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct LightSource {
+    /// Of the light's own view; column-major, depth 0 to 1.
+    pub clip_from_world: [[f32; 4]; 4],
+    /// Unit vector towards the light, or its position in mm.
+    pub place: [f32; 3],
+    /// 0 for a direction, 1 for a position.
+    pub is_local: u32,
+    /// Irradiance on a plane that faces it, anywhere, or 1 mm away; linear Rec. 709.
     pub irradiance: [f32; 3],
+    /// Cosine of the angle from the axis beyond which there is no light.
+    pub cos_outer: f32,
+    /// Unit vector along which the light looks.
+    pub axis: [f32; 3],
+    /// Cosine of the angle from the axis where light begins to fade.
+    pub cos_inner: f32,
+    /// Distance along the axis from the light to depth 0; 0 for a direction.
+    pub middle_mm: f32,
+    /// Edge of a texel of its view at depth 0.
+    pub texel_mm: f32,
     #[doc(hidden)]
-    pub pad_1: f32,
-    /// Irradiance from all around, linear Rec. 709.
-    pub sky: [f32; 3],
-    /// 1 − F_dr from outside: what of the sky's light enters.
-    pub sky_transmittance: f32,
-    /// Refractive index of the material against air.
-    pub eta: f32,
-    #[doc(hidden)]
-    pub pad_2: [f32; 3],
+    pub pad: [u32; 2],
 }
 
-/// `Camera` of `shade.wgsl`.
+/// `Scene` of `scene.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Camera {
+pub struct Scene {
     /// Column-major; depth 0 to 1.
     pub clip_from_world: [[f32; 4]; 4],
     /// Position of the eye.
     pub eye_mm: [f32; 3],
     /// Multiplies radiance before tone mapping.
     pub exposure: f32,
-    /// 1 / (1 − F_dr) from outside.
-    pub exit_scale: f32,
+    /// Unit vector along which the eye looks.
+    pub forward: [f32; 3],
+    /// Distance along it to depth 0.
+    pub middle_mm: f32,
+    /// Where depth is 0.
+    pub centre_mm: [f32; 3],
     /// Refractive index of the material against air.
     pub eta: f32,
-    /// Texels to a row of the exitance texture.
+    /// 1 − F_dr from outside.
+    pub sky_transmittance: f32,
+    /// GGX roughness of the coat, 0 to 1.
+    pub roughness: f32,
+    /// Number of lights.
+    pub lights: u32,
+    /// Texels to a row of textures that hold plain arrays.
     pub row: u32,
+    /// Box mapping: copies of the patch to a mm.
+    pub patches_per_mm: [f32; 2],
+    /// Pixel of the material.
+    pub pitch_mm: f32,
+    /// 0 texture coordinates, 1 box mapping.
+    pub is_boxed: u32,
+    /// Irradiance of the environment on a normal (x, y, z): coefficients of 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y².
+    pub sky: [[f32; 4]; 9],
+    /// The lights.
+    pub light: [LightSource; MAX_LIGHTS],
+}
+
+/// `Which` of `light_view.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Which {
+    /// Number of the light.
+    pub light: u32,
     #[doc(hidden)]
-    pub pad_0: u32,
-    /// Radiance from all around, which the surface reflects, linear Rec. 709.
-    pub sky: [f32; 3],
-    #[doc(hidden)]
-    pub pad_1: u32,
+    pub pad: [u32; 3],
+}
+
+/// `Sums` of `from_sums.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Sums {
+    /// w_lma pitch², shape `[a][l][m]`, rgb; σ_a in mm in the fourth place.
+    pub weights: [[f32; 4]; MAX_GAUSSIANS * MAX_TERMS * MAX_TERMS],
+    /// Texels of the maps to a pixel of the picture.
+    pub texels_per_pixel: [f32; 2],
+    /// A.
+    pub gaussians: u32,
+    /// Half a texel of the maps at the middle of the scene.
+    pub texel_mm: f32,
+}
+
+impl Sums {
+    /// The block for a factorised material; what depends on the picture is still 0.
+    #[must_use]
+    pub fn new(factors: &Factors) -> Self {
+        let mut weights = [[0.0; 4]; MAX_GAUSSIANS * MAX_TERMS * MAX_TERMS];
+        let stages = Stage::cascade(factors);
+        for (a, ([rows, _], sigma)) in stages.iter().zip(&factors.sigmas).enumerate() {
+            let of_stage = &mut weights[a * rows.weights.len()..][..rows.weights.len()];
+            for (to, [r, g, b, _]) in of_stage.iter_mut().zip(&rows.weights) {
+                *to = [*r, *g, *b, sigma * factors.header.pitch_mm];
+            }
+        }
+        let gaussians = u32::try_from(stages.len()).unwrap_or(0);
+        Self { weights, texels_per_pixel: [1.0; 2], gaussians, texel_mm: 1.0 }
+    }
 }
 
 /// `Stage` of `blur.wgsl`.
@@ -200,7 +262,7 @@ impl PatchDomain {
 
 /// `Domain` of `on_screen.wgsl`.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub struct ScreenDomain {
     /// Texels of the maps.
     pub size: [u32; 2],

@@ -46,8 +46,10 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(Material: size, addressing, window_radius, samples, base_materials, pitch_mm, r_max_mm, nodes_per_mm, base_rows, row, rows);
     assert_layout_of!(View: origin);
     assert_layout_of!(Surface: origin_mm, cell_mm, cells, points);
-    assert_layout_of!(Light: direction, irradiance, sky, sky_transmittance, eta);
-    assert_layout_of!(Camera: clip_from_world, eye_mm, exposure, exit_scale, eta, row, sky);
+    assert_layout_of!(LightSource: clip_from_world, place, is_local, irradiance, cos_outer, axis, cos_inner, middle_mm, texel_mm);
+    assert_layout_of!(Scene: clip_from_world, eye_mm, exposure, forward, middle_mm, centre_mm, eta, sky_transmittance, roughness, lights, row, patches_per_mm, pitch_mm, is_boxed, sky, light);
+    assert_layout_of!(Which: light);
+    assert_layout_of!(Sums: weights, texels_per_pixel, gaussians, texel_mm);
     assert_layout_of!(Frame: size, texels, exposure);
     assert_layout_of!(Stage as Stage in "blur": weights, axis, sigma, stride, taps, step, sparse, begun);
     assert_layout_of!(Kernel as Stage in "homogeneous": kernel, axis, stride, taps, sigma);

@@ -2,8 +2,8 @@
 
 use glam::{Vec2, Vec3, Vec4};
 use subsurf_decoder::bssrdf::{Addressing, Header};
-use subsurf_shaders::cpu::Points;
-use subsurf_shaders::uniform;
+use subsurf_shaders::cpu::{self, Points};
+use subsurf_shaders::uniform::{self, MAX_LIGHTS};
 
 use super::mesh::Mesh;
 
@@ -22,6 +22,7 @@ pub struct Surface {
     pub(crate) grid: uniform::Surface,
     pub(crate) positions: Vec<Vec4>,
     pub(crate) normals: Vec<Vec4>,
+    pub(crate) visibilities: Vec<[f32; MAX_LIGHTS]>,
     pub(crate) pixels: Vec<[u16; 2]>,
     pub(crate) cell_starts: Vec<u32>,
     /// The point of every vertex.
@@ -32,15 +33,16 @@ pub struct Surface {
 const MAX_CELLS: f32 = 96.0;
 
 impl Surface {
-    /// Spreads a material over a mesh. `visibility` says of every vertex how much of the light reaches it, 0 to 1.
+    /// Spreads a material over a mesh. `visibilities` says of every vertex how much of each light reaches it,
+    /// 0 to 1.
     ///
     /// Each vertex stands for a third of the triangles around it. A patch that clamps is mirrored where the mesh is
     /// larger than the patch: its border would be drawn out otherwise.
     ///
     /// # Panics
-    /// If `visibility` is shorter than the mesh.
+    /// If `visibilities` is shorter than the mesh.
     #[must_use]
-    pub fn new(mesh: &Mesh, mapping: Mapping, header: &Header, visibility: &[f32]) -> Self {
+    pub fn new(mesh: &Mesh, mapping: Mapping, header: &Header, visibilities: &[[f32; MAX_LIGHTS]]) -> Self {
         let [low, high] = mesh.bounds();
         let extent = (high - low).max_element();
         // Half the radius of scattering: a row of cells has few points that are too far away.
@@ -72,7 +74,8 @@ impl Surface {
         Self {
             grid: uniform::Surface { origin_mm: low.into(), cell_mm, cells: cells.into(), points: vertices },
             positions: by_point().map(|v| mesh.positions[v].extend(areas[v])).collect(),
-            normals: by_point().map(|v| mesh.normals[v].extend(visibility[v])).collect(),
+            normals: by_point().map(|v| mesh.normals[v].extend(0.0)).collect(),
+            visibilities: by_point().map(|v| visibilities[v]).collect(),
             pixels: by_point().map(|v| pixel_of(mesh, v, mapping, header)).collect(),
             cell_starts,
             point_of,
@@ -91,10 +94,10 @@ impl Surface {
         self.positions.is_empty()
     }
 
-    /// Unit normals of the points, and in the fourth place how much of the light reaches each.
+    /// Irradiance that enters at every point.
     #[must_use]
-    pub fn normals(&self) -> &[Vec4] {
-        &self.normals
+    pub fn irradiance(&self, scene: &uniform::Scene) -> Vec<[f32; 3]> {
+        cpu::irradiance(scene, &self.positions, &self.normals, &self.visibilities)
     }
 
     /// The point of every vertex of the mesh.
@@ -131,18 +134,7 @@ fn pixel_of(mesh: &Mesh, vertex: usize, mapping: Mapping, header: &Header) -> [u
             let uv = uvs[vertex] * Vec2::from(times);
             Vec2::new(uv.x, 1.0 - uv.y) * size
         }
-        _ => {
-            let (position, normal) = (mesh.positions[vertex], mesh.normals[vertex]);
-            let side = normal.abs();
-            let on_side = if side.x >= side.y && side.x >= side.z {
-                Vec2::new(-position.z * normal.x.signum(), -position.y)
-            } else if side.y >= side.z {
-                Vec2::new(position.x, position.z * normal.y.signum())
-            } else {
-                Vec2::new(position.x * normal.z.signum(), -position.y)
-            };
-            on_side / header.pitch_mm + 0.5 * size
-        }
+        _ => cpu::place_in_box(mesh.positions[vertex], mesh.normals[vertex], header.pitch_mm) / header.pitch_mm + 0.5 * size,
     };
     let addressing = match header.addressing {
         Addressing::Clamp => Addressing::Mirror,

@@ -1,18 +1,35 @@
 //! Twin of `irradiance.wgsl`.
 
-use glam::{Vec3, Vec4};
+use glam::Vec4;
 
-use super::{Rgb, fresnel_transmittance};
-use crate::uniform::Light;
+use super::{Rgb, entering, incident, sky_irradiance};
+use crate::uniform::{MAX_LIGHTS, Scene};
 
-/// Irradiance that enters at each point, from its unit normal and, in the fourth place, how much of the light reaches
-/// it: E = F_t(cos) max(cos, 0) V E_light + T_sky E_sky.
+/// Irradiance that enters at each point, from its position in mm, its unit normal and how much of each light reaches it:
+/// E = Σ F_t(cos) max(cos, 0) V E_light + T_sky E_sky.
+///
+/// # Panics
+/// If there are more lights than a scene may have.
 #[must_use]
-pub fn irradiance(normals: &[Vec4], light: &Light) -> Vec<Rgb> {
-    let at = |normal: &Vec4| {
-        let cosine = normal.truncate().dot(Vec3::from(light.direction)).max(0.0);
-        let entering = fresnel_transmittance(cosine, light.eta) * cosine * normal.w;
-        [0, 1, 2].map(|c| entering * light.irradiance[c] + light.sky_transmittance * light.sky[c])
-    };
-    normals.iter().map(at).collect()
+pub fn irradiance(
+    scene: &Scene,
+    positions: &[Vec4],
+    normals: &[Vec4],
+    visibilities: &[[f32; MAX_LIGHTS]],
+) -> Vec<Rgb> {
+    let points = positions.iter().zip(normals).zip(visibilities);
+    points
+        .map(|((position, normal), seen)| {
+            let normal = normal.truncate();
+            let mut sum = sky_irradiance(scene, normal);
+            for light in 0..scene.lights as usize {
+                let (towards, from_light) = incident(scene, light, position.truncate());
+                let share = entering(scene, normal, towards) * seen[light];
+                for c in 0..3 {
+                    sum[c] += from_light[c] * share;
+                }
+            }
+            sum
+        })
+        .collect()
 }

@@ -2,19 +2,25 @@
 //!
 //! Colours are linear Rec. 709. Where the GPU stores a result in a half-float texture, the twin keeps f32.
 
+mod coat;
 mod fresnel;
 mod gather;
 mod irradiance;
+mod mapping;
 mod present;
+mod scene;
 mod separable;
 mod shade;
 mod surface_gather;
 mod tone;
 
+pub use coat::{Reflections, glint, sheen};
 pub use fresnel::{diffuse_transmittance, fresnel_transmittance};
 pub use gather::{Reflectance, gather};
 pub use irradiance::irradiance;
+pub use mapping::place_in_box;
 pub use present::present;
+pub use scene::{entering, incident, sky_irradiance};
 pub use separable::separable;
 pub use shade::{Triangles, shade};
 pub use surface_gather::{Points, surface_gather};

@@ -2,8 +2,8 @@
 
 use glam::{Mat4, Vec2, Vec3, Vec4, Vec4Swizzles};
 
-use super::{Rgb, display, fresnel_transmittance, neutral, srgb};
-use crate::uniform::Camera;
+use super::{Reflections, Rgb, display, fresnel_transmittance, glint, incident, neutral, sheen, srgb};
+use crate::uniform::{MAX_LIGHTS, Scene};
 
 /// A mesh to draw.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +14,8 @@ pub struct Triangles<'a> {
     pub normals: &'a [Vec3],
     /// Exitance of the vertices.
     pub exitances: &'a [Rgb],
+    /// How much of each light reaches the vertices.
+    pub visibilities: &'a [[f32; MAX_LIGHTS]],
     /// Vertices of the triangles.
     pub triangles: &'a [[u32; 3]],
 }
@@ -23,11 +25,17 @@ pub struct Triangles<'a> {
 /// # Panics
 /// If an index leads outside the vertices.
 #[must_use]
-pub fn shade(mesh: &Triangles<'_>, camera: &Camera, size: [u32; 2], background: [u8; 3]) -> Vec<[u8; 3]> {
+pub fn shade(
+    mesh: &Triangles<'_>,
+    scene: &Scene,
+    reflections: &Reflections<'_>,
+    size: [u32; 2],
+    background: [u8; 3],
+) -> Vec<[u8; 3]> {
     let [width, height] = size.map(|n| n as usize);
     let mut picture = vec![background; width * height];
     let mut depth = vec![1.0_f32; width * height];
-    let clip_from_world = Mat4::from_cols_array_2d(&camera.clip_from_world);
+    let clip_from_world = Mat4::from_cols_array_2d(&scene.clip_from_world);
     let clip: Vec<Vec4> = mesh.positions.iter().map(|p| clip_from_world * p.extend(1.0)).collect();
     #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
     let half = Vec2::new(width as f32, height as f32) * 0.5;
@@ -81,20 +89,42 @@ pub fn shade(mesh: &Triangles<'_>, camera: &Camera, size: [u32; 2], background: 
                 let exitance: Vec3 = (0..3)
                     .map(|k| Vec3::from(mesh.exitances[corners[k]]) * perspective[k])
                     .fold(Vec3::ZERO, |sum, v| sum + v);
-                picture[at] = radiance(camera, blend(mesh.positions), blend(mesh.normals), exitance);
+                let visibility = (0..3).fold([0.0; MAX_LIGHTS], |sum, k| {
+                    let of_corner = mesh.visibilities[corners[k]];
+                    std::array::from_fn(|light| sum[light] + of_corner[light] * perspective[k])
+                });
+                let point =
+                    Point { position_mm: blend(mesh.positions), normal: blend(mesh.normals), exitance, visibility };
+                let light = radiance(scene, reflections, &point) * scene.exposure;
+                picture[at] = display(srgb(neutral(light.into())));
             }
         }
     }
     picture
 }
 
-/// What scattered, by Lambert's law with Fresnel transmission on the way out, normalised, and what is reflected:
-/// L = M F_t / (π (1 − F_dr)) + (1 − F_t) L_sky.
-fn radiance(camera: &Camera, position_mm: Vec3, normal: Vec3, exitance: Vec3) -> [u8; 3] {
-    let to_eye = (Vec3::from(camera.eye_mm) - position_mm).normalize();
-    let cosine = normal.normalize().dot(to_eye).abs().clamp(0.0, 1.0);
-    let transmittance = fresnel_transmittance(cosine, camera.eta);
-    let scattered = exitance * transmittance * camera.exit_scale / std::f32::consts::PI;
-    let radiance = scattered + (1.0 - transmittance) * Vec3::from(camera.sky);
-    display(srgb(neutral((radiance * camera.exposure).into())))
+/// What is known of a point of the surface.
+struct Point {
+    position_mm: Vec3,
+    normal: Vec3,
+    exitance: Vec3,
+    visibility: [f32; MAX_LIGHTS],
+}
+
+/// Radiance that leaves towards the eye.
+fn radiance(scene: &Scene, reflections: &Reflections<'_>, point: &Point) -> Vec3 {
+    let to_eye = (Vec3::from(scene.eye_mm) - point.position_mm).normalize();
+    let normal = point.normal.normalize();
+    // What scattered, by Lambert's law with Fresnel transmission on the way out: L = M F_t / (π (1 − F_dr)).
+    let cosine = normal.dot(to_eye).abs().clamp(0.0, 1.0);
+    let transmittance = fresnel_transmittance(cosine, scene.eta);
+    let scattered = point.exitance * transmittance / (scene.sky_transmittance * std::f32::consts::PI);
+    // What the coat reflects.
+    let mirrored = (-to_eye).reflect(normal);
+    let sky = sheen(scene, cosine) * reflections.radiance(mirrored, scene.roughness);
+    let lights = (0..scene.lights as usize).map(|light| {
+        let (towards, irradiance) = incident(scene, light, point.position_mm);
+        irradiance * glint(scene, normal, to_eye, towards) * point.visibility[light]
+    });
+    scattered + sky + lights.sum::<Vec3>()
 }

@@ -1,0 +1,292 @@
+//! A mesh made of the material, by one of the paths.
+
+use glam::Vec3;
+use image::RgbImage;
+use serde_json::{Map, Value, json};
+use subsurf_decoder::Bssrdf;
+use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, Surface, View};
+use subsurf_runtime::{
+    BACKGROUND, Frame, Gpu, GpuMesh, GpuPoints, Material, Model, Path, Renderer, RuntimeOptions, SeparableMaterial,
+    storage_of,
+};
+use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_shaders::separable::{Detail, Factors};
+use subsurf_shaders::uniform::MAX_LIGHTS;
+
+use super::{Angles, BRIGHT, MappingArg, PathArg, exposure_for};
+use crate::failure::bad_request;
+use crate::mesh;
+
+/// Pictures are drawn this much larger and averaged down, so that edges are smooth.
+const SUPERSAMPLING: u32 = 2;
+/// From over the right shoulder.
+pub(super) const DEFAULT_LIGHT: Vec3 = Vec3::new(0.9, 1.1, 0.35);
+/// Longest edge of the mesh between whose vertices light is gathered, in pixels of the material.
+const LONGEST_EDGE: f32 = 1.5;
+
+/// One picture of a mesh.
+pub(crate) struct Shot {
+    pub(crate) direction: Vec3,
+    pub(crate) environment: Environment,
+    pub(crate) roughness: f32,
+    pub(crate) angles: Angles,
+    pub(crate) size: [u32; 2],
+    pub(crate) exposure: Option<f32>,
+}
+
+impl Shot {
+    /// The usual picture of `size`.
+    pub(crate) fn usual(size: [u32; 2]) -> Self {
+        Self {
+            direction: DEFAULT_LIGHT.normalize(),
+            environment: Environment::uniform(SKY),
+            roughness: ROUGHNESS,
+            angles: Angles { around: 30.0, up: 15.0 },
+            size,
+            exposure: None,
+        }
+    }
+
+    /// The scene in which the mesh fills the picture.
+    pub(crate) fn scene(&self, mesh: &Mesh) -> Scene {
+        Scene {
+            lights: vec![Light {
+                shape: LightShape::Directional { towards: self.direction },
+                irradiance: [3.0, 2.9, 2.7],
+            }],
+            environment: self.environment.clone(),
+            roughness: self.roughness,
+            view: frame(mesh, self.angles, self.size),
+        }
+    }
+}
+
+/// Irradiance of the usual sky.
+pub(super) const SKY: Rgb = [0.35, 0.4, 0.5];
+/// Of the usual coat: polished, but not a mirror.
+pub(super) const ROUGHNESS: f32 = 0.25;
+
+/// A material on the device as a path wants it.
+pub(crate) enum Prepared {
+    Gather { mesh: GpuMesh, points: GpuPoints, material: Material },
+    Separable { mesh: GpuMesh, material: SeparableMaterial },
+}
+
+impl Prepared {
+    /// Uploads a mesh and a material for a path.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        material: &Bssrdf<'_>,
+        mesh: &Mesh,
+        mapping: Mapping,
+        scene: &Scene,
+        path: PathArg,
+    ) -> anyhow::Result<Self> {
+        let outline = Outline::new(mesh, mapping, material.header());
+        Ok(match path {
+            PathArg::Gather => {
+                let (fine, surface) = points(mesh, mapping, material, scene)?;
+                Self::Gather {
+                    mesh: GpuMesh::upload(gpu, &fine, &outline, Some(surface.point_of()))?,
+                    points: GpuPoints::upload(gpu, &surface)?,
+                    material: Material::upload(gpu, material)?,
+                }
+            }
+            PathArg::Separable => Self::Separable {
+                mesh: GpuMesh::upload(gpu, mesh, &outline, None)?,
+                material: SeparableMaterial::upload(gpu, &Factors::of(material, Detail::default()))?,
+            },
+        })
+    }
+
+    pub(crate) fn model(&self) -> Model<'_> {
+        match self {
+            Self::Gather { mesh, points, material } => Model::Gather { mesh, points, material },
+            Self::Separable { mesh, material } => Model::Separable { mesh, material },
+        }
+    }
+
+    /// The renderer's name for the path.
+    pub(crate) fn path(&self) -> Path {
+        match self {
+            Self::Gather { material, .. } => Path::Gather(material.storage()),
+            Self::Separable { material, .. } => Path::Separable(material.terms()),
+        }
+    }
+
+    pub(crate) fn material_bytes(&self) -> u64 {
+        match self {
+            Self::Gather { material, .. } => material.gpu_bytes(),
+            Self::Separable { material, .. } => material.gpu_bytes(),
+        }
+    }
+}
+
+/// The mesh with vertices close enough to gather light at, and them as points that exchange light.
+fn points(
+    mesh: &Mesh,
+    mapping: Mapping,
+    material: &Bssrdf<'_>,
+    scene: &Scene,
+) -> anyhow::Result<(Mesh, Surface)> {
+    let fine = mesh.clone().subdivided(LONGEST_EDGE * material.header().pitch_mm)?;
+    let visibilities = visibilities(&fine, scene);
+    let surface = Surface::new(&fine, mapping, material.header(), &visibilities);
+    Ok((fine, surface))
+}
+
+fn visibilities(mesh: &Mesh, scene: &Scene) -> Vec<[f32; MAX_LIGHTS]> {
+    let mut all = vec![[0.0; MAX_LIGHTS]; mesh.positions.len()];
+    for (k, light) in scene.lights.iter().take(MAX_LIGHTS).enumerate() {
+        for (of_vertex, seen) in all.iter_mut().zip(mesh::visibility(mesh, light)) {
+            of_vertex[k] = seen;
+        }
+    }
+    all
+}
+
+/// Draws a mesh made of the material.
+pub(crate) fn draw_mesh(
+    gpu: Option<&Gpu>,
+    material: &Bssrdf<'_>,
+    mesh: &Mesh,
+    mapping: MappingArg,
+    path: PathArg,
+    shot: &Shot,
+) -> anyhow::Result<(RgbImage, Map<String, Value>)> {
+    let mapping = choose_mapping(mesh, mapping, material)?;
+    let large = shot.size.map(|side| side * SUPERSAMPLING);
+    let mut scene = shot.scene(mesh);
+    let mut facts = Map::new();
+    facts.insert("size".to_owned(), json!(shot.size));
+    facts.insert("triangles".to_owned(), json!(mesh.triangles.len()));
+    facts.insert("mapping".to_owned(), json!(format!("{mapping:?}")));
+    let pixels = match gpu {
+        Some(gpu) => {
+            let prepared = Prepared::new(gpu, material, mesh, mapping, &scene, path)?;
+            let renderer = Renderer::new(gpu, prepared.path(), RuntimeOptions::default())?;
+            let mut frame = renderer.prepare(gpu, &prepared.model(), &scene, large)?;
+            scene.view.exposure = match shot.exposure {
+                Some(exposure) => exposure,
+                None => chosen_exposure(gpu, &renderer, &mut frame, &prepared, &scene)?,
+            };
+            facts.insert("gpu_bytes".to_owned(), json!(prepared.material_bytes()));
+            renderer.picture(gpu, &mut frame, &prepared.model(), &scene)?
+        }
+        None if path == PathArg::Separable => {
+            return Err(bad_request("the CPU draws meshes by --path gather only; the other paths need a device"));
+        }
+        None => {
+            let (fine, surface) = points(mesh, mapping, material, &scene)?;
+            let outline = Outline::new(mesh, mapping, material.header());
+            let mut block = scene.block(&outline, large, RuntimeOptions::default().light_texels);
+            let exitance = cpu::surface_gather(material, &surface.points(), &surface.irradiance(&block));
+            let brightest = scene.environment.irradiance(Vec3::Y).iter().copied().fold(0.0, f32::max);
+            let chosen = || exposure_for(exitance.iter()).min(BRIGHT / brightest.max(1e-6)) * std::f32::consts::PI;
+            block.exposure = shot.exposure.unwrap_or_else(chosen);
+            scene.view.exposure = block.exposure;
+            let exitances: Vec<Rgb> = surface.point_of().iter().map(|&point| exitance[point as usize]).collect();
+            let triangles = cpu::Triangles {
+                positions: &fine.positions,
+                normals: &fine.normals,
+                exitances: &exitances,
+                visibilities: &visibilities(&fine, &scene),
+                triangles: &fine.triangles,
+            };
+            let reflections = cpu::Reflections {
+                size: subsurf_runtime::scene::REFLECTION_SIZE,
+                levels: scene.environment.reflections(),
+            };
+            cpu::shade(&triangles, &block, &reflections, large, [BACKGROUND; 3])
+        }
+    };
+    facts.insert("exposure".to_owned(), json!(scene.view.exposure));
+    Ok((average_down(&pixels, large), facts))
+}
+
+/// The exposure that brings all but the brightest hundredth of a first picture below [`BRIGHT`].
+pub(crate) fn chosen_exposure(
+    gpu: &Gpu,
+    renderer: &Renderer,
+    frame: &mut Frame,
+    prepared: &Prepared,
+    scene: &Scene,
+) -> anyhow::Result<f32> {
+    // So dark that nothing is compressed, which is then undone.
+    const DARK: f32 = 0.05;
+    let mut dark = scene.clone();
+    dark.view.exposure = DARK;
+    let picture = renderer.picture(gpu, frame, &prepared.model(), &dark)?;
+    let mut values: Vec<f32> = picture
+        .iter()
+        .filter(|pixel| **pixel != [BACKGROUND; 3])
+        .map(|pixel| pixel.iter().map(|&value| linear(value)).fold(0.0, f32::max))
+        .collect();
+    values.sort_by(f32::total_cmp);
+    let bright = values.get(values.len() * 97 / 100).copied().unwrap_or(0.0);
+    Ok(if bright > 0.0 { DARK * BRIGHT / bright } else { 1.0 })
+}
+
+/// Repeats texture coordinates so that the material has its own size on average, a whole number of times.
+fn choose_mapping(mesh: &Mesh, mapping: MappingArg, material: &Bssrdf<'_>) -> anyhow::Result<Mapping> {
+    let uvs = match (mapping, &mesh.uvs) {
+        (MappingArg::Uv, None) => {
+            return Err(bad_request(
+                "the mesh has no texture coordinates: unwrap it in a modelling program (in Blender: Edit Mode, UV, \
+                 Smart UV Project) and export them, or draw it with --mapping box",
+            ));
+        }
+        (MappingArg::Box, _) | (MappingArg::Auto, None) => return Ok(Mapping::Box),
+        (MappingArg::Uv | MappingArg::Auto, Some(uvs)) => uvs,
+    };
+    let (mut area_mm2, mut area_uv) = (0.0_f64, 0.0_f64);
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|k| mesh.positions[k as usize]);
+        let [ta, tb, tc] = triangle.map(|k| uvs[k as usize]);
+        area_mm2 += f64::from((b - a).cross(c - a).length());
+        area_uv += f64::from((tb - ta).perp_dot(tc - ta).abs());
+    }
+    let header = material.header();
+    let mm_per_unit = if area_uv > 0.0 { (area_mm2 / area_uv).sqrt() } else { 0.0 };
+    #[allow(clippy::cast_possible_truncation, reason = "a small whole number")]
+    let times = |side: u32| (mm_per_unit / (f64::from(side) * f64::from(header.pitch_mm))).round().max(1.0) as f32;
+    Ok(Mapping::Uv([times(header.width), times(header.height)]))
+}
+
+/// A view in which the mesh fills a picture of `size`.
+fn frame(mesh: &Mesh, angles: Angles, size: [u32; 2]) -> View {
+    const ANGLE: f32 = 0.5;
+    let [low, high] = mesh.bounds();
+    let target_mm = 0.5 * (low + high);
+    let (around, up) = (angles.around.to_radians(), angles.up.to_radians());
+    let towards = Vec3::new(up.cos() * around.sin(), up.sin(), up.cos() * around.cos());
+    let radius = mesh.positions.iter().map(|position| position.distance(target_mm)).fold(0.0, f32::max);
+    #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
+    let aspect = (size[0] as f32 / size[1] as f32).min(1.0);
+    let distance = 1.02 * radius / (0.5 * ANGLE).sin() / aspect;
+    View { eye_mm: target_mm + distance * towards, target_mm, angle: ANGLE, exposure: 1.0 }
+}
+
+/// Light of a display value, 0 to 1.
+fn linear(value: u8) -> f32 {
+    let value = f32::from(value) / 255.0;
+    if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+}
+
+/// Means of blocks of pixels, taken of light rather than of display values.
+fn average_down(pixels: &[[u8; 3]], size: [u32; 2]) -> RgbImage {
+    let light: Vec<f32> = (0..=255_u8).map(linear).collect();
+    let n = SUPERSAMPLING;
+    RgbImage::from_fn(size[0] / n, size[1] / n, |x, y| {
+        let mut sum = [0.0; 3];
+        for (dx, dy) in (0..n).flat_map(|dy| (0..n).map(move |dx| (dx, dy))) {
+            let pixel = pixels[((y * n + dy) * size[0] + x * n + dx) as usize];
+            for c in 0..3 {
+                sum[c] += light[usize::from(pixel[c])];
+            }
+        }
+        #[allow(clippy::cast_precision_loss, reason = "a handful")]
+        let count = (n * n) as f32;
+        image::Rgb(cpu::display(cpu::srgb(sum.map(|sum| sum / count))))
+    })
+}

@@ -1,0 +1,229 @@
+//! `subsurf render`: a picture of a material, flat or on a mesh.
+
+mod mesh;
+mod patch;
+
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::time::Instant;
+
+use glam::Vec3;
+use serde_json::{Value, json};
+use subsurf_encoder::check_target;
+use subsurf_encoder::metrics::Light;
+use subsurf_runtime::scene::Environment;
+use subsurf_shaders::cpu::Rgb;
+
+use crate::devices::{self, BackendArg, check_picture};
+use crate::failure::bad_request;
+use crate::info::{parse, read_file};
+use crate::memory::human;
+use crate::mesh::{Up, load};
+use crate::options::Size;
+use crate::picture::write_png;
+use crate::say::say;
+
+pub(crate) use mesh::{Shot, draw_mesh};
+pub(crate) use patch::{draw_patch, patch_irradiance};
+
+/// Draw a material, flat or on a mesh, by the reference path or by a fast one.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The .subsurf file
+    file: PathBuf,
+    /// The PNG to write
+    #[arg(long, short)]
+    output: PathBuf,
+    /// Draw it on this mesh: .obj, .ply, .glb or .gltf
+    #[arg(long)]
+    mesh: Option<PathBuf>,
+    /// Longest side of the mesh in mm: the material has its real size
+    #[arg(long, default_value_t = 60.0, value_name = "MM", requires = "mesh")]
+    extent: f32,
+    /// How light scatters
+    #[arg(long, value_enum, default_value = "gather")]
+    path: PathArg,
+    /// Light from all around: an equirectangular picture, .hdr or .png; a plain sky if not given
+    #[arg(long, value_name = "FILE", requires = "mesh")]
+    environment: Option<PathBuf>,
+    /// How rough the coat is that reflects it, 0 to 1
+    #[arg(long, default_value_t = mesh::ROUGHNESS, requires = "mesh")]
+    roughness: f32,
+    /// Which way is up in the mesh
+    #[arg(long, value_enum, default_value = "y", requires = "mesh")]
+    up: Up,
+    /// Where the material lies on the mesh
+    #[arg(long, value_enum, default_value = "auto", requires = "mesh")]
+    mapping: MappingArg,
+    /// From where the mesh is seen: degrees around, degrees up
+    #[arg(long, default_value = "30,15", value_name = "AROUND,UP", requires = "mesh", allow_hyphen_values = true)]
+    view: Angles,
+    /// uniform, disc or line on a patch; a direction X,Y,Z towards the light on a mesh
+    #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
+    light: Option<LightArg>,
+    /// What to multiply light by before tone mapping; chosen from the picture if not given
+    #[arg(long)]
+    exposure: Option<f32>,
+    /// Pixels of the picture
+    #[arg(long, default_value = "960x720", value_name = "WxH")]
+    size: Size,
+    /// What draws
+    #[arg(long, value_enum, default_value = "auto")]
+    backend: BackendArg,
+    /// Report as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum PathArg {
+    /// Every point gathers light from all others within reach: the reference
+    Gather,
+    /// Weighted irradiance maps and shared Gaussians: many times faster, and an approximation
+    Separable,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum MappingArg {
+    /// Texture coordinates if the mesh has any, repeated so that the material keeps its size; else box
+    Auto,
+    /// Texture coordinates
+    Uv,
+    /// Projected from the side that each normal faces most
+    Box,
+}
+
+/// Light on a patch or on a mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum LightArg {
+    Pattern(Light),
+    Direction(Vec3),
+}
+
+impl FromStr for LightArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if let Some(light) = Light::ALL.into_iter().find(|light| light.name() == text) {
+            return Ok(Self::Pattern(light));
+        }
+        let numbers: Option<Vec<f32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+        match numbers.as_deref() {
+            Some(&[x, y, z]) if Vec3::new(x, y, z).try_normalize().is_some() => {
+                Ok(Self::Direction(Vec3::new(x, y, z).normalize()))
+            }
+            _ => Err("expected uniform, disc, line or a direction such as 1,2,1".to_owned()),
+        }
+    }
+}
+
+/// Degrees around the up axis and above the horizon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Angles {
+    around: f32,
+    up: f32,
+}
+
+impl FromStr for Angles {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Option<Vec<f32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+        match numbers.as_deref() {
+            Some(&[around, up]) if up.abs() < 90.0 && around.is_finite() => Ok(Self { around, up }),
+            _ => Err("expected two angles in degrees, the second between -90 and 90, such as 30,15".to_owned()),
+        }
+    }
+}
+
+/// Display value that the brightest parts get when the exposure is chosen.
+const BRIGHT: f32 = 0.75;
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    check_target(&args.output)?;
+    check_picture(args.size.0)?;
+    if let Some(exposure) = args.exposure
+        && !(exposure.is_finite() && exposure > 0.0)
+    {
+        return Err(bad_request(format!("--exposure is {exposure}; it must be positive")));
+    }
+    let bytes = read_file(&args.file)?;
+    let material = parse(&args.file, &bytes)?;
+    let gpu = args.backend.open()?;
+    let start = Instant::now();
+    let (picture, facts) = match (&args.mesh, args.light) {
+        (None, None) => draw_patch(gpu.as_ref(), &material, args.path, Light::Disc, args.size.0, args.exposure)?,
+        (None, Some(LightArg::Pattern(light))) => {
+            draw_patch(gpu.as_ref(), &material, args.path, light, args.size.0, args.exposure)?
+        }
+        (None, Some(LightArg::Direction(_))) => {
+            return Err(bad_request("--light X,Y,Z is for meshes; on a patch it is uniform, disc or line"));
+        }
+        (Some(_), Some(LightArg::Pattern(_))) => {
+            return Err(bad_request(
+                "--light uniform, disc and line are for patches; on a mesh it is a direction X,Y,Z",
+            ));
+        }
+        (Some(path), light) => {
+            let direction = match light {
+                Some(LightArg::Direction(direction)) => direction,
+                _ => mesh::DEFAULT_LIGHT.normalize(),
+            };
+            let mesh = load(path, args.extent, args.up)?;
+            let environment = match &args.environment {
+                Some(path) => read_environment(path)?,
+                None => Environment::uniform(mesh::SKY),
+            };
+            let shot = Shot {
+                direction,
+                environment,
+                roughness: args.roughness,
+                angles: args.view,
+                size: args.size.0,
+                exposure: args.exposure,
+            };
+            draw_mesh(gpu.as_ref(), &material, &mesh, args.mapping, args.path, &shot)?
+        }
+    };
+    write_png(&args.output, &picture)?;
+    let seconds = start.elapsed().as_secs_f64();
+    let device = devices::name(gpu.as_ref());
+    if args.json {
+        let mut value = json!({ "file": args.output, "device": device, "seconds": seconds });
+        if let Some(value) = value.as_object_mut() {
+            value.extend(facts);
+        }
+        say!("{value:#}");
+    } else {
+        say!("{}: drawn by {device} in {seconds:.1} s", args.output.display());
+        if let Some(bytes) = facts.get("gpu_bytes").and_then(Value::as_u64) {
+            say!("  the material takes {} on the device", human(bytes));
+        }
+    }
+    Ok(())
+}
+
+/// An equirectangular picture; 8-bit ones are taken as sRGB.
+pub(crate) fn read_environment(path: &Path) -> anyhow::Result<Environment> {
+    let wrong = |reason: String| bad_request(format!("{}: {reason}", path.display()));
+    let picture = image::open(path).map_err(|error| wrong(error.to_string()))?;
+    let is_linear = matches!(picture.color(), image::ColorType::Rgb32F | image::ColorType::Rgba32F);
+    let picture = picture.into_rgb32f();
+    let size = [picture.width(), picture.height()];
+    let decoded = |value: f32| match is_linear {
+        true => value,
+        false if value <= 0.040_45 => value / 12.92,
+        false => ((value + 0.055) / 1.055).powf(2.4),
+    };
+    let pixels: Vec<Rgb> = picture.pixels().map(|pixel| pixel.0.map(decoded)).collect();
+    Environment::equirectangular(size, &pixels).map_err(|error| wrong(error.to_string()))
+}
+
+/// The exposure that brings all but the brightest hundredth below [`BRIGHT`].
+fn exposure_for<'a>(lights: impl Iterator<Item = &'a Rgb>) -> f32 {
+    let mut values: Vec<f32> = lights.map(|rgb| rgb.iter().copied().fold(0.0, f32::max)).collect();
+    values.sort_by(f32::total_cmp);
+    let bright = values.get(values.len() * 99 / 100).copied().unwrap_or(0.0);
+    if bright > 0.0 { BRIGHT / bright } else { 1.0 }
+}
+

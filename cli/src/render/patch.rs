@@ -1,0 +1,78 @@
+//! A flat patch, each of its pixels a block.
+
+use image::RgbImage;
+use serde_json::{Map, Value, json};
+use subsurf_decoder::Bssrdf;
+use subsurf_encoder::metrics::Light;
+use subsurf_runtime::{
+    Gpu, Material, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, storage_of,
+};
+use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_shaders::separable::{Detail, Factors};
+
+use super::{PathArg, exposure_for};
+use crate::picture::image;
+
+/// Irradiance of a pattern on every pixel of a patch, as it is after it has entered.
+pub(crate) fn patch_irradiance(material: &Bssrdf<'_>, light: Light) -> Vec<Rgb> {
+    let size = [material.header().width as usize, material.header().height as usize];
+    let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+    pixels.map(|pixel| [light.irradiance(pixel, size); 3]).collect()
+}
+
+/// Draws the whole patch, each of its pixels a block.
+pub(crate) fn draw_patch(
+    gpu: Option<&Gpu>,
+    material: &Bssrdf<'_>,
+    path: PathArg,
+    light: Light,
+    size: [u32; 2],
+    exposure: Option<f32>,
+) -> anyhow::Result<(RgbImage, Map<String, Value>)> {
+    let header = material.header();
+    let whole = Region { origin: [0, 0], size: [header.width, header.height] };
+    // The patch keeps its shape.
+    let scale = (0..2).map(|k| f64::from(size[k]) / f64::from(whole.size[k])).fold(f64::INFINITY, f64::min);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "no larger than `size`")]
+    let size = whole.size.map(|side| ((f64::from(side) * scale).round() as u32).max(1));
+    let irradiance = patch_irradiance(material, light);
+    let mut facts = Map::new();
+    facts.insert("light".to_owned(), json!(light.name()));
+    facts.insert("size".to_owned(), json!(size));
+    let pixels = match gpu {
+        Some(gpu) => {
+            let renderer = PatchRenderer::new(gpu, storage_of(material))?;
+            let light = PatchLight::upload(gpu, whole.size, &irradiance)?;
+            let (exitance, gpu_bytes) = match path {
+                PathArg::Gather => {
+                    let uploaded = Material::upload(gpu, material)?;
+                    (renderer.gather(gpu, &uploaded, &light, whole)?, uploaded.gpu_bytes())
+                }
+                PathArg::Separable => {
+                    let uploaded = SeparableMaterial::upload(gpu, &Factors::of(material, Detail::default()))?;
+                    let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
+                    let patch = renderer.prepare(gpu, &uploaded, &light)?;
+                    renderer.draw(gpu, &patch)?;
+                    (patch.into_exitance(), uploaded.gpu_bytes())
+                }
+            };
+            let exposure = match exposure {
+                Some(exposure) => exposure,
+                None => exposure_for(exitance.read(gpu)?.iter()),
+            };
+            facts.insert("gpu_bytes".to_owned(), json!(gpu_bytes));
+            facts.insert("exposure".to_owned(), json!(exposure));
+            renderer.picture(gpu, &exitance, size, exposure)?
+        }
+        None => {
+            let exitance = match path {
+                PathArg::Gather => cpu::gather(material, &irradiance, whole.origin, whole.size),
+                PathArg::Separable => cpu::separable(&Factors::of(material, Detail::default()), &irradiance),
+            };
+            let exposure = exposure.unwrap_or_else(|| exposure_for(exitance.iter()));
+            facts.insert("exposure".to_owned(), json!(exposure));
+            cpu::present(&exitance, whole.size, size, exposure)
+        }
+    };
+    Ok((image(&pixels, size[0]), facts))
+}

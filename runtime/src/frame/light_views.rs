@@ -1,0 +1,73 @@
+//! What lights see of a mesh: positions, light that enters, places on the patch.
+
+use subsurf_shaders::source;
+use subsurf_shaders::uniform::Which;
+use wgpu::{BindGroup, Buffer, Color, CommandEncoder, TextureFormat, TextureUsages, TextureView};
+
+use super::plan::{Plan, light_layers};
+use crate::context::Gpu;
+use crate::error::Result;
+use crate::ledger::Tracked;
+use crate::material::layers_of;
+use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
+use crate::resource::{Slot, Surface2d, TextureSpec, level_of};
+
+const SEEN: TextureFormat = TextureFormat::Rgba16Float;
+/// Where nothing is seen, it is this far away, in mm: the largest that half floats hold, or nearly.
+pub(crate) const FAR: Color = Color { r: 0.0, g: 0.0, b: 0.0, a: 60_000.0 };
+
+/// Positions, fluxes and places, as `light_view.wgsl` has them.
+#[derive(Debug)]
+pub(crate) struct LightViews {
+    surfaces: [Surface2d; 3],
+    /// All layers and levels of each.
+    pub(crate) all: [TextureView; 3],
+    /// Of each light, its layers at the finest level.
+    targets: Vec<[TextureView; 3]>,
+    depth: Surface2d,
+    which: Vec<BindGroup>,
+    scene: BindGroup,
+}
+
+pub(crate) fn pass(gpu: &Gpu) -> Result<MeshPass> {
+    MeshPass::new(gpu, source::LIGHT_VIEW, "see", &[&[Slot::Uniform], &[Slot::Uniform]], &[SEEN; 3], 1)
+}
+
+impl LightViews {
+    pub(crate) fn new(gpu: &Gpu, pass: &MeshPass, scene: &Buffer, plan: &Plan, levels: u32) -> Result<Self> {
+        let size = [plan.light_texels; 2];
+        let layers = light_layers(plan.lights);
+        let surface = |label| {
+            gpu.texture(&TextureSpec { layers, levels, ..TextureSpec::target(label, size, SEEN) })
+        };
+        let surfaces = [surface("positions seen")?, surface("fluxes seen")?, surface("places seen")?];
+        let of_light = |layer| [0, 1, 2].map(|k| level_of(&surfaces[k], layer, 0));
+        let depth =
+            TextureSpec { usage: TextureUsages::RENDER_ATTACHMENT, ..TextureSpec::target("light depth", size, DEPTH) };
+        let which = |light| {
+            let block: Tracked<Buffer> = gpu.uniform("which light", &Which { light, pad: [0; 3] });
+            pass.bind(gpu, 1, &[block.as_entire_binding()])
+        };
+        Ok(Self {
+            all: [0, 1, 2].map(|k| layers_of(&surfaces[k])),
+            targets: (0..plan.lights.min(layers)).map(of_light).collect(),
+            depth: gpu.texture(&depth)?,
+            which: (0..plan.lights.min(layers)).map(which).collect::<Result<_>>()?,
+            scene: pass.bind(gpu, 0, &[scene.as_entire_binding()])?,
+            surfaces,
+        })
+    }
+
+    /// Draws what the first `lights` lights see.
+    pub(crate) fn record(&self, encoder: &mut CommandEncoder, pass: &MeshPass, mesh: &GpuMesh, lights: usize) {
+        for (views, which) in self.targets.iter().zip(&self.which).take(lights) {
+            let clears = [FAR, Color::TRANSPARENT, Color::TRANSPARENT];
+            let targets = [0, 1, 2].map(|k| Target { view: &views[k], clear: clears[k], resolved: None });
+            pass.record(encoder, &targets, &self.depth.view, &[&self.scene, which], mesh);
+        }
+    }
+
+    pub(crate) fn surfaces(&self) -> &[Surface2d; 3] {
+        &self.surfaces
+    }
+}

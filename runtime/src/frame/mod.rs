@@ -1,0 +1,358 @@
+//! A frame: what lights see, light that scatters by one of the paths, and the picture.
+
+mod gather;
+mod light_views;
+mod plan;
+mod separable;
+
+use half::f16;
+use subsurf_shaders::{Storage, uniform};
+use wgpu::{
+    AddressMode, BindGroup, BindingResource, Buffer, Color, CommandEncoderDescriptor, FilterMode, MipmapFilterMode,
+    SamplerDescriptor, TextureFormat, TextureUsages, TextureView,
+};
+
+use crate::context::Gpu;
+use crate::error::Result;
+use crate::factors::SeparableMaterial;
+use crate::ledger::Tracked;
+use crate::material::Material;
+use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
+use crate::resource::{Slot, Surface2d, TextureSpec};
+use crate::scene::{REFLECTION_LEVELS, REFLECTION_SIZE, Scene};
+use light_views::LightViews;
+
+pub use gather::GpuPoints;
+pub use plan::Plan;
+
+/// How light scatters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Path {
+    /// Every vertex gathers from all others within reach: the reference, and slow.
+    Gather(Storage),
+    /// Weighted irradiance maps on the screen, blurred by shared Gaussians; of so many terms.
+    Separable(usize),
+}
+
+/// What a renderer may use and what it draws to.
+#[derive(Clone, Copy, Debug)]
+pub struct RuntimeOptions {
+    /// Most bytes on the device, those of meshes and materials included; no limit if there is none.
+    pub budget_bytes: Option<u64>,
+    /// Format of the picture. Where it is one of sRGB, the device encodes; else the shader does.
+    pub format: TextureFormat,
+    /// Samples to a pixel, 1 or 4.
+    pub samples: u32,
+    /// Texels to a side of what each light sees.
+    pub light_texels: u32,
+    /// Behind the mesh, as the target takes it.
+    pub background: Color,
+}
+
+impl Default for RuntimeOptions {
+    fn default() -> Self {
+        let grey = f64::from(BACKGROUND) / 255.0;
+        Self {
+            budget_bytes: None,
+            format: TextureFormat::Rgba8Unorm,
+            samples: 1,
+            light_texels: 512,
+            background: Color { r: grey, g: grey, b: grey, a: 1.0 },
+        }
+    }
+}
+
+/// Dark grey, as 8-bit display value.
+pub const BACKGROUND: u8 = 46;
+
+/// What is drawn: a mesh, and its material as the path wants it.
+#[derive(Clone, Copy, Debug)]
+pub enum Model<'a> {
+    /// For [`Path::Gather`].
+    Gather {
+        /// The mesh, with the point of every vertex.
+        mesh: &'a GpuMesh,
+        /// Its points.
+        points: &'a GpuPoints,
+        /// Its material.
+        material: &'a Material,
+    },
+    /// For [`Path::Separable`].
+    Separable {
+        /// The mesh.
+        mesh: &'a GpuMesh,
+        /// Its material.
+        material: &'a SeparableMaterial,
+    },
+}
+
+impl Model<'_> {
+    fn mesh(&self) -> &GpuMesh {
+        match self {
+            Self::Gather { mesh, .. } | Self::Separable { mesh, .. } => mesh,
+        }
+    }
+}
+
+/// The pipelines of a path; made at load, never in a frame.
+#[derive(Debug)]
+pub struct Renderer {
+    options: RuntimeOptions,
+    light_view: MeshPass,
+    passes: Passes,
+}
+
+#[derive(Debug)]
+enum Passes {
+    Gather(gather::Passes),
+    Separable(separable::Passes),
+}
+
+/// Everything that a picture of one size of one model needs on the device.
+#[derive(Debug)]
+pub struct Frame {
+    plan: Plan,
+    common: Common,
+    lights: LightViews,
+    scene: BindGroup,
+    depth: Surface2d,
+    /// Where pixels have several samples.
+    samples: Option<Surface2d>,
+    buffers: Buffers,
+}
+
+#[derive(Debug)]
+enum Buffers {
+    Gather(gather::Buffers),
+    Separable(separable::Buffers),
+}
+
+/// What all paths know of the scene.
+#[derive(Debug)]
+pub(crate) struct Common {
+    pub(crate) block: Tracked<Buffer>,
+    reflections: Surface2d,
+    /// The environment that `reflections` shows.
+    shown: Vec<Vec<[f32; 3]>>,
+}
+
+/// Bindings of group 0 of passes that shade: the scene, positions that lights see, reflections and their sampler.
+pub(crate) const COMMON: [Slot; 4] = [Slot::Uniform, Slot::FloatLayers, Slot::Filtered, Slot::Sampler];
+
+impl Renderer {
+    /// Compiles the passes of a path.
+    ///
+    /// # Errors
+    /// [`crate::Error::Device`] if the driver refuses them; captures are not drawn on meshes.
+    pub fn new(gpu: &Gpu, path: Path, options: RuntimeOptions) -> Result<Self> {
+        let RuntimeOptions { format, samples, .. } = options;
+        let passes = match path {
+            Path::Gather(storage) => Passes::Gather(gather::Passes::new(gpu, storage, format, samples)?),
+            Path::Separable(terms) => Passes::Separable(separable::Passes::new(gpu, terms, format, samples)?),
+        };
+        Ok(Self { options, light_view: light_views::pass(gpu)?, passes })
+    }
+
+    /// Makes room for pictures of `size` of a model, within the budget: views of lights, samples and maps become coarser
+    /// until everything fits.
+    ///
+    /// # Errors
+    /// [`crate::Error::OverBudget`] if even the coarsest does not, before anything is allocated;
+    /// [`crate::Error::Device`] if the model is for another path.
+    pub fn prepare(&self, gpu: &Gpu, model: &Model<'_>, scene: &Scene, size: [u32; 2]) -> Result<Frame> {
+        let lights = u32::try_from(scene.lights.len()).unwrap_or(u32::MAX);
+        let plan = Plan {
+            size,
+            light_texels: self.options.light_texels,
+            lights: lights.clamp(1, plan::light_layers(lights)),
+            divisor: divisor(scene, model, size),
+            samples: self.options.samples,
+        };
+        let of_path = |plan: &Plan| match &self.passes {
+            Passes::Gather(_) => plan.light_bytes(1),
+            Passes::Separable(passes) => passes.bytes(plan),
+        };
+        let bytes = |plan: &Plan| of_path(plan) + plan.picture_bytes(self.options.format) + Common::BYTES;
+        let plan = plan.within(self.options.budget_bytes, gpu.ledger().bytes(), bytes)?;
+        let common = Common::new(gpu)?;
+        let lights = LightViews::new(gpu, &self.light_view, &common.block, &plan, 1)?;
+        let (shade, buffers) = match (&self.passes, model) {
+            (Passes::Gather(passes), Model::Gather { points, material, .. }) => {
+                let buffers = gather::Buffers::new(gpu, passes, material, points, &common)?;
+                (&passes.shade, Buffers::Gather(buffers))
+            }
+            (Passes::Separable(passes), Model::Separable { material, .. }) => {
+                let buffers = separable::Buffers::new(gpu, passes, material, &common, &lights, &plan)?;
+                (&passes.shade, Buffers::Separable(buffers))
+            }
+            _ => return Err(crate::Error::Device("the model is for another path than the renderer".to_owned())),
+        };
+        let sampler = reflection_sampler(gpu);
+        let of_scene = [
+            common.block.as_entire_binding(),
+            BindingResource::TextureView(&lights.all[0]),
+            BindingResource::TextureView(&common.reflections.view),
+            BindingResource::Sampler(&sampler),
+        ];
+        let attachment = |label, format, samples| {
+            let usage = TextureUsages::RENDER_ATTACHMENT;
+            gpu.texture(&TextureSpec { usage, samples, ..TextureSpec::target(label, size, format) })
+        };
+        Ok(Frame {
+            scene: shade.bind(gpu, 0, &of_scene)?,
+            depth: attachment("depth", DEPTH, plan.samples)?,
+            samples: match plan.samples {
+                1 => None,
+                samples => Some(attachment("samples", self.options.format, samples)?),
+            },
+            plan,
+            common,
+            lights,
+            buffers,
+        })
+    }
+
+    /// Draws a scene to a view of the format and size that were agreed on.
+    ///
+    /// # Errors
+    /// [`crate::Error::Device`].
+    pub fn draw(
+        &self,
+        gpu: &Gpu,
+        frame: &mut Frame,
+        model: &Model<'_>,
+        scene: &Scene,
+        target: &TextureView,
+    ) -> Result<()> {
+        let mesh = model.mesh();
+        let plan = frame.plan;
+        let block = scene.block(&mesh.outline, plan.size, plan.light_texels);
+        gpu.queue.write_buffer(&frame.common.block, 0, bytemuck::bytes_of(&block));
+        frame.common.show(gpu, scene)?;
+        let shade = match (&mut frame.buffers, &self.passes, model) {
+            (Buffers::Gather(buffers), Passes::Gather(passes), Model::Gather { points, .. }) => {
+                buffers.gather(gpu, passes, points, &block)?;
+                &passes.shade
+            }
+            (Buffers::Separable(buffers), Passes::Separable(passes), _) => {
+                buffers.update(gpu, scene, &mesh.outline, &plan);
+                &passes.shade
+            }
+            _ => return Err(crate::Error::Device("the frame is for another path than the renderer".to_owned())),
+        };
+        gpu.checked(|| {
+            let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+            let lights = scene.lights.len().min(plan.lights as usize);
+            frame.lights.record(&mut encoder, &self.light_view, mesh, lights);
+            let group = match (&frame.buffers, &self.passes) {
+                (Buffers::Separable(buffers), Passes::Separable(passes)) => {
+                    buffers.record(&mut encoder, passes, mesh);
+                    &buffers.shade
+                }
+                (Buffers::Gather(buffers), _) => &buffers.shade,
+                (Buffers::Separable(buffers), _) => &buffers.shade,
+            };
+            let (view, resolved) = match &frame.samples {
+                Some(samples) => (&samples.view, Some(target)),
+                None => (target, None),
+            };
+            let target = Target { view, clear: self.options.background, resolved };
+            shade.record(&mut encoder, &[target], &frame.depth.view, &[&frame.scene, group], mesh);
+            gpu.queue.submit([encoder.finish()]);
+        })
+    }
+
+    /// Draws a scene and reads the picture back: rows of 8-bit values from the top.
+    ///
+    /// # Errors
+    /// [`crate::Error::Device`], also if the format of the renderer has not four bytes.
+    pub fn picture(
+        &self,
+        gpu: &Gpu,
+        frame: &mut Frame,
+        model: &Model<'_>,
+        scene: &Scene,
+    ) -> Result<Vec<[u8; 3]>> {
+        let target = gpu.texture(&TextureSpec::target("picture", frame.plan.size, self.options.format))?;
+        self.draw(gpu, frame, model, scene, &target.view)?;
+        let texels: Vec<[u8; 4]> = gpu.read(&target.texture)?;
+        Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect())
+    }
+}
+
+impl Frame {
+    /// What was chosen within the budget.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+}
+
+/// Texels of the narrowest Gaussian, σ, at the middle of the scene: maps are made as coarse as that.
+const NARROWEST_TEXELS: f32 = 1.2;
+
+/// Pixels of the picture to a side of a texel of the maps.
+fn divisor(scene: &Scene, model: &Model<'_>, size: [u32; 2]) -> u32 {
+    let Model::Separable { mesh, material } = model else {
+        return 1;
+    };
+    let outline = &mesh.outline;
+    let distance = scene.view.eye_mm.distance(outline.centre_mm);
+    #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
+    let pixels_per_mm = 0.5 * size[1] as f32 / (0.5 * scene.view.angle).tan() / distance;
+    let narrowest = material.narrowest_pixels() * outline.header.pitch_mm * pixels_per_mm;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let divisor = (narrowest / NARROWEST_TEXELS).clamp(1.0, 4.0) as u32;
+    divisor
+}
+
+impl Common {
+    /// Bytes of the environment's picture and the block.
+    const BYTES: u64 = {
+        let (mut bytes, mut level) = (size_of::<uniform::Scene>() as u64, 0);
+        while level < REFLECTION_LEVELS {
+            bytes += (REFLECTION_SIZE[0] as u64 >> level) * (REFLECTION_SIZE[1] as u64 >> level) * 8;
+            level += 1;
+        }
+        bytes
+    };
+
+    fn new(gpu: &Gpu) -> Result<Self> {
+        let spec = TextureSpec::table("reflections", REFLECTION_SIZE, TextureFormat::Rgba16Float);
+        Ok(Self {
+            block: gpu.uniform("scene", &<uniform::Scene as bytemuck::Zeroable>::zeroed()),
+            reflections: gpu.texture(&TextureSpec { levels: REFLECTION_LEVELS, ..spec })?,
+            shown: Vec::new(),
+        })
+    }
+
+    /// Uploads the environment's picture if it is another one.
+    fn show(&mut self, gpu: &Gpu, scene: &Scene) -> Result<()> {
+        let levels = scene.environment.reflections();
+        if self.shown == levels {
+            return Ok(());
+        }
+        for (pixels, level) in levels.iter().zip(0..) {
+            // Half floats hold no more.
+            let texels = pixels.iter().flat_map(|[r, g, b]| [*r, *g, *b, 1.0].map(|value| value.min(65_504.0)));
+            let texels: Vec<u16> = texels.map(|value| f16::from_f32(value).to_bits()).collect();
+            let bytes = bytemuck::cast_slice(&texels);
+            gpu.checked(|| gpu.fill_level(&self.reflections.texture, 0, level, bytes))?;
+        }
+        self.shown = levels.to_vec();
+        Ok(())
+    }
+}
+
+/// Around in u, drawn out beyond the poles.
+fn reflection_sampler(gpu: &Gpu) -> wgpu::Sampler {
+    gpu.device.create_sampler(&SamplerDescriptor {
+        label: Some("reflections"),
+        address_mode_u: AddressMode::Repeat,
+        address_mode_v: AddressMode::ClampToEdge,
+        mag_filter: FilterMode::Linear,
+        min_filter: FilterMode::Linear,
+        mipmap_filter: MipmapFilterMode::Linear,
+        ..Default::default()
+    })
+}

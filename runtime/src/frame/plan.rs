@@ -1,0 +1,111 @@
+//! How large the buffers of a frame are, and what they take, before any of them is made.
+
+use subsurf_shaders::uniform::MAX_LIGHTS;
+use wgpu::TextureFormat;
+
+use crate::error::{Error, Result};
+use crate::mesh::DEPTH;
+
+/// Sizes of everything that a frame allocates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Plan {
+    /// Pixels of the picture.
+    pub size: [u32; 2],
+    /// Texels to a side of what each light sees.
+    pub light_texels: u32,
+    /// Lights with a view.
+    pub lights: u32,
+    /// Pixels of the picture to a side of a texel of the maps that scatter light.
+    pub divisor: u32,
+    /// Samples to a pixel of the picture, 1 or 4.
+    pub samples: u32,
+}
+
+/// Bytes of a texel of half floats.
+const HALF4: u64 = 8;
+/// Coarsest maps and views that still look like the scene.
+const LARGEST_DIVISOR: u32 = 4;
+const LEAST_LIGHT_TEXELS: u32 = 128;
+
+impl Plan {
+    /// Texels of the maps.
+    #[must_use]
+    pub fn map_size(&self) -> [u32; 2] {
+        self.size.map(|side| side.div_ceil(self.divisor).max(1))
+    }
+
+    /// Bytes of what lights see, with `levels` levels.
+    pub(crate) fn light_bytes(&self, levels: u32) -> u64 {
+        let texels = |level: u32| u64::from((self.light_texels >> level).max(1)).pow(2);
+        let views = (0..levels).map(texels).sum::<u64>() * u64::from(light_layers(self.lights)) * 3 * HALF4;
+        views + texels(0) * bytes_of(DEPTH)
+    }
+
+    /// Bytes of depth and samples of the picture.
+    pub(crate) fn picture_bytes(&self, format: TextureFormat) -> u64 {
+        let pixels = u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(self.samples);
+        let coloured = if self.samples > 1 { bytes_of(format) } else { 0 };
+        pixels * (bytes_of(DEPTH) + coloured)
+    }
+
+    /// The next cheaper plan, if there is one.
+    fn cheaper(self) -> Option<Self> {
+        // What is seen least goes first.
+        if self.light_texels > 2 * LEAST_LIGHT_TEXELS {
+            return Some(Self { light_texels: self.light_texels / 2, ..self });
+        }
+        if self.divisor < LARGEST_DIVISOR {
+            return Some(Self { divisor: self.divisor + 1, ..self });
+        }
+        let light_texels = self.light_texels / 2;
+        (light_texels >= LEAST_LIGHT_TEXELS).then_some(Self { light_texels, ..self })
+    }
+
+    /// The best plan that fits, when `used` bytes are taken already and a plan takes what `bytes` says.
+    pub(crate) fn within(self, budget: Option<u64>, used: u64, bytes: impl Fn(&Self) -> u64) -> Result<Self> {
+        let Some(budget_bytes) = budget else {
+            return Ok(self);
+        };
+        let mut plan = self;
+        loop {
+            let need_bytes = used + bytes(&plan);
+            if need_bytes <= budget_bytes {
+                return Ok(plan);
+            }
+            plan = plan.cheaper().ok_or(Error::OverBudget { need_bytes, budget_bytes })?;
+        }
+    }
+}
+
+/// Layers of textures for that many lights: two at least, for drivers that take one layer for no array.
+pub(crate) fn light_layers(lights: u32) -> u32 {
+    #[allow(clippy::cast_possible_truncation, reason = "four")]
+    let most = MAX_LIGHTS as u32;
+    lights.clamp(2, most)
+}
+
+fn bytes_of(format: TextureFormat) -> u64 {
+    u64::from(format.block_copy_size(None).unwrap_or(4))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plans_shrink_until_they_fit_or_nothing_is_left() {
+        let plan = Plan { size: [1280, 720], light_texels: 512, lights: 1, divisor: 1, samples: 4 };
+        let bytes = |plan: &Plan| {
+            plan.light_bytes(1) + plan.picture_bytes(TextureFormat::Rgba8Unorm) + u64::from(plan.map_size()[0]) * 720
+        };
+        assert_eq!(plan.within(None, 0, bytes).unwrap(), plan);
+        assert_eq!(plan.within(Some(1 << 30), 0, bytes).unwrap(), plan);
+        let smaller = plan.within(Some(bytes(&plan) - 1), 0, bytes).unwrap();
+        assert!(bytes(&smaller) < bytes(&plan), "{smaller:?}");
+        assert!(plan.within(Some(bytes(&plan)), 1 << 20, bytes).unwrap() != plan, "what is used counts");
+        match plan.within(Some(1000), 0, bytes) {
+            Err(Error::OverBudget { need_bytes, budget_bytes: 1000 }) => assert!(need_bytes > 1000, "{need_bytes}"),
+            other => panic!("{other:?}"),
+        }
+    }
+}

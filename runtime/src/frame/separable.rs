@@ -1,0 +1,137 @@
+//! The separable path on the screen: weighted irradiance where the eye sees the mesh, blurred by distances in space.
+
+use subsurf_shaders::source::{self, Domain, Encoding};
+use subsurf_shaders::uniform::{ScreenDomain, Sums};
+use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoder, TextureFormat, TextureUsages};
+
+use super::light_views::{FAR, LightViews};
+use super::plan::Plan;
+use super::{COMMON, Common};
+use crate::cascade::{BlurPasses, Cascade, MAP};
+use crate::context::Gpu;
+use crate::error::Result;
+use crate::factors::SeparableMaterial;
+use crate::ledger::Tracked;
+use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
+use crate::resource::{Slot, Surface2d, TextureSpec};
+use crate::scene::{Outline, Scene};
+
+/// Its pipelines.
+#[derive(Debug)]
+pub(crate) struct Passes {
+    terms: usize,
+    weigh: MeshPass,
+    blur: BlurPasses,
+    pub(crate) shade: MeshPass,
+}
+
+/// Its buffers, for one size of picture.
+#[derive(Debug)]
+pub(crate) struct Buffers {
+    cascade: Cascade,
+    depth: Surface2d,
+    domain: Tracked<Buffer>,
+    sums: Tracked<Buffer>,
+    sums_block: Sums,
+    weigh: [BindGroup; 2],
+    pub(crate) shade: BindGroup,
+}
+
+impl Passes {
+    pub(crate) fn new(gpu: &Gpu, terms: usize, format: TextureFormat, samples: u32) -> Result<Self> {
+        let encoding = if format.is_srgb() { Encoding::There } else { Encoding::Here };
+        let of_weigh: [&[Slot]; 2] = [&COMMON[..2], &[Slot::FilteredLayers, Slot::Sampler]];
+        let of_shade = [
+            Slot::FilteredLayers,
+            Slot::Sampler,
+            Slot::Uniform,
+            Slot::FloatLayers,
+            Slot::FloatLayers,
+            Slot::FloatLayers,
+        ];
+        let shader = source::shade_sums(encoding, terms);
+        Ok(Self {
+            terms,
+            weigh: MeshPass::new(gpu, source::weigh_mesh(terms), "weigh", &of_weigh, &vec![MAP; terms], 1)?,
+            blur: BlurPasses::new(gpu, Domain::Screen, terms)?,
+            shade: MeshPass::new(gpu, shader, "shade", &[&COMMON, &of_shade], &[format], samples)?,
+        })
+    }
+
+    pub(crate) fn bytes(&self, plan: &Plan) -> u64 {
+        let size = plan.map_size();
+        let depth = TextureSpec::target("", size, DEPTH).bytes();
+        Cascade::bytes_of(size, self.terms) + depth + plan.light_bytes(1)
+    }
+}
+
+impl Buffers {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        passes: &Passes,
+        material: &SeparableMaterial,
+        common: &Common,
+        lights: &LightViews,
+        plan: &Plan,
+    ) -> Result<Self> {
+        let size = plan.map_size();
+        let domain = gpu.uniform("screen", &ScreenDomain::default());
+        let cascade = Cascade::new(gpu, &passes.blur, material, &domain, size)?;
+        let depth =
+            TextureSpec { usage: TextureUsages::RENDER_ATTACHMENT, ..TextureSpec::target("map depth", size, DEPTH) };
+        let sums_block = *material.sums();
+        let sums = gpu.uniform("sums", &sums_block);
+        let texture = BindingResource::TextureView;
+        let of_factors = [texture(&material.layers), BindingResource::Sampler(&material.sampler)];
+        let of_scene = [common.block.as_entire_binding(), texture(&lights.all[0])];
+        let of_shade = [
+            of_factors[0].clone(),
+            of_factors[1].clone(),
+            sums.as_entire_binding(),
+            texture(&cascade.sums().all),
+            texture(&lights.all[1]),
+            texture(&lights.all[2]),
+        ];
+        Ok(Self {
+            weigh: [passes.weigh.bind(gpu, 0, &of_scene)?, passes.weigh.bind(gpu, 1, &of_factors)?],
+            shade: passes.shade.bind(gpu, 1, &of_shade)?,
+            depth: gpu.texture(&depth)?,
+            cascade,
+            domain,
+            sums,
+            sums_block,
+        })
+    }
+
+    /// Tells the passes how large things are on the screen.
+    pub(crate) fn update(&mut self, gpu: &Gpu, scene: &Scene, outline: &Outline, plan: &Plan) {
+        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
+        let [width, height] = plan.map_size().map(|side| side as f32);
+        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
+        let picture = plan.size.map(|side| side as f32);
+        let texels_per_tangent = 0.5 * height / (0.5 * scene.view.angle).tan();
+        let forward = (scene.view.target_mm - scene.view.eye_mm).normalize_or(glam::Vec3::NEG_Z);
+        let middle_mm = (outline.centre_mm - scene.view.eye_mm).dot(forward);
+        let pitch_mm = outline.header.pitch_mm;
+        let domain = ScreenDomain {
+            size: plan.map_size(),
+            focal_texels: texels_per_tangent * pitch_mm,
+            middle_mm,
+            pitch_mm,
+            pad: [0; 3],
+        };
+        gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
+        self.sums_block.texels_per_pixel = [width / picture[0], height / picture[1]];
+        // Surfaces that are not seen at too flat an angle are the same two texels away.
+        self.sums_block.texel_mm = 2.0 * middle_mm.max(1e-3) / texels_per_tangent;
+        gpu.queue.write_buffer(&self.sums, 0, bytemuck::bytes_of(&self.sums_block));
+    }
+
+    pub(crate) fn record(&self, encoder: &mut CommandEncoder, passes: &Passes, mesh: &GpuMesh) {
+        let layers = &self.cascade.maps[0].layers;
+        let targets: Vec<_> = layers.iter().map(|view| Target { view, clear: FAR, resolved: None }).collect();
+        let [scene, factors] = &self.weigh;
+        passes.weigh.record(encoder, &targets, &self.depth.view, &[scene, factors], mesh);
+        self.cascade.record(encoder, &passes.blur);
+    }
+}

@@ -1,0 +1,196 @@
+//! A mesh on the device, and passes that draw it.
+
+use glam::{Vec2, Vec3};
+use wgpu::{
+    BindGroup, BindGroupLayout, BindingResource, Buffer, BufferUsages, Color, ColorTargetState, CommandEncoder,
+    CompareFunction, DepthStencilState, FragmentState, IndexFormat, LoadOp, MultisampleState, Operations,
+    PipelineLayoutDescriptor, PrimitiveState, RenderPassColorAttachment, RenderPassDepthStencilAttachment,
+    RenderPassDescriptor, RenderPipeline, RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp,
+    TextureFormat, TextureView, VertexBufferLayout, VertexState, VertexStepMode, vertex_attr_array,
+};
+
+use crate::context::Gpu;
+use crate::error::{Error, Result};
+use crate::ledger::Tracked;
+use crate::pass::{attachment, bind, bind_group_layouts};
+use crate::resource::Slot;
+use crate::scene::{Mapping, Mesh, Outline};
+
+/// Depth of the pictures.
+pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth24Plus;
+
+/// A mesh on the device.
+#[derive(Debug)]
+pub struct GpuMesh {
+    vertices: Tracked<Buffer>,
+    indices: Tracked<Buffer>,
+    index_count: u32,
+    pub(crate) outline: Outline,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct Vertex {
+    position_mm: Vec3,
+    normal: Vec3,
+    /// Copies of the patch, v down.
+    uv: Vec2,
+    point: u32,
+}
+
+impl GpuMesh {
+    /// Uploads a mesh. `point_of` says which point of a [`crate::scene::Surface`] each vertex is, where there is one.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no buffers of that size.
+    pub fn upload(gpu: &Gpu, mesh: &Mesh, outline: &Outline, point_of: Option<&[u32]>) -> Result<Self> {
+        let times = match outline.mapping {
+            Mapping::Uv(times) => Vec2::from(times),
+            Mapping::Box => Vec2::ZERO,
+        };
+        let vertex = |k: usize| {
+            let uv = mesh.uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[k]) * times;
+            Vertex {
+                position_mm: mesh.positions[k],
+                normal: mesh.normals[k],
+                uv: Vec2::new(uv.x, 1.0 - uv.y),
+                point: point_of.map_or(0, |points| points[k]),
+            }
+        };
+        let vertices: Vec<Vertex> = (0..mesh.positions.len()).map(vertex).collect();
+        let limit = gpu.device.limits().max_buffer_size;
+        let need = (size_of_val(&vertices[..]) as u64).max(size_of_val(&mesh.triangles[..]) as u64);
+        if need > limit {
+            return Err(Error::Unsupported { what: "buffers", need, have: limit });
+        }
+        let index_count = u32::try_from(3 * mesh.triangles.len());
+        Ok(Self {
+            vertices: gpu.buffer("vertices", bytemuck::cast_slice(&vertices), BufferUsages::VERTEX),
+            indices: gpu.buffer("indices", bytemuck::cast_slice(&mesh.triangles), BufferUsages::INDEX),
+            index_count: index_count.map_err(|_| Error::Mesh("more than 2³² indices".to_owned()))?,
+            outline: *outline,
+        })
+    }
+
+    /// Bytes on the device.
+    #[must_use]
+    pub fn gpu_bytes(&self) -> u64 {
+        self.vertices.bytes() + self.indices.bytes()
+    }
+}
+
+/// A pass that draws meshes.
+#[derive(Debug)]
+pub(crate) struct MeshPass {
+    pipeline: RenderPipeline,
+    groups: Vec<BindGroupLayout>,
+}
+
+/// A colour target of a pass, and what is there before; drawn to with several samples, `resolved` gets their mean.
+pub(crate) struct Target<'a> {
+    pub(crate) view: &'a TextureView,
+    pub(crate) clear: Color,
+    pub(crate) resolved: Option<&'a TextureView>,
+}
+
+impl MeshPass {
+    /// Builds the pipeline of a shader with the entry points `project` and `fragment`.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        shader: &str,
+        fragment: &str,
+        groups: &[&[Slot]],
+        targets: &[TextureFormat],
+        samples: u32,
+    ) -> Result<Self> {
+        gpu.checked(|| {
+            let groups = bind_group_layouts(gpu, groups);
+            let module = gpu.device.create_shader_module(ShaderModuleDescriptor {
+                label: Some(fragment),
+                source: ShaderSource::Wgsl(shader.into()),
+            });
+            let bind_group_layouts: Vec<Option<&BindGroupLayout>> = groups.iter().map(Some).collect();
+            let layout = gpu.device.create_pipeline_layout(&PipelineLayoutDescriptor {
+                label: Some(fragment),
+                bind_group_layouts: &bind_group_layouts,
+                immediate_size: 0,
+            });
+            let targets: Vec<Option<ColorTargetState>> = targets.iter().map(|format| Some((*format).into())).collect();
+            let attributes = vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32];
+            let pipeline = gpu.device.create_render_pipeline(&RenderPipelineDescriptor {
+                label: Some(fragment),
+                layout: Some(&layout),
+                vertex: VertexState {
+                    module: &module,
+                    entry_point: Some("project"),
+                    compilation_options: Default::default(),
+                    buffers: &[Some(VertexBufferLayout {
+                        array_stride: size_of::<Vertex>() as u64,
+                        step_mode: VertexStepMode::Vertex,
+                        attributes: &attributes,
+                    })],
+                },
+                primitive: PrimitiveState::default(),
+                depth_stencil: Some(DepthStencilState {
+                    format: DEPTH,
+                    depth_write_enabled: Some(true),
+                    depth_compare: Some(CompareFunction::Less),
+                    stencil: Default::default(),
+                    bias: Default::default(),
+                }),
+                multisample: MultisampleState { count: samples, ..Default::default() },
+                fragment: Some(FragmentState {
+                    module: &module,
+                    entry_point: Some(fragment),
+                    compilation_options: Default::default(),
+                    targets: &targets,
+                }),
+                multiview_mask: None,
+                cache: None,
+            });
+            Self { pipeline, groups }
+        })
+    }
+
+    /// Binds resources, in order, to bind group number `group`.
+    pub(crate) fn bind(&self, gpu: &Gpu, group: usize, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
+        bind(gpu, &self.groups[group], resources)
+    }
+
+    /// Draws a mesh.
+    pub(crate) fn record(
+        &self,
+        encoder: &mut CommandEncoder,
+        targets: &[Target<'_>],
+        depth: &TextureView,
+        groups: &[&BindGroup],
+        mesh: &GpuMesh,
+    ) {
+        let attachments: Vec<_> = targets
+            .iter()
+            .map(|target| {
+                let plain = attachment(target.view, LoadOp::Clear(target.clear));
+                Some(RenderPassColorAttachment { resolve_target: target.resolved, ..plain })
+            })
+            .collect();
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: None,
+            color_attachments: &attachments,
+            depth_stencil_attachment: Some(RenderPassDepthStencilAttachment {
+                view: depth,
+                depth_ops: Some(Operations { load: LoadOp::Clear(1.0), store: StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: None,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pass.set_pipeline(&self.pipeline);
+        for (group, index) in groups.iter().zip(0..) {
+            pass.set_bind_group(index, *group, &[]);
+        }
+        pass.set_vertex_buffer(0, mesh.vertices.slice(..));
+        pass.set_index_buffer(mesh.indices.slice(..), IndexFormat::Uint32);
+        pass.draw_indexed(0..mesh.index_count, 0, 0..1);
+    }
+}

@@ -1,0 +1,41 @@
+// The smooth dielectric coat over the scattering: what it reflects.
+
+// The environment in mirrors of rising GGX roughness, equirectangular, a level each; linear rgb.
+@group(0) @binding(2) var reflections: texture_2d<f32>;
+@group(0) @binding(3) var reflection_sampler: sampler;
+
+const PI: f32 = 3.14159265;
+// The last level.
+const ROUGHEST: f32 = 5.0;
+
+fn sky_radiance(direction: vec3<f32>, roughness: f32) -> vec3<f32> {
+    let around = 0.5 + atan2(direction.x, direction.z) / (2.0 * PI);
+    let down = acos(clamp(direction.y, -1.0, 1.0)) / PI;
+    return textureSampleLevel(reflections, reflection_sampler, vec2<f32>(around, down), roughness * ROUGHEST).xyz;
+}
+
+// Microfacets of one light: D V F (Walter et al. 2007, eq. 33; Heitz 2014, eq. 99), alpha = roughness^2.
+fn glint(normal: vec3<f32>, to_eye: vec3<f32>, towards: vec3<f32>) -> f32 {
+    let nl = dot(normal, towards);
+    let nv = max(dot(normal, to_eye), 1e-3);
+    if nl <= 0.0 {
+        return 0.0;
+    }
+    let h = normalize(to_eye + towards);
+    let nh = clamp(dot(normal, h), 0.0, 1.0);
+    // A mirror of no roughness would show a light as a point: never less than a light of its own size does.
+    let alpha = max(scene.roughness * scene.roughness, 2e-3);
+    let a2 = alpha * alpha;
+    let d = nh * nh * (a2 - 1.0) + 1.0;
+    let shadowing = nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2);
+    let reflected = 1.0 - fresnel_transmittance(clamp(dot(h, to_eye), 0.0, 1.0), scene.eta);
+    return a2 / (PI * d * d) * 0.5 / shadowing * reflected * nl;
+}
+
+// Share of the environment that a rough coat reflects: Fresnel reflectance, which roughness flattens towards the edge
+// (after Karis 2014, "Physically based shading on mobile").
+fn sheen(cosine: f32) -> f32 {
+    let facing = 1.0 - fresnel_transmittance(1.0, scene.eta);
+    let at_angle = 1.0 - fresnel_transmittance(cosine, scene.eta);
+    return facing + (at_angle - facing) * (1.0 - scene.roughness) * (1.0 - 0.5 * scene.roughness);
+}
