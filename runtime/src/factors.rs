@@ -1,6 +1,7 @@
 //! A factorised material on the device.
 
 use half::f16;
+use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{Addressing, Header};
 use subsurf_shaders::cpu::{self, Rgb};
 use subsurf_shaders::separable::Factors;
@@ -10,20 +11,88 @@ use wgpu::{AddressMode, Buffer, FilterMode, MipmapFilterMode, Sampler, SamplerDe
 use crate::context::Gpu;
 use crate::error::Result;
 use crate::ledger::Tracked;
-use crate::material::layers_of;
+use crate::material::{Material, layers_of};
 use crate::resource::{Surface2d, TextureSpec};
 
-/// Factors c_l of a material and its albedo, with levels for small pictures, and the cascade that goes with them.
+/// Layers of filtered values over a patch, with levels for small pictures.
 ///
-/// Indices of base materials cannot be filtered; factors can.
+/// Indices of base materials cannot be filtered; albedos and factors can.
+#[derive(Debug)]
+pub(crate) struct PatchLayers {
+    surface: Surface2d,
+    pub(crate) all: TextureView,
+    pub(crate) sampler: Sampler,
+}
+
+impl PatchLayers {
+    /// Uploads layers as half floats.
+    pub(crate) fn upload(gpu: &Gpu, header: &Header, layers: Vec<Vec<Rgb>>) -> Result<Self> {
+        let size = [header.width, header.height];
+        let count = u32::try_from(layers.len()).unwrap_or(u32::MAX);
+        let levels = size[0].max(size[1]).ilog2() + 1;
+        let spec = TextureSpec::layered("layers of the patch", size, count, TextureFormat::Rgba16Float);
+        let surface = gpu.texture(&TextureSpec { levels, ..spec })?;
+        for (mut pixels, layer) in layers.into_iter().zip(0..) {
+            let mut side = size;
+            for level in 0..levels {
+                let texels = pixels.iter().flat_map(|[r, g, b]| [*r, *g, *b, 1.0]);
+                let texels: Vec<u16> = texels.map(|value| f16::from_f32(value).to_bits()).collect();
+                gpu.checked(|| gpu.fill_level(&surface.texture, layer, level, bytemuck::cast_slice(&texels)))?;
+                (pixels, side) = halved(&pixels, side);
+            }
+        }
+        Ok(Self { all: layers_of(&surface), surface, sampler: sampler(gpu, header.addressing) })
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
+        self.surface.texture.bytes()
+    }
+}
+
+/// Albedo of every pixel under uniform light.
+fn albedo(factors: &Factors) -> Vec<Rgb> {
+    cpu::separable(factors, &vec![[1.0; 3]; factors.coefficients_of(0).len()])
+}
+
+/// A material for splatting: its planes, and its albedo under uniform light.
+#[derive(Debug)]
+pub struct SplatMaterial {
+    pub(crate) planes: Material,
+    pub(crate) albedo: PatchLayers,
+}
+
+impl SplatMaterial {
+    /// Uploads the planes of a file as they stand in it, and the albedo that its factors give.
+    ///
+    /// # Errors
+    /// [`crate::Error::Unsupported`] if the device takes no texture of that size.
+    pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>, factors: &Factors) -> Result<Self> {
+        Ok(Self {
+            planes: Material::upload(gpu, material)?,
+            albedo: PatchLayers::upload(gpu, material.header(), vec![albedo(factors)])?,
+        })
+    }
+
+    /// The planes alone.
+    #[must_use]
+    pub fn planes(&self) -> &Material {
+        &self.planes
+    }
+
+    /// Bytes on the device.
+    #[must_use]
+    pub fn gpu_bytes(&self) -> u64 {
+        self.planes.gpu_bytes() + self.albedo.bytes()
+    }
+}
+
+/// A factorised material: factors c_l and albedo over the patch, and the cascade that goes with them.
 #[derive(Debug)]
 pub struct SeparableMaterial {
     header: Header,
     terms: usize,
-    /// c_l, a layer each, and the albedo under uniform light, as half floats.
-    factors: Surface2d,
-    pub(crate) layers: TextureView,
-    pub(crate) sampler: Sampler,
+    /// c_l, a layer each, and the albedo under uniform light.
+    pub(crate) layers: PatchLayers,
     /// Along rows and along columns, for each a.
     stages: Vec<[Tracked<Buffer>; 2]>,
     sums: uniform::Sums,
@@ -36,33 +105,15 @@ impl SeparableMaterial {
     /// # Errors
     /// [`crate::Error::Unsupported`] if the device takes no texture of that size.
     pub fn upload(gpu: &Gpu, factors: &Factors) -> Result<Self> {
-        let header = factors.header;
-        let size = [header.width, header.height];
         let terms = factors.detail.terms;
-        let layers = u32::try_from(terms + 1).unwrap_or(u32::MAX);
-        let levels = size[0].max(size[1]).ilog2() + 1;
-        let spec = TextureSpec { levels, ..TextureSpec::layered("factors", size, layers, TextureFormat::Rgba16Float) };
-        let texture = gpu.texture(&spec)?;
-        let albedo = cpu::separable(factors, &vec![[1.0; 3]; factors.coefficients_of(0).len()]);
-        let all = (0..terms).map(|l| factors.coefficients_of(l).to_vec()).chain([albedo]);
-        for (mut pixels, layer) in all.zip(0..) {
-            let mut side = size;
-            for level in 0..levels {
-                let texels = pixels.iter().flat_map(|[r, g, b]| [*r, *g, *b, 1.0]);
-                let texels: Vec<u16> = texels.map(|value| f16::from_f32(value).to_bits()).collect();
-                gpu.checked(|| gpu.fill_level(&texture.texture, layer, level, bytemuck::cast_slice(&texels)))?;
-                (pixels, side) = halved(&pixels, side);
-            }
-        }
+        let layers = (0..terms).map(|l| factors.coefficients_of(l).to_vec()).chain([albedo(factors)]);
         let stages = uniform::Stage::cascade(factors);
         Ok(Self {
-            header,
+            header: factors.header,
             terms,
+            layers: PatchLayers::upload(gpu, &factors.header, layers.collect())?,
             sums: uniform::Sums::new(factors),
             narrowest_pixels: factors.sigmas.first().copied().unwrap_or(1.0),
-            layers: layers_of(&texture),
-            factors: texture,
-            sampler: sampler(gpu, header.addressing),
             stages: stages.iter().map(|axes| axes.map(|block| gpu.uniform("stage", &block))).collect(),
         })
     }
@@ -82,7 +133,7 @@ impl SeparableMaterial {
     /// Bytes on the device.
     #[must_use]
     pub fn gpu_bytes(&self) -> u64 {
-        self.factors.texture.bytes() + self.stages.iter().flatten().map(Tracked::bytes).sum::<u64>()
+        self.layers.bytes() + self.stages.iter().flatten().map(Tracked::bytes).sum::<u64>()
     }
 
     /// Weights of all Gaussians.
@@ -101,7 +152,7 @@ impl SeparableMaterial {
 }
 
 /// Linear between texels and levels. A patch that clamps is mirrored: its border would be drawn out otherwise.
-pub(crate) fn sampler(gpu: &Gpu, addressing: Addressing) -> Sampler {
+fn sampler(gpu: &Gpu, addressing: Addressing) -> Sampler {
     let mode = match addressing {
         Addressing::Repeat => AddressMode::Repeat,
         Addressing::Clamp | Addressing::Mirror => AddressMode::MirrorRepeat,

@@ -18,7 +18,7 @@ mod separable;
 
 pub use context::{Backend, Gpu, devices};
 pub use error::{Error, Result};
-pub use factors::SeparableMaterial;
+pub use factors::{SeparableMaterial, SplatMaterial};
 pub use ledger::Ledger;
 pub use material::{Material, storage_of};
 pub use frame::{BACKGROUND, Frame, GpuPoints, Model, Path, Plan, Renderer, RuntimeOptions};

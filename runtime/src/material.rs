@@ -223,6 +223,16 @@ impl Planes<'_> {
     }
 }
 
+/// All layers of one level.
+pub(crate) fn layers_of_level(surface: &Surface2d, level: u32) -> TextureView {
+    surface.texture.create_view(&TextureViewDescriptor {
+        dimension: Some(TextureViewDimension::D2Array),
+        base_mip_level: level,
+        mip_level_count: Some(1),
+        ..Default::default()
+    })
+}
+
 pub(crate) fn layers_of(surface: &Surface2d) -> TextureView {
     surface
         .texture

@@ -1,9 +1,9 @@
 //! Pipelines: one shader, its bind groups, one target.
 
 use wgpu::{
-    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindingResource, Color,
-    ColorTargetState, CommandEncoder, CommandEncoderDescriptor, FragmentState, LoadOp, MultisampleState, Operations,
-    PipelineLayoutDescriptor, PrimitiveState, RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline,
+    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindingResource,
+    BlendComponent, BlendFactor, BlendOperation, BlendState, Color, ColorTargetState, ColorWrites, CommandEncoder, CommandEncoderDescriptor, FragmentState, LoadOp, MultisampleState, Operations,
+    PipelineLayoutDescriptor, PrimitiveState, PrimitiveTopology, RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline,
     RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp, TextureFormat, TextureView, VertexState,
 };
 
@@ -18,6 +18,14 @@ pub(crate) struct CoverPass {
     groups: Vec<BindGroupLayout>,
 }
 
+/// How a pass without a mesh draws.
+struct Drawing<'a> {
+    vertex: &'a str,
+    topology: PrimitiveTopology,
+    /// What is done with what stands there already.
+    blend: Option<BlendState>,
+}
+
 impl CoverPass {
     /// Builds the pipeline of a shader with the entry points `cover` and `fragment`, bind groups of these slots, and
     /// targets of these formats.
@@ -28,6 +36,33 @@ impl CoverPass {
         groups: &[&[Slot]],
         targets: &[TextureFormat],
     ) -> Result<Self> {
+        let drawing = Drawing { vertex: "cover", topology: PrimitiveTopology::TriangleList, blend: None };
+        Self::build(gpu, shader, fragment, groups, targets, &drawing)
+    }
+
+    /// The same for a shader with the entry points `spread` and `fragment`, which draws instances of a square and adds to
+    /// what stands there.
+    pub(crate) fn adding_squares(
+        gpu: &Gpu,
+        shader: &str,
+        fragment: &str,
+        groups: &[&[Slot]],
+        targets: &[TextureFormat],
+    ) -> Result<Self> {
+        let add = BlendComponent { src_factor: BlendFactor::One, dst_factor: BlendFactor::One, operation: BlendOperation::Add };
+        let blend = Some(BlendState { color: add, alpha: add });
+        let drawing = Drawing { vertex: "spread", topology: PrimitiveTopology::TriangleStrip, blend };
+        Self::build(gpu, shader, fragment, groups, targets, &drawing)
+    }
+
+    fn build(
+        gpu: &Gpu,
+        shader: &str,
+        fragment: &str,
+        groups: &[&[Slot]],
+        targets: &[TextureFormat],
+        drawing: &Drawing<'_>,
+    ) -> Result<Self> {
         gpu.checked(|| {
             let groups = bind_group_layouts(gpu, groups);
             let module = gpu.device.create_shader_module(ShaderModuleDescriptor {
@@ -35,7 +70,10 @@ impl CoverPass {
                 source: ShaderSource::Wgsl(shader.into()),
             });
             let bind_group_layouts: Vec<Option<&BindGroupLayout>> = groups.iter().map(Some).collect();
-            let targets: Vec<Option<ColorTargetState>> = targets.iter().map(|format| Some((*format).into())).collect();
+            let target = |format: &TextureFormat| {
+                Some(ColorTargetState { format: *format, blend: drawing.blend, write_mask: ColorWrites::ALL })
+            };
+            let targets: Vec<Option<ColorTargetState>> = targets.iter().map(target).collect();
             let layout = gpu.device.create_pipeline_layout(&PipelineLayoutDescriptor {
                 label: Some(fragment),
                 bind_group_layouts: &bind_group_layouts,
@@ -46,11 +84,11 @@ impl CoverPass {
                 layout: Some(&layout),
                 vertex: VertexState {
                     module: &module,
-                    entry_point: Some("cover"),
+                    entry_point: Some(drawing.vertex),
                     compilation_options: Default::default(),
                     buffers: &[],
                 },
-                primitive: PrimitiveState::default(),
+                primitive: PrimitiveState { topology: drawing.topology, ..Default::default() },
                 depth_stencil: None,
                 multisample: MultisampleState::default(),
                 fragment: Some(FragmentState {
@@ -96,6 +134,30 @@ impl CoverPass {
         }
         pass.set_scissor_rect(0, rows.first, rows.width, rows.count);
         pass.draw(0..3, 0..1);
+    }
+
+    /// Adds squares to a target that begins black: bind group 1 of each draw, and how many squares it has.
+    pub(crate) fn record_squares(
+        &self,
+        encoder: &mut CommandEncoder,
+        target: &TextureView,
+        group: &BindGroup,
+        draws: &[(&BindGroup, u32)],
+    ) {
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: None,
+            color_attachments: &[Some(attachment(target, LoadOp::Clear(Color::TRANSPARENT)))],
+            depth_stencil_attachment: None,
+            timestamp_writes: None,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, group, &[]);
+        for (of_draw, squares) in draws {
+            pass.set_bind_group(1, *of_draw, &[]);
+            pass.draw(0..4, 0..*squares);
+        }
     }
 
     /// The same on one target, handed to the device.

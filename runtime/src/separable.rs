@@ -63,8 +63,8 @@ impl SeparableRenderer {
         let domain = gpu.uniform("patch", &PatchDomain::new(header));
         let cascade = Cascade::new(gpu, &self.blur, material, &domain, size)?;
         let texture = BindingResource::TextureView;
-        let of_weigh = [texture(&material.layers), texture(light.view())];
-        let of_combine = [texture(&material.layers), texture(&cascade.sums().all)];
+        let of_weigh = [texture(&material.layers.all), texture(light.view())];
+        let of_combine = [texture(&material.layers.all), texture(&cascade.sums().all)];
         let surface = gpu.texture(&TextureSpec::target("exitance", size, TextureFormat::Rgba16Float))?;
         Ok(SeparablePatch {
             weigh: self.weigh.bind(gpu, 0, &of_weigh)?,

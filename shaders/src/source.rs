@@ -152,6 +152,7 @@ pub const fn weigh_mesh(terms: usize) -> &'static str {
         "mapping.wgsl",
         "light_depth.wgsl",
         "shadow.wgsl",
+        "patch_layers.wgsl",
         "factors.wgsl",
         "no_points.wgsl",
         "vertex.wgsl",
@@ -197,9 +198,48 @@ pub const fn shade_sums(encoding: Encoding, terms: usize) -> &'static str {
         "mapping.wgsl",
         "light_depth.wgsl",
         "shadow.wgsl",
+        "patch_layers.wgsl",
         "factors.wgsl",
         "no_points.wgsl",
         "from_sums.wgsl"
+    )
+}
+
+/// What the eye sees of a mesh; entry points `project` and `view`.
+pub const SURFACE_VIEW: &str = joined!(
+    "fresnel.wgsl",
+    "scene.wgsl",
+    "mapping.wgsl",
+    "patch_layers.wgsl",
+    "no_points.wgsl",
+    "vertex.wgsl",
+    "surface_view.wgsl"
+);
+
+/// The next level of what a light sees; entry points `cover` and `reduce`.
+pub const REDUCE: &str = joined!("cover.wgsl", "reduce.wgsl");
+
+/// Light of samples on what lies around them; entry points `spread` and `splat`. Nothing for captures.
+#[must_use]
+pub const fn splat(storage: Storage) -> &'static str {
+    by_storage!(storage, "", "splat.wgsl")
+}
+
+/// All rings of splats in one picture; entry points `cover` and `collapse`.
+pub const COLLAPSE: &str = joined!("cover.wgsl", "collapse.wgsl");
+
+/// Picture of a mesh from splats; entry points `project` and `shade`.
+#[must_use]
+pub const fn shade_splats(encoding: Encoding) -> &'static str {
+    shading!(
+        encoding,
+        joined!(),
+        "mapping.wgsl",
+        "light_depth.wgsl",
+        "shadow.wgsl",
+        "patch_layers.wgsl",
+        "no_points.wgsl",
+        "from_splats.wgsl"
     )
 }
 
@@ -215,7 +255,12 @@ pub const PRESENT: &str = concat!(
 pub fn all() -> Vec<(String, &'static str)> {
     let gathers = Storage::ALL.into_iter().map(|storage| (format!("gather, {storage:?}"), gather(storage)));
     let fitted = Storage::ALL.into_iter().filter(|storage| *storage != Storage::Capture);
-    let on_surfaces = fitted.map(|storage| (format!("surface gather, {storage:?}"), surface_gather(storage)));
+    let on_surfaces = fitted.flat_map(|storage| {
+        [
+            (format!("surface gather, {storage:?}"), surface_gather(storage)),
+            (format!("splat, {storage:?}"), splat(storage)),
+        ]
+    });
     let separable = (1..=MAX_TERMS).flat_map(|terms| {
         let of_domain = |domain| {
             [
@@ -237,6 +282,11 @@ pub fn all() -> Vec<(String, &'static str)> {
         ("light view", LIGHT_VIEW),
         ("shade points", shade_points(Encoding::Here)),
         ("shade points there", shade_points(Encoding::There)),
+        ("surface view", SURFACE_VIEW),
+        ("reduce", REDUCE),
+        ("collapse", COLLAPSE),
+        ("shade splats", shade_splats(Encoding::Here)),
+        ("shade splats there", shade_splats(Encoding::There)),
         ("present", PRESENT),
         ("homogeneous", HOMOGENEOUS),
     ];

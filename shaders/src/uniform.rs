@@ -190,6 +190,63 @@ impl Sums {
     }
 }
 
+/// `Splat` of `splat.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Splat {
+    /// From positions relative to the middle of the scene; column-major.
+    pub clip_from_centre: [[f32; 4]; 4],
+    /// Distances in mm where the ring begins and ends to fade in; twice 0 for the first.
+    pub fade_in: [f32; 2],
+    /// Likewise out.
+    pub fade_out: [f32; 2],
+    /// Half the size of something 1 mm large, 1 mm away, in clip space.
+    pub focal: [f32; 2],
+    /// Distance from the light to depth 0; 0 for a direction.
+    pub middle_mm: f32,
+    /// Edge of a texel of this level at depth 0.
+    pub texel_mm: f32,
+    /// Number of the light.
+    pub light: u32,
+    /// Level of the samples.
+    pub level: u32,
+    /// Texels to a side of it.
+    pub side: u32,
+    /// 1 if samples stand for those of the next level that are not smooth.
+    pub refines: u32,
+    /// Texels of what the eye sees to a texel of the target.
+    pub stride: u32,
+    #[doc(hidden)]
+    pub pad: [u32; 3],
+}
+
+/// Most rings of `collapse.wgsl`.
+pub const MAX_RINGS: usize = 5;
+
+/// `Rings` of `collapse.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Rings {
+    /// Number of rings.
+    pub count: u32,
+    /// Differences of depth count in this, at the finest ring.
+    pub near_mm: f32,
+    #[doc(hidden)]
+    pub pad: [u32; 2],
+}
+
+/// `Upsampling` of `from_splats.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Upsampling {
+    /// Texels of the maps to a pixel of the picture.
+    pub texels_per_pixel: [f32; 2],
+    /// Differences of depth count in this.
+    pub near_mm: f32,
+    #[doc(hidden)]
+    pub pad: u32,
+}
+
 /// `Stage` of `blur.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]

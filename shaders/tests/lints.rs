@@ -164,6 +164,7 @@ fn limits_of_webgl2_are_kept() {
         for (_, global) in module.global_variables.iter() {
             match &module.types[global.ty].inner {
                 TypeInner::Image { .. } => textures += 1,
+                TypeInner::Sampler { .. } => {}
                 TypeInner::Struct { span, .. } => {
                     assert!(*span <= MAX_UNIFORM_BYTES, "{name}: {span} bytes")
                 }

@@ -82,7 +82,7 @@ fn come_through(i: u32, position_mm: vec3<f32>) -> array<vec3<f32>, TERMS> {
         let e = flux.xyz * flux.w * 0.2;
         var light: array<vec3<f32>, TERMS>;
         for (var l = 0u; l < TERMS; l++) {
-            light[l] = e * textureSampleLevel(factors, factor_sampler, place, l, 1.0).xyz;
+            light[l] = e * textureSampleLevel(layers, layer_sampler, place, l, 1.0).xyz;
         }
         var left = passed(light, d);
         for (var m = 0u; m < TERMS; m++) {

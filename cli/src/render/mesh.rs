@@ -7,7 +7,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, Surface, View};
 use subsurf_runtime::{
     BACKGROUND, Frame, Gpu, GpuMesh, GpuPoints, Material, Model, Path, Renderer, RuntimeOptions, SeparableMaterial,
-    storage_of,
+    SplatMaterial,
 };
 use subsurf_shaders::cpu::{self, Rgb};
 use subsurf_shaders::separable::{Detail, Factors};
@@ -69,6 +69,7 @@ pub(super) const ROUGHNESS: f32 = 0.25;
 /// A material on the device as a path wants it.
 pub(crate) enum Prepared {
     Gather { mesh: GpuMesh, points: GpuPoints, material: Material },
+    Splat { mesh: GpuMesh, material: SplatMaterial },
     Separable { mesh: GpuMesh, material: SeparableMaterial },
 }
 
@@ -92,6 +93,10 @@ impl Prepared {
                     material: Material::upload(gpu, material)?,
                 }
             }
+            PathArg::Splat => Self::Splat {
+                mesh: GpuMesh::upload(gpu, mesh, &outline, None)?,
+                material: SplatMaterial::upload(gpu, material, &Factors::of(material, Detail::default()))?,
+            },
             PathArg::Separable => Self::Separable {
                 mesh: GpuMesh::upload(gpu, mesh, &outline, None)?,
                 material: SeparableMaterial::upload(gpu, &Factors::of(material, Detail::default()))?,
@@ -102,6 +107,7 @@ impl Prepared {
     pub(crate) fn model(&self) -> Model<'_> {
         match self {
             Self::Gather { mesh, points, material } => Model::Gather { mesh, points, material },
+            Self::Splat { mesh, material } => Model::Splat { mesh, material },
             Self::Separable { mesh, material } => Model::Separable { mesh, material },
         }
     }
@@ -110,6 +116,7 @@ impl Prepared {
     pub(crate) fn path(&self) -> Path {
         match self {
             Self::Gather { material, .. } => Path::Gather(material.storage()),
+            Self::Splat { material, .. } => Path::Splat(material.planes().storage()),
             Self::Separable { material, .. } => Path::Separable(material.terms()),
         }
     }
@@ -117,6 +124,7 @@ impl Prepared {
     pub(crate) fn material_bytes(&self) -> u64 {
         match self {
             Self::Gather { material, .. } => material.gpu_bytes(),
+            Self::Splat { material, .. } => material.planes().gpu_bytes(),
             Self::Separable { material, .. } => material.gpu_bytes(),
         }
     }
@@ -173,7 +181,7 @@ pub(crate) fn draw_mesh(
             facts.insert("gpu_bytes".to_owned(), json!(prepared.material_bytes()));
             renderer.picture(gpu, &mut frame, &prepared.model(), &scene)?
         }
-        None if path == PathArg::Separable => {
+        None if path != PathArg::Gather => {
             return Err(bad_request("the CPU draws meshes by --path gather only; the other paths need a device"));
         }
         None => {

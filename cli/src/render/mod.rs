@@ -79,6 +79,8 @@ pub(crate) struct Args {
 pub(crate) enum PathArg {
     /// Every point gathers light from all others within reach: the reference
     Gather,
+    /// Every place that the light reaches is spread over what lies around it; for meshes
+    Splat,
     /// Weighted irradiance maps and shared Gaussians: many times faster, and an approximation
     Separable,
 }

@@ -11,6 +11,7 @@ use subsurf_shaders::cpu::{self, Rgb};
 use subsurf_shaders::separable::{Detail, Factors};
 
 use super::{PathArg, exposure_for};
+use crate::failure::bad_request;
 use crate::picture::image;
 
 /// Irradiance of a pattern on every pixel of a patch, as it is after it has entered.
@@ -44,6 +45,7 @@ pub(crate) fn draw_patch(
             let renderer = PatchRenderer::new(gpu, storage_of(material))?;
             let light = PatchLight::upload(gpu, whole.size, &irradiance)?;
             let (exitance, gpu_bytes) = match path {
+                PathArg::Splat => return Err(no_splats()),
                 PathArg::Gather => {
                     let uploaded = Material::upload(gpu, material)?;
                     (renderer.gather(gpu, &uploaded, &light, whole)?, uploaded.gpu_bytes())
@@ -66,6 +68,7 @@ pub(crate) fn draw_patch(
         }
         None => {
             let exitance = match path {
+                PathArg::Splat => return Err(no_splats()),
                 PathArg::Gather => cpu::gather(material, &irradiance, whole.origin, whole.size),
                 PathArg::Separable => cpu::separable(&Factors::of(material, Detail::default()), &irradiance),
             };
@@ -75,4 +78,8 @@ pub(crate) fn draw_patch(
         }
     };
     Ok((image(&pixels, size[0]), facts))
+}
+
+fn no_splats() -> anyhow::Error {
+    bad_request("--path splat is for meshes; a flat patch is drawn by gather or separable")
 }

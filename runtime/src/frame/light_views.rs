@@ -25,7 +25,7 @@ pub(crate) struct LightViews {
     /// Of each light, its layers at the finest level.
     targets: Vec<[TextureView; 3]>,
     depth: Surface2d,
-    which: Vec<BindGroup>,
+    which: Vec<(Tracked<Buffer>, BindGroup)>,
     scene: BindGroup,
 }
 
@@ -46,7 +46,8 @@ impl LightViews {
             TextureSpec { usage: TextureUsages::RENDER_ATTACHMENT, ..TextureSpec::target("light depth", size, DEPTH) };
         let which = |light| {
             let block: Tracked<Buffer> = gpu.uniform("which light", &Which { light, pad: [0; 3] });
-            pass.bind(gpu, 1, &[block.as_entire_binding()])
+            let group = pass.bind(gpu, 1, &[block.as_entire_binding()])?;
+            Ok((block, group))
         };
         Ok(Self {
             all: [0, 1, 2].map(|k| layers_of(&surfaces[k])),
@@ -60,7 +61,7 @@ impl LightViews {
 
     /// Draws what the first `lights` lights see.
     pub(crate) fn record(&self, encoder: &mut CommandEncoder, pass: &MeshPass, mesh: &GpuMesh, lights: usize) {
-        for (views, which) in self.targets.iter().zip(&self.which).take(lights) {
+        for (views, (_, which)) in self.targets.iter().zip(&self.which).take(lights) {
             let clears = [FAR, Color::TRANSPARENT, Color::TRANSPARENT];
             let targets = [0, 1, 2].map(|k| Target { view: &views[k], clear: clears[k], resolved: None });
             pass.record(encoder, &targets, &self.depth.view, &[&self.scene, which], mesh);

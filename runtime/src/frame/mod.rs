@@ -4,6 +4,7 @@ mod gather;
 mod light_views;
 mod plan;
 mod separable;
+mod splat;
 
 use half::f16;
 use subsurf_shaders::{Storage, uniform};
@@ -14,7 +15,7 @@ use wgpu::{
 
 use crate::context::Gpu;
 use crate::error::Result;
-use crate::factors::SeparableMaterial;
+use crate::factors::{SeparableMaterial, SplatMaterial};
 use crate::ledger::Tracked;
 use crate::material::Material;
 use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
@@ -30,6 +31,8 @@ pub use plan::Plan;
 pub enum Path {
     /// Every vertex gathers from all others within reach: the reference, and slow.
     Gather(Storage),
+    /// Multiresolution splatting: every sample that a light sees is spread over what lies around it.
+    Splat(Storage),
     /// Weighted irradiance maps on the screen, blurred by shared Gaussians; of so many terms.
     Separable(usize),
 }
@@ -77,6 +80,13 @@ pub enum Model<'a> {
         /// Its material.
         material: &'a Material,
     },
+    /// For [`Path::Splat`].
+    Splat {
+        /// The mesh.
+        mesh: &'a GpuMesh,
+        /// Its material.
+        material: &'a SplatMaterial,
+    },
     /// For [`Path::Separable`].
     Separable {
         /// The mesh.
@@ -89,7 +99,7 @@ pub enum Model<'a> {
 impl Model<'_> {
     fn mesh(&self) -> &GpuMesh {
         match self {
-            Self::Gather { mesh, .. } | Self::Separable { mesh, .. } => mesh,
+            Self::Gather { mesh, .. } | Self::Splat { mesh, .. } | Self::Separable { mesh, .. } => mesh,
         }
     }
 }
@@ -105,6 +115,7 @@ pub struct Renderer {
 #[derive(Debug)]
 enum Passes {
     Gather(gather::Passes),
+    Splat(splat::Passes),
     Separable(separable::Passes),
 }
 
@@ -124,6 +135,7 @@ pub struct Frame {
 #[derive(Debug)]
 enum Buffers {
     Gather(gather::Buffers),
+    Splat(splat::Buffers),
     Separable(separable::Buffers),
 }
 
@@ -148,6 +160,7 @@ impl Renderer {
         let RuntimeOptions { format, samples, .. } = options;
         let passes = match path {
             Path::Gather(storage) => Passes::Gather(gather::Passes::new(gpu, storage, format, samples)?),
+            Path::Splat(storage) => Passes::Splat(splat::Passes::new(gpu, storage, format, samples)?),
             Path::Separable(terms) => Passes::Separable(separable::Passes::new(gpu, terms, format, samples)?),
         };
         Ok(Self { options, light_view: light_views::pass(gpu)?, passes })
@@ -165,21 +178,31 @@ impl Renderer {
             size,
             light_texels: self.options.light_texels,
             lights: lights.clamp(1, plan::light_layers(lights)),
-            divisor: divisor(scene, model, size),
+            divisor: divisor(scene, model, size, self.options.light_texels),
             samples: self.options.samples,
         };
+        let outline = &model.mesh().outline;
         let of_path = |plan: &Plan| match &self.passes {
             Passes::Gather(_) => plan.light_bytes(1),
+            Passes::Splat(passes) => passes.bytes(plan, outline),
             Passes::Separable(passes) => passes.bytes(plan),
         };
         let bytes = |plan: &Plan| of_path(plan) + plan.picture_bytes(self.options.format) + Common::BYTES;
         let plan = plan.within(self.options.budget_bytes, gpu.ledger().bytes(), bytes)?;
         let common = Common::new(gpu)?;
-        let lights = LightViews::new(gpu, &self.light_view, &common.block, &plan, 1)?;
+        let levels = match &self.passes {
+            Passes::Splat(_) => splat::Levels::new(outline, plan.light_texels).count(),
+            Passes::Gather(_) | Passes::Separable(_) => 1,
+        };
+        let lights = LightViews::new(gpu, &self.light_view, &common.block, &plan, levels)?;
         let (shade, buffers) = match (&self.passes, model) {
             (Passes::Gather(passes), Model::Gather { points, material, .. }) => {
                 let buffers = gather::Buffers::new(gpu, passes, material, points, &common)?;
                 (&passes.shade, Buffers::Gather(buffers))
+            }
+            (Passes::Splat(passes), Model::Splat { material, .. }) => {
+                let buffers = splat::Buffers::new(gpu, passes, material, &common, &lights, &plan, outline)?;
+                (&passes.shade, Buffers::Splat(buffers))
             }
             (Passes::Separable(passes), Model::Separable { material, .. }) => {
                 let buffers = separable::Buffers::new(gpu, passes, material, &common, &lights, &plan)?;
@@ -234,6 +257,10 @@ impl Renderer {
                 buffers.gather(gpu, passes, points, &block)?;
                 &passes.shade
             }
+            (Buffers::Splat(buffers), Passes::Splat(passes), _) => {
+                buffers.update(gpu, scene, &block, &plan);
+                &passes.shade
+            }
             (Buffers::Separable(buffers), Passes::Separable(passes), _) => {
                 buffers.update(gpu, scene, &mesh.outline, &plan);
                 &passes.shade
@@ -245,12 +272,17 @@ impl Renderer {
             let lights = scene.lights.len().min(plan.lights as usize);
             frame.lights.record(&mut encoder, &self.light_view, mesh, lights);
             let group = match (&frame.buffers, &self.passes) {
+                (Buffers::Splat(buffers), Passes::Splat(passes)) => {
+                    buffers.record(&mut encoder, passes, mesh, lights, &plan);
+                    &buffers.shade
+                }
                 (Buffers::Separable(buffers), Passes::Separable(passes)) => {
                     buffers.record(&mut encoder, passes, mesh);
                     &buffers.shade
                 }
                 (Buffers::Gather(buffers), _) => &buffers.shade,
                 (Buffers::Separable(buffers), _) => &buffers.shade,
+                (Buffers::Splat(buffers), _) => &buffers.shade,
             };
             let (view, resolved) = match &frame.samples {
                 Some(samples) => (&samples.view, Some(target)),
@@ -292,18 +324,21 @@ impl Frame {
 const NARROWEST_TEXELS: f32 = 1.2;
 
 /// Pixels of the picture to a side of a texel of the maps.
-fn divisor(scene: &Scene, model: &Model<'_>, size: [u32; 2]) -> u32 {
-    let Model::Separable { mesh, material } = model else {
-        return 1;
-    };
-    let outline = &mesh.outline;
+fn divisor(scene: &Scene, model: &Model<'_>, size: [u32; 2], light_texels: u32) -> u32 {
+    let outline = &model.mesh().outline;
     let distance = scene.view.eye_mm.distance(outline.centre_mm);
     #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
     let pixels_per_mm = 0.5 * size[1] as f32 / (0.5 * scene.view.angle).tan() / distance;
-    let narrowest = material.narrowest_pixels() * outline.header.pitch_mm * pixels_per_mm;
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-    let divisor = (narrowest / NARROWEST_TEXELS).clamp(1.0, 4.0) as u32;
-    divisor
+    match model {
+        Model::Gather { .. } => 1,
+        Model::Splat { .. } => splat::divisor(outline, light_texels, pixels_per_mm),
+        Model::Separable { material, .. } => {
+            let narrowest = material.narrowest_pixels() * outline.header.pitch_mm * pixels_per_mm;
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+            let divisor = (narrowest / NARROWEST_TEXELS).clamp(1.0, 4.0) as u32;
+            divisor
+        }
+    }
 }
 
 impl Common {

@@ -82,7 +82,7 @@ impl Buffers {
         let sums_block = *material.sums();
         let sums = gpu.uniform("sums", &sums_block);
         let texture = BindingResource::TextureView;
-        let of_factors = [texture(&material.layers), BindingResource::Sampler(&material.sampler)];
+        let of_factors = [texture(&material.layers.all), BindingResource::Sampler(&material.layers.sampler)];
         let of_scene = [common.block.as_entire_binding(), texture(&lights.all[0])];
         let of_shade = [
             of_factors[0].clone(),

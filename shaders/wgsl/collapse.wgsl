@@ -1,0 +1,69 @@
+// All rings in one picture: exitance without the albedo, which is put back where it is sharp; depth in the fourth place.
+
+struct Rings {
+    count: u32,
+    // Differences of depth count in this, in mm, at the finest ring.
+    near_mm: f32,
+    pad_0: u32,
+    pad_1: u32,
+}
+
+@group(0) @binding(0) var<uniform> rings: Rings;
+// What the eye sees.
+@group(0) @binding(1) var positions: texture_2d<f32>;
+@group(0) @binding(2) var albedos: texture_2d<f32>;
+// Each half as large as the one before.
+@group(0) @binding(3) var ring_0: texture_2d<f32>;
+@group(0) @binding(4) var ring_1: texture_2d<f32>;
+@group(0) @binding(5) var ring_2: texture_2d<f32>;
+@group(0) @binding(6) var ring_3: texture_2d<f32>;
+@group(0) @binding(7) var ring_4: texture_2d<f32>;
+
+// Albedos below this are of materials that are black anyway.
+const LEAST_ALBEDO: f32 = 1e-4;
+
+fn ring_texel(number: u32, texel: vec2<i32>) -> vec3<f32> {
+    switch number {
+        case 0u: { return textureLoad(ring_0, min(texel, vec2<i32>(textureDimensions(ring_0)) - 1), 0).xyz; }
+        case 1u: { return textureLoad(ring_1, min(texel, vec2<i32>(textureDimensions(ring_1)) - 1), 0).xyz; }
+        case 2u: { return textureLoad(ring_2, min(texel, vec2<i32>(textureDimensions(ring_2)) - 1), 0).xyz; }
+        case 3u: { return textureLoad(ring_3, min(texel, vec2<i32>(textureDimensions(ring_3)) - 1), 0).xyz; }
+        default: { return textureLoad(ring_4, min(texel, vec2<i32>(textureDimensions(ring_4)) - 1), 0).xyz; }
+    }
+}
+
+// One ring at a texel of what the eye sees: linear between its texels, those at other depths left out.
+fn ring_at(number: u32, texel: vec2<u32>, depth: f32) -> vec3<f32> {
+    let size = vec2<i32>(textureDimensions(positions));
+    let stride = i32(1u << number);
+    let corner = (vec2<f32>(texel) + 0.5) / f32(stride) - 0.5;
+    let first = vec2<i32>(floor(corner));
+    let part = corner - floor(corner);
+    var sum = vec3<f32>(0.0);
+    var weights = 0.0;
+    for (var k = 0u; k < 4u; k++) {
+        let step = vec2<i32>(i32(k & 1u), i32(k >> 1u));
+        let at = clamp(first + step, vec2<i32>(0), (size - 1) / stride);
+        // The texel that its samples were compared with.
+        let seen = min(at * stride + stride / 2, size - 1);
+        let apart = (textureLoad(positions, seen, 0).w - depth) / (rings.near_mm * f32(stride));
+        let linear = mix(1.0 - part, part, vec2<f32>(step));
+        let weight = linear.x * linear.y / (1.0 + apart * apart) + 1e-5 / (1.0 + abs(apart));
+        weights += weight;
+        sum += weight * ring_texel(number, at) / max(textureLoad(albedos, seen, 0).xyz, vec3<f32>(LEAST_ALBEDO));
+    }
+    return sum / weights;
+}
+
+@fragment
+fn collapse(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
+    let texel = vec2<u32>(at.xy);
+    let depth = textureLoad(positions, texel, 0).w;
+    var sum = vec3<f32>(0.0);
+    if depth < 50000.0 {
+        for (var number = 0u; number < min(rings.count, 5u); number++) {
+            sum += ring_at(number, texel, depth);
+        }
+    }
+    return vec4<f32>(sum, depth);
+}
