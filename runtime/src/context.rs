@@ -10,6 +10,7 @@ use wgpu::{
 
 use crate::error::{Error, Result};
 use crate::ledger::Ledger;
+use crate::resource::{Surface2d, TextureSpec};
 
 /// A graphics API.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +49,18 @@ pub struct Gpu {
     pub(crate) queue: Queue,
     info: AdapterInfo,
     ledger: Ledger,
+}
+
+/// A picture that stays on the device.
+#[derive(Debug)]
+pub struct PictureTarget(pub(crate) Surface2d);
+
+impl PictureTarget {
+    /// To be drawn to.
+    #[must_use]
+    pub fn view(&self) -> &wgpu::TextureView {
+        &self.0.view
+    }
 }
 
 fn instance(backend: Backend) -> Instance {
@@ -116,6 +129,14 @@ impl Gpu {
     #[must_use]
     pub fn ledger(&self) -> &Ledger {
         &self.ledger
+    }
+
+    /// A texture to draw pictures of `size` to.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if it is too large.
+    pub fn target(&self, size: [u32; 2], format: wgpu::TextureFormat) -> Result<PictureTarget> {
+        Ok(PictureTarget(self.texture(&TextureSpec::target("picture", size, format))?))
     }
 
     /// Runs `work` and turns what the device complains about into an error.

@@ -1,7 +1,9 @@
 //! `subsurf bench`: how long things take on this machine.
 
+mod frames;
 mod load;
 mod load_one;
+mod render;
 mod timing;
 
 pub(crate) use load::{Case, markdown, measure};
@@ -10,6 +12,8 @@ pub(crate) use load::{Case, markdown, measure};
 #[derive(clap::Subcommand)]
 pub(crate) enum Command {
     Load(load::Args),
+    Frames(frames::Args),
+    Render(render::Args),
     #[command(hide = true)]
     LoadOne(load_one::Args),
 }
@@ -17,6 +21,8 @@ pub(crate) enum Command {
 pub(crate) fn run(command: &Command) -> anyhow::Result<()> {
     match command {
         Command::Load(args) => load::run(args),
+        Command::Frames(args) => frames::run(args),
+        Command::Render(args) => render::run(args),
         Command::LoadOne(args) => load_one::run(args),
     }
 }

@@ -6,7 +6,7 @@ mod shadow;
 use std::path::Path;
 
 use glam::{Vec2, Vec3};
-use subsurf_runtime::scene::Mesh;
+use subsurf_runtime::scene::{Mesh, bowl, drapery, knot, relief, sphere, torus};
 
 use crate::failure::bad_request;
 pub(crate) use shadow::visibility;
@@ -29,14 +29,37 @@ pub(crate) enum Up {
     Z,
 }
 
-/// Reads a mesh and scales its longest side to `extent_mm`, its middle at the origin.
+/// Shapes that need no file.
+pub(crate) const SHAPES: [&str; 6] = ["knot", "bowl", "drapery", "relief", "sphere", "torus"];
+
+/// A shape by its name, smooth enough for a large picture.
+fn shape(name: &str) -> Option<Mesh> {
+    Some(match name {
+        "knot" => knot(20.0, 6.0, 40),
+        "bowl" => bowl(20.0, 2.0, 56),
+        "drapery" => drapery(20.0, 1.2, 7, 70),
+        "relief" => relief(20.0, 8, 120),
+        "sphere" => sphere(20.0, 64),
+        "torus" => torus(18.0, 8.0, 64),
+        _ => return None,
+    })
+}
+
+/// Reads a mesh, or makes one of [`SHAPES`], and scales its longest side to `extent_mm`, its middle at the origin.
 pub(crate) fn load(path: &Path, extent_mm: f32, up: Up) -> anyhow::Result<Mesh> {
+    if let Some(mesh) = path.to_str().and_then(shape) {
+        let [low, high] = mesh.bounds();
+        let middle = 0.5 * (low + high);
+        let positions = mesh.positions.iter().map(|position| *position - middle).collect();
+        let scale = extent_mm / (high - low).max_element();
+        return Ok(Mesh::new(positions, mesh.normals, mesh.uvs, mesh.triangles, scale)?);
+    }
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or("").to_ascii_lowercase();
     let raw = match extension.as_str() {
         "obj" => formats::obj(path),
         "ply" => formats::ply(path),
         "glb" | "gltf" => formats::gltf(path),
-        _ => Err("unknown kind of file".to_owned()),
+        _ => Err(format!("unknown kind of file, and none of the shapes {}", SHAPES.join(", "))),
     };
     let mut raw = raw.map_err(|reason| {
         bad_request(format!("{}: {reason}; expected a mesh in .obj, .ply, .glb or .gltf", path.display()))

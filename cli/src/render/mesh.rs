@@ -97,11 +97,17 @@ impl Prepared {
                 mesh: GpuMesh::upload(gpu, mesh, &outline, None)?,
                 material: SplatMaterial::upload(gpu, material, &Factors::of(material, Detail::default()))?,
             },
-            PathArg::Separable => Self::Separable {
+            PathArg::Separable | PathArg::Homogeneous => Self::Separable {
                 mesh: GpuMesh::upload(gpu, mesh, &outline, None)?,
-                material: SeparableMaterial::upload(gpu, &Factors::of(material, Detail::default()))?,
+                material: SeparableMaterial::upload(gpu, &factors(material, path))?,
             },
         })
+    }
+
+    pub(crate) fn mesh_bytes(&self) -> u64 {
+        match self {
+            Self::Gather { mesh, .. } | Self::Splat { mesh, .. } | Self::Separable { mesh, .. } => mesh.gpu_bytes(),
+        }
     }
 
     pub(crate) fn model(&self) -> Model<'_> {
@@ -127,6 +133,15 @@ impl Prepared {
             Self::Splat { material, .. } => material.planes().gpu_bytes(),
             Self::Separable { material, .. } => material.gpu_bytes(),
         }
+    }
+}
+
+/// Factors of a material, or of its mean.
+pub(super) fn factors(material: &Bssrdf<'_>, path: PathArg) -> Factors {
+    let detail = Detail::default();
+    match path {
+        PathArg::Homogeneous => Factors::homogeneous(material, detail.gaussians),
+        PathArg::Gather | PathArg::Splat | PathArg::Separable => Factors::of(material, detail),
     }
 }
 
@@ -236,7 +251,7 @@ pub(crate) fn chosen_exposure(
 }
 
 /// Repeats texture coordinates so that the material has its own size on average, a whole number of times.
-fn choose_mapping(mesh: &Mesh, mapping: MappingArg, material: &Bssrdf<'_>) -> anyhow::Result<Mapping> {
+pub(crate) fn choose_mapping(mesh: &Mesh, mapping: MappingArg, material: &Bssrdf<'_>) -> anyhow::Result<Mapping> {
     let uvs = match (mapping, &mesh.uvs) {
         (MappingArg::Uv, None) => {
             return Err(bad_request(

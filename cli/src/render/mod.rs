@@ -23,7 +23,7 @@ use crate::options::Size;
 use crate::picture::write_png;
 use crate::say::say;
 
-pub(crate) use mesh::{Shot, draw_mesh};
+pub(crate) use mesh::{Prepared, Shot, choose_mapping, chosen_exposure, draw_mesh};
 pub(crate) use patch::{draw_patch, patch_irradiance};
 
 /// Draw a material, flat or on a mesh, by the reference path or by a fast one.
@@ -34,8 +34,8 @@ pub(crate) struct Args {
     /// The PNG to write
     #[arg(long, short)]
     output: PathBuf,
-    /// Draw it on this mesh: .obj, .ply, .glb or .gltf
-    #[arg(long)]
+    /// Draw it on this mesh: a file (.obj, .ply, .glb, .gltf), or one of knot, bowl, drapery, relief, sphere, torus
+    #[arg(long, value_name = "FILE|SHAPE")]
     mesh: Option<PathBuf>,
     /// Longest side of the mesh in mm: the material has its real size
     #[arg(long, default_value_t = 60.0, value_name = "MM", requires = "mesh")]
@@ -83,6 +83,8 @@ pub(crate) enum PathArg {
     Splat,
     /// Weighted irradiance maps and shared Gaussians: many times faster, and an approximation
     Separable,
+    /// The same with one mean profile everywhere, as if the material were not heterogeneous; for comparison
+    Homogeneous,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]

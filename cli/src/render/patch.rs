@@ -8,8 +8,8 @@ use subsurf_runtime::{
     Gpu, Material, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, storage_of,
 };
 use subsurf_shaders::cpu::{self, Rgb};
-use subsurf_shaders::separable::{Detail, Factors};
 
+use super::mesh::factors;
 use super::{PathArg, exposure_for};
 use crate::failure::bad_request;
 use crate::picture::image;
@@ -50,8 +50,8 @@ pub(crate) fn draw_patch(
                     let uploaded = Material::upload(gpu, material)?;
                     (renderer.gather(gpu, &uploaded, &light, whole)?, uploaded.gpu_bytes())
                 }
-                PathArg::Separable => {
-                    let uploaded = SeparableMaterial::upload(gpu, &Factors::of(material, Detail::default()))?;
+                PathArg::Separable | PathArg::Homogeneous => {
+                    let uploaded = SeparableMaterial::upload(gpu, &factors(material, path))?;
                     let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
                     let patch = renderer.prepare(gpu, &uploaded, &light)?;
                     renderer.draw(gpu, &patch)?;
@@ -70,7 +70,7 @@ pub(crate) fn draw_patch(
             let exitance = match path {
                 PathArg::Splat => return Err(no_splats()),
                 PathArg::Gather => cpu::gather(material, &irradiance, whole.origin, whole.size),
-                PathArg::Separable => cpu::separable(&Factors::of(material, Detail::default()), &irradiance),
+                PathArg::Separable | PathArg::Homogeneous => cpu::separable(&factors(material, path), &irradiance),
             };
             let exposure = exposure.unwrap_or_else(|| exposure_for(exitance.iter()));
             facts.insert("exposure".to_owned(), json!(exposure));

@@ -6,10 +6,12 @@ mod plan;
 mod separable;
 mod splat;
 
+use std::time::{Duration, Instant};
+
 use half::f16;
 use subsurf_shaders::{Storage, uniform};
 use wgpu::{
-    AddressMode, BindGroup, BindingResource, Buffer, Color, CommandEncoderDescriptor, FilterMode, MipmapFilterMode,
+    AddressMode, BindGroup, BindingResource, Buffer, Color, CommandEncoder, CommandEncoderDescriptor, FilterMode, MipmapFilterMode,
     SamplerDescriptor, TextureFormat, TextureUsages, TextureView,
 };
 
@@ -139,6 +141,9 @@ enum Buffers {
     Separable(separable::Buffers),
 }
 
+/// Is told the name of what was recorded, and gives back an encoder to go on with.
+pub(crate) type Lap<'a> = &'a mut dyn FnMut(&'static str, CommandEncoder) -> CommandEncoder;
+
 /// What all paths know of the scene.
 #[derive(Debug)]
 pub(crate) struct Common {
@@ -247,51 +252,103 @@ impl Renderer {
         scene: &Scene,
         target: &TextureView,
     ) -> Result<()> {
+        self.update(gpu, frame, model, scene)?;
+        gpu.checked(|| {
+            let encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+            let encoder = self.record(encoder, frame, model, scene, target, &mut |_, encoder| encoder);
+            gpu.queue.submit([encoder.finish()]);
+        })
+    }
+
+    /// The same, pass by pass: what each took until the device was through with it. The sum is more than a frame takes,
+    /// for nothing overlaps.
+    ///
+    /// # Errors
+    /// [`crate::Error::Device`].
+    pub fn draw_timed(
+        &self,
+        gpu: &Gpu,
+        frame: &mut Frame,
+        model: &Model<'_>,
+        scene: &Scene,
+        target: &TextureView,
+    ) -> Result<Vec<(&'static str, Duration)>> {
+        let mut times = Vec::new();
+        let begin = Instant::now();
+        self.update(gpu, frame, model, scene)?;
+        gpu.finish()?;
+        times.push(("update", begin.elapsed()));
+        let new = || gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+        let mut failed = Ok(());
+        gpu.checked(|| {
+            let mut begin = Instant::now();
+            let mut lap = |name, encoder: CommandEncoder| {
+                gpu.queue.submit([encoder.finish()]);
+                failed = gpu.finish().and(std::mem::replace(&mut failed, Ok(())));
+                times.push((name, begin.elapsed()));
+                begin = Instant::now();
+                new()
+            };
+            self.record(new(), frame, model, scene, target, &mut lap);
+        })?;
+        failed?;
+        Ok(times)
+    }
+
+    /// Uploads what has changed; gathers, where that is the path and the light has changed.
+    fn update(&self, gpu: &Gpu, frame: &mut Frame, model: &Model<'_>, scene: &Scene) -> Result<()> {
         let mesh = model.mesh();
         let plan = frame.plan;
         let block = scene.block(&mesh.outline, plan.size, plan.light_texels);
         gpu.queue.write_buffer(&frame.common.block, 0, bytemuck::bytes_of(&block));
         frame.common.show(gpu, scene)?;
-        let shade = match (&mut frame.buffers, &self.passes, model) {
+        match (&mut frame.buffers, &self.passes, model) {
             (Buffers::Gather(buffers), Passes::Gather(passes), Model::Gather { points, .. }) => {
                 buffers.gather(gpu, passes, points, &block)?;
-                &passes.shade
             }
-            (Buffers::Splat(buffers), Passes::Splat(passes), _) => {
-                buffers.update(gpu, scene, &block, &plan);
-                &passes.shade
-            }
-            (Buffers::Separable(buffers), Passes::Separable(passes), _) => {
+            (Buffers::Splat(buffers), Passes::Splat(_), _) => buffers.update(gpu, scene, &block, &plan),
+            (Buffers::Separable(buffers), Passes::Separable(_), _) => {
                 buffers.update(gpu, scene, &mesh.outline, &plan);
-                &passes.shade
             }
             _ => return Err(crate::Error::Device("the frame is for another path than the renderer".to_owned())),
+        }
+        Ok(())
+    }
+
+    /// All passes of a frame; `lap` is called after each.
+    fn record(
+        &self,
+        mut encoder: CommandEncoder,
+        frame: &Frame,
+        model: &Model<'_>,
+        scene: &Scene,
+        target: &TextureView,
+        lap: Lap<'_>,
+    ) -> CommandEncoder {
+        let mesh = model.mesh();
+        let lights = scene.lights.len().min(frame.plan.lights as usize);
+        frame.lights.record(&mut encoder, &self.light_view, mesh, lights);
+        encoder = lap("light views", encoder);
+        let (shade, group) = match (&frame.buffers, &self.passes) {
+            (Buffers::Splat(buffers), Passes::Splat(passes)) => {
+                encoder = buffers.record(encoder, passes, mesh, lights, &frame.plan, lap);
+                (&passes.shade, &buffers.shade)
+            }
+            (Buffers::Separable(buffers), Passes::Separable(passes)) => {
+                encoder = buffers.record(encoder, passes, mesh, lap);
+                (&passes.shade, &buffers.shade)
+            }
+            (Buffers::Gather(buffers), Passes::Gather(passes)) => (&passes.shade, &buffers.shade),
+            // Refused by `update`.
+            _ => return encoder,
         };
-        gpu.checked(|| {
-            let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-            let lights = scene.lights.len().min(plan.lights as usize);
-            frame.lights.record(&mut encoder, &self.light_view, mesh, lights);
-            let group = match (&frame.buffers, &self.passes) {
-                (Buffers::Splat(buffers), Passes::Splat(passes)) => {
-                    buffers.record(&mut encoder, passes, mesh, lights, &plan);
-                    &buffers.shade
-                }
-                (Buffers::Separable(buffers), Passes::Separable(passes)) => {
-                    buffers.record(&mut encoder, passes, mesh);
-                    &buffers.shade
-                }
-                (Buffers::Gather(buffers), _) => &buffers.shade,
-                (Buffers::Separable(buffers), _) => &buffers.shade,
-                (Buffers::Splat(buffers), _) => &buffers.shade,
-            };
-            let (view, resolved) = match &frame.samples {
-                Some(samples) => (&samples.view, Some(target)),
-                None => (target, None),
-            };
-            let target = Target { view, clear: self.options.background, resolved };
-            shade.record(&mut encoder, &[target], &frame.depth.view, &[&frame.scene, group], mesh);
-            gpu.queue.submit([encoder.finish()]);
-        })
+        let (view, resolved) = match &frame.samples {
+            Some(samples) => (&samples.view, Some(target)),
+            None => (target, None),
+        };
+        let target = Target { view, clear: self.options.background, resolved };
+        shade.record(&mut encoder, &[target], &frame.depth.view, &[&frame.scene, group], mesh);
+        lap("shade", encoder)
     }
 
     /// Draws a scene and reads the picture back: rows of 8-bit values from the top.
@@ -305,9 +362,9 @@ impl Renderer {
         model: &Model<'_>,
         scene: &Scene,
     ) -> Result<Vec<[u8; 3]>> {
-        let target = gpu.texture(&TextureSpec::target("picture", frame.plan.size, self.options.format))?;
-        self.draw(gpu, frame, model, scene, &target.view)?;
-        let texels: Vec<[u8; 4]> = gpu.read(&target.texture)?;
+        let target = gpu.target(frame.plan.size, self.options.format)?;
+        self.draw(gpu, frame, model, scene, target.view())?;
+        let texels: Vec<[u8; 4]> = gpu.read(&target.0.texture)?;
         Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect())
     }
 }

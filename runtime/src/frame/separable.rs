@@ -6,7 +6,7 @@ use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoder, TextureFormat, Te
 
 use super::light_views::{FAR, LightViews};
 use super::plan::Plan;
-use super::{COMMON, Common};
+use super::{COMMON, Common, Lap};
 use crate::cascade::{BlurPasses, Cascade, MAP};
 use crate::context::Gpu;
 use crate::error::Result;
@@ -127,11 +127,19 @@ impl Buffers {
         gpu.queue.write_buffer(&self.sums, 0, bytemuck::bytes_of(&self.sums_block));
     }
 
-    pub(crate) fn record(&self, encoder: &mut CommandEncoder, passes: &Passes, mesh: &GpuMesh) {
+    pub(crate) fn record(
+        &self,
+        mut encoder: CommandEncoder,
+        passes: &Passes,
+        mesh: &GpuMesh,
+        lap: Lap<'_>,
+    ) -> CommandEncoder {
         let layers = &self.cascade.maps[0].layers;
         let targets: Vec<_> = layers.iter().map(|view| Target { view, clear: FAR, resolved: None }).collect();
         let [scene, factors] = &self.weigh;
-        passes.weigh.record(encoder, &targets, &self.depth.view, &[scene, factors], mesh);
-        self.cascade.record(encoder, &passes.blur);
+        passes.weigh.record(&mut encoder, &targets, &self.depth.view, &[scene, factors], mesh);
+        encoder = lap("weigh", encoder);
+        self.cascade.record(&mut encoder, &passes.blur);
+        lap("blur", encoder)
     }
 }

@@ -12,7 +12,7 @@ use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureFor
 
 use super::light_views::{FAR, LightViews};
 use super::plan::Plan;
-use super::{COMMON, Common};
+use super::{COMMON, Common, Lap};
 use crate::context::Gpu;
 use crate::error::Result;
 use crate::factors::SplatMaterial;
@@ -295,27 +295,32 @@ impl Buffers {
 
     pub(crate) fn record(
         &self,
-        encoder: &mut CommandEncoder,
+        mut encoder: CommandEncoder,
         passes: &Passes,
         mesh: &GpuMesh,
         lights: usize,
         plan: &Plan,
-    ) {
+        lap: Lap<'_>,
+    ) -> CommandEncoder {
         let lit = |light: u32| (light as usize) < lights;
         for reduction in self.reductions.iter().filter(|reduction| lit(reduction.light)) {
             let targets = reduction.targets.each_ref();
-            passes.reduce.record(encoder, &targets, &[&reduction.group], Rows::all(reduction.size));
+            passes.reduce.record(&mut encoder, &targets, &[&reduction.group], Rows::all(reduction.size));
         }
+        encoder = lap("reduce", encoder);
         let clears = [FAR, Color::TRANSPARENT, Color::TRANSPARENT];
         let targets = [0, 1, 2].map(|k| Target { view: &self.visible[k].view, clear: clears[k], resolved: None });
         let [scene, albedo] = &self.view;
-        passes.view.record(encoder, &targets, &self.depth.view, &[scene, albedo], mesh);
+        passes.view.record(&mut encoder, &targets, &self.depth.view, &[scene, albedo], mesh);
+        encoder = lap("view", encoder);
         for (ring, number) in self.rings.iter().zip(0..) {
             let draws = self.draws.iter().filter(|draw| draw.ring == number && lit(draw.light));
             let squares = |draw: &Draw| (plan.light_texels >> draw.level).max(1).pow(2);
             let draws: Vec<_> = draws.map(|draw| (&draw.group, squares(draw))).collect();
-            passes.splat.record_squares(encoder, &ring.view, &self.material, &draws);
+            passes.splat.record_squares(&mut encoder, &ring.view, &self.material, &draws);
         }
-        passes.collapse.record(encoder, &[&self.collapsed.view], &[&self.collapse], Rows::all(self.size));
+        encoder = lap("splat", encoder);
+        passes.collapse.record(&mut encoder, &[&self.collapsed.view], &[&self.collapse], Rows::all(self.size));
+        lap("collapse", encoder)
     }
 }

@@ -70,6 +70,20 @@ impl Factors {
         Self { header, detail, coefficients: radial.coefficients, sigmas, weights }
     }
 
+    /// One profile for all pixels, the mean: what a renderer draws that knows no heterogeneity.
+    ///
+    /// # Panics
+    /// If `gaussians` is out of range.
+    #[must_use]
+    pub fn homogeneous(material: &Bssrdf<'_>, gaussians: usize) -> Self {
+        let detail = Detail { terms: 1, gaussians };
+        assert!((1..=MAX_GAUSSIANS).contains(&gaussians), "{gaussians}");
+        let header = *material.header();
+        let radial = radial::Radial::mean_of(material);
+        let (sigmas, weights) = gaussians::fit(&header, &radial, detail);
+        Self { header, detail, coefficients: radial.coefficients, sigmas, weights }
+    }
+
     /// w_lma of all Gaussians.
     #[must_use]
     pub fn weights_of(&self, l: usize, m: usize) -> &[Rgb] {

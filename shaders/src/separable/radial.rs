@@ -59,6 +59,18 @@ impl Radial {
         Self { coefficients, functions, step }
     }
 
+    /// The same function for all pixels: the root of the mean reflectance.
+    pub(super) fn mean_of(material: &Bssrdf<'_>) -> Self {
+        let header = material.header();
+        let mean = mean_reflectance(material);
+        let radius = |k: usize| header.r_max_mm * k as f32 / (RADII - 1) as f32;
+        Self {
+            coefficients: vec![[1.0; 3]; header.width as usize * header.height as usize],
+            functions: (0..RADII).map(|k| mean(radius(k)).map(f32::sqrt)).collect(),
+            step: f64::from(header.r_max_mm / header.pitch_mm) / (RADII - 1) as f64,
+        }
+    }
+
     /// g_l(r), r in pixels, at most r_max.
     pub(super) fn at(&self, l: usize, r: f64, c: usize) -> f64 {
         let position = (r / self.step).min((RADII - 1) as f64);
