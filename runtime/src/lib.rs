@@ -22,7 +22,7 @@ pub use factors::{SeparableMaterial, SplatMaterial};
 pub use ledger::Ledger;
 pub use material::{Material, storage_of};
 pub use frame::{BACKGROUND, Frame, GpuPoints, Model, Path, Plan, Renderer, RuntimeOptions};
-pub use mesh::GpuMesh;
+pub use mesh::{GpuMesh, Known};
 pub use patch::{Exitance, PatchLight, PatchRenderer, Region};
 pub use separable::{HomogeneousPatch, HomogeneousRenderer, SeparablePatch, SeparableRenderer};
 pub use subsurf_shaders::Storage;

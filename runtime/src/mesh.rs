@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::ledger::Tracked;
 use crate::pass::{attachment, bind, bind_group_layouts};
 use crate::resource::Slot;
-use crate::scene::{Mapping, Mesh, Outline};
+use crate::scene::{Mapping, Mesh, Outline, SkyShare};
 
 /// Depth of the pictures.
 pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth24Plus;
@@ -36,17 +36,40 @@ struct Vertex {
     /// Copies of the patch, v down.
     uv: Vec2,
     point: u32,
+    /// Halves of the light that comes from all around, from the same side and from the other.
+    sky_front: [u8; 4],
+    sky_back: [u8; 4],
+}
+
+/// What a path wants to know of every vertex.
+#[derive(Clone, Copy, Debug)]
+pub enum Known<'a> {
+    /// Which point of a [`crate::scene::Surface`] it is: for the gather.
+    Points(&'a [u32]),
+    /// How much light from all around it gets: for all others.
+    Sky(&'a [SkyShare]),
+}
+
+/// 0 to 2 in a byte.
+fn halves(share: [f32; 3]) -> [u8; 4] {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let [r, g, b] = share.map(|value| (value * 127.5).round().clamp(0.0, 255.0) as u8);
+    [r, g, b, 0]
 }
 
 impl GpuMesh {
-    /// Uploads a mesh. `point_of` says which point of a [`crate::scene::Surface`] each vertex is, where there is one.
+    /// Uploads a mesh, with what is known of its vertices.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no buffers of that size.
-    pub fn upload(gpu: &Gpu, mesh: &Mesh, outline: &Outline, point_of: Option<&[u32]>) -> Result<Self> {
+    pub fn upload(gpu: &Gpu, mesh: &Mesh, outline: &Outline, known: Known<'_>) -> Result<Self> {
         let times = match outline.mapping {
             Mapping::Uv(times) => Vec2::from(times),
             Mapping::Box => Vec2::ZERO,
+        };
+        let sky = |k: usize| match known {
+            Known::Sky(shares) => shares[k],
+            Known::Points(_) => SkyShare { front: [1.0; 3], back: [0.0; 3] },
         };
         let vertex = |k: usize| {
             let uv = mesh.uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[k]) * times;
@@ -54,7 +77,12 @@ impl GpuMesh {
                 position_mm: mesh.positions[k],
                 normal: mesh.normals[k],
                 uv: Vec2::new(uv.x, 1.0 - uv.y),
-                point: point_of.map_or(0, |points| points[k]),
+                point: match known {
+                    Known::Points(points) => points[k],
+                    Known::Sky(_) => 0,
+                },
+                sky_front: halves(sky(k).front),
+                sky_back: halves(sky(k).back),
             }
         };
         let vertices: Vec<Vertex> = (0..mesh.positions.len()).map(vertex).collect();
@@ -116,7 +144,7 @@ impl MeshPass {
                 immediate_size: 0,
             });
             let targets: Vec<Option<ColorTargetState>> = targets.iter().map(|format| Some((*format).into())).collect();
-            let attributes = vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32];
+            let attributes = vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32, 4 => Unorm8x4, 5 => Unorm8x4];
             let pipeline = gpu.device.create_render_pipeline(&RenderPipelineDescriptor {
                 label: Some(fragment),
                 layout: Some(&layout),

@@ -31,8 +31,7 @@ fn exitance(in: Varying, normal: vec3<f32>) -> vec3<f32> {
         weights += weight;
         sum += weight * value.xyz;
     }
-    // The environment's light changes little within the radius of scattering: its albedo is enough.
-    return albedo * (sum / weights + sky_irradiance(normal));
+    return albedo * (sum / weights + scattered_sky(in, normal));
 }
 
 fn light_visibility(i: u32, in: Varying, normal: vec3<f32>) -> f32 {

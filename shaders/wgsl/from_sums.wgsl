@@ -106,8 +106,7 @@ fn exitance(in: Varying, normal: vec3<f32>) -> vec3<f32> {
             }
         }
     }
-    // The environment's light changes little within the radius of scattering: its albedo is enough.
-    var sum = c[TERMS] * sky_irradiance(normal);
+    var sum = c[TERMS] * scattered_sky(in, normal);
     for (var m = 0u; m < TERMS; m++) {
         sum += c[m] * light[m];
     }

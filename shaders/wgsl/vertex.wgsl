@@ -8,6 +8,9 @@ struct Varying {
     // Exitance and visibility of lights, where they are known for every vertex.
     @location(3) exitance: vec3<f32>,
     @location(4) visibility: vec4<f32>,
+    // Light from all around that comes from the same side and from the other, by what it is on flat ground.
+    @location(5) sky_front: vec3<f32>,
+    @location(6) sky_back: vec3<f32>,
 }
 
 @vertex
@@ -16,9 +19,25 @@ fn project(
     @location(1) normal: vec3<f32>,
     @location(2) uv: vec2<f32>,
     @location(3) point: u32,
+    @location(4) sky_front: vec4<f32>,
+    @location(5) sky_back: vec4<f32>,
 ) -> Varying {
     let clip = scene.clip_from_world * vec4<f32>(position_mm, 1.0);
-    return Varying(clip, position_mm, normal, uv, vertex_exitance(point), vertex_visibility(point));
+    var out: Varying;
+    out.clip = clip;
+    out.position_mm = position_mm;
+    out.normal = normal;
+    out.uv = uv;
+    out.exitance = vertex_exitance(point);
+    out.visibility = vertex_visibility(point);
+    out.sky_front = 2.0 * sky_front.xyz;
+    out.sky_back = 2.0 * sky_back.xyz;
+    return out;
+}
+
+// Light from all around that scatters to a place, by its albedo: it changes little within the radius of scattering.
+fn scattered_sky(in: Varying, normal: vec3<f32>) -> vec3<f32> {
+    return in.sky_front * sky_irradiance(normal) + in.sky_back * sky_irradiance(-normal);
 }
 
 // Depth along the line of sight, from the middle of the scene, in mm.

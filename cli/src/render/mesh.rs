@@ -4,9 +4,9 @@ use glam::Vec3;
 use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
-use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, Surface, View};
+use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, SkyShare, Surface, View};
 use subsurf_runtime::{
-    BACKGROUND, Frame, Gpu, GpuMesh, GpuPoints, Material, Model, Path, Renderer, RuntimeOptions, SeparableMaterial,
+    BACKGROUND, Frame, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions, SeparableMaterial,
     SplatMaterial,
 };
 use subsurf_shaders::cpu::{self, Rgb};
@@ -88,17 +88,17 @@ impl Prepared {
             PathArg::Gather => {
                 let (fine, surface) = points(mesh, mapping, material, scene)?;
                 Self::Gather {
-                    mesh: GpuMesh::upload(gpu, &fine, &outline, Some(surface.point_of()))?,
+                    mesh: GpuMesh::upload(gpu, &fine, &outline, Known::Points(surface.point_of()))?,
                     points: GpuPoints::upload(gpu, &surface)?,
                     material: Material::upload(gpu, material)?,
                 }
             }
             PathArg::Splat => Self::Splat {
-                mesh: GpuMesh::upload(gpu, mesh, &outline, None)?,
+                mesh: GpuMesh::upload(gpu, mesh, &outline, Known::Sky(&SkyShare::of(mesh, material)?))?,
                 material: SplatMaterial::upload(gpu, material, &Factors::of(material, Detail::default()))?,
             },
             PathArg::Separable | PathArg::Homogeneous => Self::Separable {
-                mesh: GpuMesh::upload(gpu, mesh, &outline, None)?,
+                mesh: GpuMesh::upload(gpu, mesh, &outline, Known::Sky(&SkyShare::of(mesh, material)?))?,
                 material: SeparableMaterial::upload(gpu, &factors(material, path))?,
             },
         })

@@ -96,6 +96,19 @@ impl Mesh {
         }
     }
 
+    /// A third of the triangles around each vertex, in mm².
+    pub(crate) fn vertex_areas(&self) -> Vec<f32> {
+        let mut areas = vec![0.0; self.positions.len()];
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|k| self.positions[k as usize]);
+            let third = (b - a).cross(c - a).length() / 6.0;
+            for &k in triangle {
+                areas[k as usize] += third;
+            }
+        }
+        areas
+    }
+
     fn is_long(&self, [a, b]: [u32; 2], longest_mm: f32) -> bool {
         self.positions[a as usize].distance(self.positions[b as usize]) > longest_mm
     }

@@ -4,6 +4,7 @@ mod environment;
 mod light;
 mod mesh;
 mod shapes;
+mod sky;
 mod surface;
 
 use glam::Vec3;
@@ -19,6 +20,7 @@ pub use environment::{Environment, REFLECTION_LEVELS, REFLECTION_SIZE};
 pub use light::{Light, LightShape};
 pub use mesh::Mesh;
 pub use shapes::{bowl, drapery, knot, relief, sphere, torus};
+pub use sky::SkyShare;
 pub use surface::{Mapping, Surface};
 
 /// Lights, environment, coat and eye, the same for every path.

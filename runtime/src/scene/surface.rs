@@ -69,7 +69,7 @@ impl Surface {
             point_of[vertex as usize] = point;
         }
 
-        let areas = vertex_areas(mesh);
+        let areas = mesh.vertex_areas();
         let by_point = || order.iter().map(|&vertex| vertex as usize);
         Self {
             grid: uniform::Surface { origin_mm: low.into(), cell_mm, cells: cells.into(), points: vertices },
@@ -111,18 +111,6 @@ impl Surface {
     pub fn points(&self) -> Points<'_> {
         Points { surface: self.grid, positions: &self.positions, pixels: &self.pixels, cell_starts: &self.cell_starts }
     }
-}
-
-fn vertex_areas(mesh: &Mesh) -> Vec<f32> {
-    let mut areas = vec![0.0; mesh.positions.len()];
-    for triangle in &mesh.triangles {
-        let [a, b, c] = triangle.map(|k| mesh.positions[k as usize]);
-        let third = (b - a).cross(c - a).length() / 6.0;
-        for &k in triangle {
-            areas[k as usize] += third;
-        }
-    }
-    areas
 }
 
 fn pixel_of(mesh: &Mesh, vertex: usize, mapping: Mapping, header: &Header) -> [u16; 2] {

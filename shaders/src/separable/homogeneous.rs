@@ -5,6 +5,11 @@ use subsurf_decoder::Bssrdf;
 use super::radial::mean_reflectance;
 use crate::cpu::Rgb;
 
+/// Mean over all pixels of Rd between two pixels alike, in mm⁻², as a function of their distance in mm; 0 beyond r_max.
+pub fn mean_profile(material: &Bssrdf<'_>) -> impl Fn(f32) -> Rgb + Sync + use<> {
+    mean_reflectance(material)
+}
+
 /// Weights at 0, 1, 2 ... pixels to either side of a kernel whose product along both axes carries the light of the mean
 /// profile: a(x) = Σ_y R(√(x² + y²)) pitch², divided by √Σ R pitch² (Jimenez et al. 2015, eq. 10).
 #[must_use]

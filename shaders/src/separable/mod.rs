@@ -14,7 +14,7 @@ mod homogeneous;
 mod radial;
 
 pub use cascade::Stage;
-pub use homogeneous::mean_kernel;
+pub use homogeneous::{mean_kernel, mean_profile};
 
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Header;

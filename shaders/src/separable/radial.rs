@@ -82,7 +82,7 @@ impl Radial {
 }
 
 /// Mean over all pixels of Rd between two pixels alike, in mm⁻², as a function of their distance in mm.
-pub(super) fn mean_reflectance(material: &Bssrdf<'_>) -> impl Fn(f32) -> Rgb {
+pub(super) fn mean_reflectance(material: &Bssrdf<'_>) -> impl Fn(f32) -> Rgb + Sync + use<> {
     let r_max_mm = material.header().r_max_mm;
     let samples = samples(material);
     let mean = |k: usize| {
