@@ -119,6 +119,25 @@ impl Gpu {
         Ok(Self { device, queue, info: adapter.get_info(), ledger: Ledger::default() })
     }
 
+    /// Draws with a device that the caller owns; `info` is what its adapter says. Within
+    /// `Limits::downlevel_webgl2_defaults()` everything works.
+    #[must_use]
+    pub fn from_device(device: Device, queue: Queue, info: AdapterInfo) -> Self {
+        Self { device, queue, info, ledger: Ledger::default() }
+    }
+
+    /// The device, to share it.
+    #[must_use]
+    pub fn device(&self) -> &Device {
+        &self.device
+    }
+
+    /// Its queue.
+    #[must_use]
+    pub fn queue(&self) -> &Queue {
+        &self.queue
+    }
+
     /// What the driver says of itself.
     #[must_use]
     pub fn info(&self) -> &AdapterInfo {

@@ -26,3 +26,4 @@ pub use mesh::{GpuMesh, Known};
 pub use patch::{Exitance, PatchLight, PatchRenderer, Region};
 pub use separable::{HomogeneousPatch, HomogeneousRenderer, SeparablePatch, SeparableRenderer};
 pub use subsurf_shaders::Storage;
+pub use wgpu;
