@@ -5,7 +5,8 @@ use std::fmt;
 use pollster::block_on;
 use wgpu::{
     Adapter, AdapterInfo, Backends, Device, DeviceDescriptor, DeviceType, ErrorFilter, ExperimentalFeatures, Features,
-    GlDebugFns, Instance, InstanceDescriptor, InstanceFlags, Limits, MemoryHints, Queue, Trace,
+    GlDebugFns, Instance, InstanceDescriptor, InstanceFlags, Limits, MemoryHints, Queue, Surface, SurfaceTarget, Trace,
+    WgpuHasDisplayHandle,
 };
 
 use crate::error::{Error, Result};
@@ -63,10 +64,24 @@ impl PictureTarget {
     }
 }
 
-fn instance(backend: Backend) -> Instance {
+/// A device that draws to a window, and what makes the window's surface anew when it is lost.
+#[derive(Debug)]
+pub struct OnScreen<'w> {
+    /// The device.
+    pub gpu: Gpu,
+    /// The window's surface, not configured yet. Drop it before the window.
+    pub surface: Surface<'w>,
+    /// Where it came from.
+    pub instance: Instance,
+    /// Knows which formats the surface has.
+    pub adapter: Adapter,
+}
+
+fn instance(backend: Backend, display: Option<Box<dyn WgpuHasDisplayHandle>>) -> Instance {
     let mut descriptor = InstanceDescriptor {
         backends: backend.flag(),
         flags: InstanceFlags::empty(),
+        display,
         ..InstanceDescriptor::new_without_display_handle()
     };
     // Debug groups crash drivers of Mali and Adreno.
@@ -85,8 +100,8 @@ fn rank(info: &AdapterInfo) -> u8 {
     }
 }
 
-fn adapters(backend: Backend) -> Vec<Adapter> {
-    let mut adapters = block_on(instance(backend).enumerate_adapters(backend.flag()));
+fn adapters(instance: &Instance, backend: Backend) -> Vec<Adapter> {
+    let mut adapters = block_on(instance.enumerate_adapters(backend.flag()));
     adapters.sort_by_key(|adapter| rank(&adapter.get_info()));
     adapters
 }
@@ -94,7 +109,7 @@ fn adapters(backend: Backend) -> Vec<Adapter> {
 /// What there is to draw with on this machine, the best first.
 #[must_use]
 pub fn devices(backend: Backend) -> Vec<AdapterInfo> {
-    adapters(backend).iter().map(Adapter::get_info).collect()
+    adapters(&instance(backend, None), backend).iter().map(Adapter::get_info).collect()
 }
 
 impl Gpu {
@@ -104,9 +119,29 @@ impl Gpu {
     /// # Errors
     /// [`Error::NoDevice`].
     pub fn open(backend: Backend) -> Result<Self> {
+        let adapter = adapters(&instance(backend, None), backend).into_iter().next();
+        let none = || Error::NoDevice { backend, reason: "the driver lists none".to_owned() };
+        Self::of(&adapter.ok_or_else(none)?, backend)
+    }
+
+    /// Opens the best device of a backend that draws to a window, within the same limits.
+    ///
+    /// # Errors
+    /// [`Error::NoDevice`].
+    pub fn open_for<'w>(
+        backend: Backend,
+        display: Box<dyn WgpuHasDisplayHandle>,
+        window: impl Into<SurfaceTarget<'w>>,
+    ) -> Result<OnScreen<'w>> {
         let none = |reason: String| Error::NoDevice { backend, reason };
-        let adapter = adapters(backend).into_iter().next();
-        let adapter = adapter.ok_or_else(|| none("the driver lists none".to_owned()))?;
+        let instance = instance(backend, Some(display));
+        let surface = instance.create_surface(window).map_err(|error| none(error.to_string()))?;
+        let adapter = adapters(&instance, backend).into_iter().find(|adapter| adapter.is_surface_supported(&surface));
+        let adapter = adapter.ok_or_else(|| none("the driver lists none that draws to this window".to_owned()))?;
+        Ok(OnScreen { gpu: Self::of(&adapter, backend)?, surface, instance, adapter })
+    }
+
+    fn of(adapter: &Adapter, backend: Backend) -> Result<Self> {
         let request = adapter.request_device(&DeviceDescriptor {
             label: Some("subsurf"),
             required_features: Features::empty(),
@@ -115,6 +150,7 @@ impl Gpu {
             memory_hints: MemoryHints::MemoryUsage,
             trace: Trace::Off,
         });
+        let none = |reason: String| Error::NoDevice { backend, reason };
         let (device, queue) = block_on(request).map_err(|error| none(error.to_string()))?;
         Ok(Self { device, queue, info: adapter.get_info(), ledger: Ledger::default() })
     }
@@ -156,6 +192,14 @@ impl Gpu {
     /// [`Error::Unsupported`] if it is too large.
     pub fn target(&self, size: [u32; 2], format: wgpu::TextureFormat) -> Result<PictureTarget> {
         Ok(PictureTarget(self.texture(&TextureSpec::target("picture", size, format))?))
+    }
+
+    /// The texels of such a picture of four bytes to a texel, row by row from the top, as they stand in it.
+    ///
+    /// # Errors
+    /// [`Error::Device`].
+    pub fn read_picture(&self, target: &PictureTarget) -> Result<Vec<[u8; 4]>> {
+        self.read(&target.0.texture)
     }
 
     /// Runs `work` and turns what the device complains about into an error.

@@ -16,7 +16,7 @@ mod resource;
 pub mod scene;
 mod separable;
 
-pub use context::{Backend, Gpu, PictureTarget, devices};
+pub use context::{Backend, Gpu, OnScreen, PictureTarget, devices};
 pub use error::{Error, Result};
 pub use factors::{SeparableMaterial, SplatMaterial};
 pub use ledger::Ledger;

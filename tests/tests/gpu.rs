@@ -6,10 +6,12 @@ use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{Addressing, Coding};
 use subsurf_encoder::synthetic::{Shape, capture_row, unit};
-use subsurf_runtime::scene::{Mapping, Mesh, Surface, sphere, torus};
+use subsurf_runtime::scene::{
+    Environment, Light, LightShape, Mapping, Mesh, Outline, REFLECTION_SIZE, Scene, Surface, View, sphere, torus,
+};
 use subsurf_runtime::{
-    BACKGROUND, Backend, Gpu, GpuMesh, Material, MeshLight, MeshRenderer, PatchLight, PatchRenderer, Region,
-    SeparableMaterial, SeparableRenderer, Storage, View, storage_of,
+    BACKGROUND, Backend, Gpu, GpuMesh, GpuPoints, Known, Material, Model, PatchLight, PatchRenderer, Path, Region, Renderer,
+    RuntimeOptions, SeparableMaterial, SeparableRenderer, Storage, storage_of,
 };
 use subsurf_shaders::cpu;
 use subsurf_shaders::separable::{Detail, Factors};
@@ -217,46 +219,74 @@ fn capture_on_gles_3_0() {
     capture_patch(Backend::Gl);
 }
 
+/// A light with a shadow, one nearby, one within a cone, and a sky that is brighter above.
+fn scene() -> Scene {
+    let sky: Vec<[f32; 3]> = (0..16 * 8).map(|k| [0.3, 0.25, 0.2].map(|c| c * (2.0 - (k / 16) as f32 / 8.0))).collect();
+    let light = |shape, irradiance| Light { shape, irradiance };
+    Scene {
+        lights: vec![
+            light(LightShape::Directional { towards: Vec3::new(0.5, 1.0, 0.8) }, [3.0, 2.8, 2.5]),
+            light(LightShape::Point { position_mm: Vec3::new(-14.0, 4.0, 6.0) }, [0.8, 0.5, 0.2]),
+            light(
+                LightShape::Spot { position_mm: Vec3::new(3.0, 9.0, 16.0), target_mm: Vec3::X, half_angle: 0.25 },
+                [0.1, 0.3, 0.9],
+            ),
+        ],
+        environment: Environment::equirectangular([16, 8], &sky).unwrap(),
+        roughness: 0.3,
+        view: View { eye_mm: Vec3::new(10.0, 12.0, 25.0), target_mm: Vec3::ZERO, angle: 0.6, exposure: 0.35 },
+    }
+}
+
 fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, storage: Storage, what: &str) {
     let gpu = open(backend);
     let file = file(storage, &shape([31, 31], 6, Addressing::Clamp));
     let material = Bssrdf::parse(&file).unwrap();
     let what = format!("{backend}, {what}, {storage:?}");
-    // A shadow over half of it, with a soft edge.
-    let visibility: Vec<f32> = mesh.positions.iter().map(|p| (0.5 + 0.2 * p.x).clamp(0.0, 1.0)).collect();
-    let surface = Surface::new(mesh, mapping, material.header(), &visibility);
-    let light = MeshLight { direction: Vec3::new(0.5, 1.0, 0.8), irradiance: [3.0, 2.8, 2.5], sky: [0.2, 0.3, 0.4] };
+    // Shadows over half of it, with soft edges.
+    let soft = |x: f32| (0.5 + 0.2 * x).clamp(0.0, 1.0);
+    let visibilities: Vec<[f32; 4]> = mesh.positions.iter().map(|p| [soft(p.x), soft(-p.y), soft(p.z), 1.0]).collect();
+    let surface = Surface::new(mesh, mapping, material.header(), &visibilities);
+    let size = [160, 120];
+    let scene = scene();
+    let outline = Outline::new(mesh, mapping, material.header());
 
-    let renderer = MeshRenderer::new(&gpu, storage).unwrap();
+    let options = RuntimeOptions::default();
+    let renderer = Renderer::new(&gpu, Path::Gather(storage), options).unwrap();
+    let points = GpuPoints::upload(&gpu, &surface).unwrap();
     let uploaded = Material::upload(&gpu, &material).unwrap();
-    let on_gpu = GpuMesh::upload(&gpu, mesh, &surface).unwrap();
-    let exitance = renderer.exitance(&gpu, &uploaded, &on_gpu, &light).unwrap();
-    let found = exitance.read(&gpu).unwrap();
+    let on_gpu = GpuMesh::upload(&gpu, mesh, &outline, Known::Points(surface.point_of())).unwrap();
+    let model = Model::Gather { mesh: &on_gpu, points: &points, material: &uploaded };
+    let mut frame = renderer.prepare(&gpu, &model, &scene, size).unwrap();
+    let picture = renderer.picture(&gpu, &mut frame, &model, &scene).unwrap();
+    let found = points.read(&gpu).unwrap();
 
-    let irradiance = cpu::irradiance(surface.normals(), &light.block(material.header().eta));
-    let expected = cpu::surface_gather(&material, &surface.points(), &irradiance);
+    let block = scene.block(&outline, size, options.light_texels);
+    let expected = cpu::surface_gather(&material, &surface.points(), &surface.irradiance(&block));
     // Irradiance and exitance.
     assert_close(&found, &expected, 2.0, &what);
 
-    let size = [160, 120];
-    let view =
-        View { eye_mm: Vec3::new(10.0, 12.0, 25.0), target_mm: Vec3::ZERO, angle: 0.6, exposure: 1.2, sky: light.sky };
-    let camera = view.block(size, material.header().eta);
-    let picture = renderer.picture(&gpu, &on_gpu, &exitance, &camera, size).unwrap();
     let of_vertices: Vec<[f32; 3]> = surface.point_of().iter().map(|&point| found[point as usize]).collect();
     let triangles = cpu::Triangles {
         positions: &mesh.positions,
         normals: &mesh.normals,
         exitances: &of_vertices,
+        visibilities: &visibilities,
         triangles: &mesh.triangles,
     };
-    let expected = cpu::shade(&triangles, &camera, size, [BACKGROUND; 3]);
-    let differs = |(a, b): (&[u8; 3], &[u8; 3])| (0..3).any(|c| a[c].abs_diff(b[c]) > DISPLAY_TOLERANCE);
-    let different = picture.iter().zip(&expected).filter(|pair| differs(*pair)).count();
+    let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };
+    let expected = cpu::shade(&triangles, &block, &reflections, size, [BACKGROUND; 3]);
+    let different = different(&picture, &expected, DISPLAY_TOLERANCE);
     let covered = expected.iter().filter(|pixel| **pixel != [BACKGROUND; 3]).count();
     println!("{what}: {different} of {} pixels differ, {covered} are covered", picture.len());
     assert!(covered * 10 > picture.len(), "{what}: the mesh is in the picture");
     assert!(different as f64 <= EDGE_PIXELS * picture.len() as f64, "{what}: {different} pixels differ");
+}
+
+/// Pixels of two pictures that differ by more than a tolerance in some channel.
+fn different(a: &[[u8; 3]], b: &[[u8; 3]], tolerance: u8) -> usize {
+    let differs = |(a, b): (&[u8; 3], &[u8; 3])| (0..3).any(|c| a[c].abs_diff(b[c]) > tolerance);
+    a.iter().zip(b).filter(|pair| differs(*pair)).count()
 }
 
 fn meshes(backend: Backend) {

@@ -192,7 +192,7 @@ impl Renderer {
             Passes::Splat(passes) => passes.bytes(plan, outline),
             Passes::Separable(passes) => passes.bytes(plan),
         };
-        let bytes = |plan: &Plan| of_path(plan) + plan.picture_bytes(self.options.format) + Common::BYTES;
+        let bytes = |plan: &Plan| of_path(plan) + plan.picture_bytes(self.options.format) + Common::BYTES + UNIFORMS;
         let plan = plan.within(self.options.budget_bytes, gpu.ledger().bytes(), bytes)?;
         let common = Common::new(gpu)?;
         let levels = match &self.passes {
@@ -397,6 +397,9 @@ fn divisor(scene: &Scene, model: &Model<'_>, size: [u32; 2], light_texels: u32) 
         }
     }
 }
+
+/// Bytes that uniform blocks of all passes are sure not to exceed.
+const UNIFORMS: u64 = 32 << 10;
 
 impl Common {
     /// Bytes of the environment's picture and the block.
