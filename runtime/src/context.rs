@@ -3,10 +3,10 @@
 use std::fmt;
 
 use pollster::block_on;
+use wgpu::rwh::HasDisplayHandle;
 use wgpu::{
     Adapter, AdapterInfo, Backends, Device, DeviceDescriptor, DeviceType, ErrorFilter, ExperimentalFeatures, Features,
     GlDebugFns, Instance, InstanceDescriptor, InstanceFlags, Limits, MemoryHints, Queue, Surface, SurfaceTarget, Trace,
-    WgpuHasDisplayHandle,
 };
 
 use crate::error::{Error, Result};
@@ -77,16 +77,15 @@ pub struct OnScreen<'w> {
     pub adapter: Adapter,
 }
 
-fn instance(backend: Backend, display: Option<Box<dyn WgpuHasDisplayHandle>>) -> Instance {
+fn instance(backend: Backend) -> InstanceDescriptor {
     let mut descriptor = InstanceDescriptor {
         backends: backend.flag(),
         flags: InstanceFlags::empty(),
-        display,
         ..InstanceDescriptor::new_without_display_handle()
     };
     // Debug groups crash drivers of Mali and Adreno.
     descriptor.backend_options.gl.debug_fns = GlDebugFns::Disabled;
-    Instance::new(descriptor)
+    descriptor
 }
 
 /// Devices before software renderers, large before small.
@@ -109,7 +108,7 @@ fn adapters(instance: &Instance, backend: Backend) -> Vec<Adapter> {
 /// What there is to draw with on this machine, the best first.
 #[must_use]
 pub fn devices(backend: Backend) -> Vec<AdapterInfo> {
-    adapters(&instance(backend, None), backend).iter().map(Adapter::get_info).collect()
+    adapters(&Instance::new(instance(backend)), backend).iter().map(Adapter::get_info).collect()
 }
 
 impl Gpu {
@@ -119,7 +118,7 @@ impl Gpu {
     /// # Errors
     /// [`Error::NoDevice`].
     pub fn open(backend: Backend) -> Result<Self> {
-        let adapter = adapters(&instance(backend, None), backend).into_iter().next();
+        let adapter = adapters(&Instance::new(instance(backend)), backend).into_iter().next();
         let none = || Error::NoDevice { backend, reason: "the driver lists none".to_owned() };
         Self::of(&adapter.ok_or_else(none)?, backend)
     }
@@ -130,11 +129,11 @@ impl Gpu {
     /// [`Error::NoDevice`].
     pub fn open_for<'w>(
         backend: Backend,
-        display: Box<dyn WgpuHasDisplayHandle>,
+        display: impl HasDisplayHandle + fmt::Debug + Send + Sync + 'static,
         window: impl Into<SurfaceTarget<'w>>,
     ) -> Result<OnScreen<'w>> {
         let none = |reason: String| Error::NoDevice { backend, reason };
-        let instance = instance(backend, Some(display));
+        let instance = Instance::new(instance(backend).with_display_handle(Box::new(display)));
         let surface = instance.create_surface(window).map_err(|error| none(error.to_string()))?;
         let adapter = adapters(&instance, backend).into_iter().find(|adapter| adapter.is_surface_supported(&surface));
         let adapter = adapter.ok_or_else(|| none("the driver lists none that draws to this window".to_owned()))?;
