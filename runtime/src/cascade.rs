@@ -110,6 +110,11 @@ impl Cascade {
         self.maps.iter().chain(&self.sums).map(Maps::bytes).sum()
     }
 
+    /// S_m before the first stage, which only a domain that has some looks at.
+    pub(crate) fn begun_sums(&self) -> &Maps {
+        &self.sums[1]
+    }
+
     /// S_m once all stages are through.
     pub(crate) fn sums(&self) -> &Maps {
         &self.sums[(self.groups.len() + 1) % 2]

@@ -95,7 +95,7 @@ pub struct SeparableMaterial {
     pub(crate) layers: PatchLayers,
     /// Along rows and along columns, for each a.
     stages: Vec<[Tracked<Buffer>; 2]>,
-    sums: uniform::Sums,
+    through: Tracked<Buffer>,
     narrowest_pixels: f32,
 }
 
@@ -112,7 +112,7 @@ impl SeparableMaterial {
             header: factors.header,
             terms,
             layers: PatchLayers::upload(gpu, &factors.header, layers.collect())?,
-            sums: uniform::Sums::new(factors),
+            through: gpu.uniform("through", &uniform::Through::new(factors)),
             narrowest_pixels: factors.sigmas.first().copied().unwrap_or(1.0),
             stages: stages.iter().map(|axes| axes.map(|block| gpu.uniform("stage", &block))).collect(),
         })
@@ -133,12 +133,12 @@ impl SeparableMaterial {
     /// Bytes on the device.
     #[must_use]
     pub fn gpu_bytes(&self) -> u64 {
-        self.layers.bytes() + self.stages.iter().flatten().map(Tracked::bytes).sum::<u64>()
+        self.layers.bytes() + self.stages.iter().flatten().chain([&self.through]).map(Tracked::bytes).sum::<u64>()
     }
 
     /// Weights of all Gaussians.
-    pub(crate) fn sums(&self) -> &uniform::Sums {
-        &self.sums
+    pub(crate) fn through(&self) -> &Buffer {
+        &self.through
     }
 
     /// σ of the narrowest Gaussian, in pixels of the patch.

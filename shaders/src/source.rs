@@ -156,6 +156,7 @@ pub const fn weigh_mesh(terms: usize) -> &'static str {
         "factors.wgsl",
         "no_points.wgsl",
         "vertex.wgsl",
+        "through.wgsl",
         "weigh_mesh.wgsl"
     )
 }
@@ -201,6 +202,7 @@ pub const fn shade_sums(encoding: Encoding, terms: usize) -> &'static str {
         "patch_layers.wgsl",
         "factors.wgsl",
         "no_points.wgsl",
+        "upsampling.wgsl",
         "from_sums.wgsl"
     )
 }
@@ -239,6 +241,7 @@ pub const fn shade_splats(encoding: Encoding) -> &'static str {
         "shadow.wgsl",
         "patch_layers.wgsl",
         "no_points.wgsl",
+        "upsampling.wgsl",
         "from_splats.wgsl"
     )
 }

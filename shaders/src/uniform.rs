@@ -159,22 +159,20 @@ pub struct Which {
     pub pad: [u32; 3],
 }
 
-/// `Sums` of `from_sums.wgsl`.
+/// `Through` of `through.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Sums {
+pub struct Through {
     /// w_lma pitch², shape `[a][l][m]`, rgb; σ_a in mm in the fourth place.
     pub weights: [[f32; 4]; MAX_GAUSSIANS * MAX_TERMS * MAX_TERMS],
-    /// Texels of the maps to a pixel of the picture.
-    pub texels_per_pixel: [f32; 2],
     /// A.
     pub gaussians: u32,
-    /// Half a texel of the maps at the middle of the scene.
-    pub texel_mm: f32,
+    #[doc(hidden)]
+    pub pad: [u32; 3],
 }
 
-impl Sums {
-    /// The block for a factorised material; what depends on the picture is still 0.
+impl Through {
+    /// The block for a factorised material.
     #[must_use]
     pub fn new(factors: &Factors) -> Self {
         let mut weights = [[0.0; 4]; MAX_GAUSSIANS * MAX_TERMS * MAX_TERMS];
@@ -186,7 +184,7 @@ impl Sums {
             }
         }
         let gaussians = u32::try_from(stages.len()).unwrap_or(0);
-        Self { weights, texels_per_pixel: [1.0; 2], gaussians, texel_mm: 1.0 }
+        Self { weights, gaussians, pad: [0; 3] }
     }
 }
 
@@ -235,7 +233,7 @@ pub struct Rings {
     pub pad: [u32; 2],
 }
 
-/// `Upsampling` of `from_splats.wgsl`.
+/// `Upsampling` of `upsampling.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub struct Upsampling {
@@ -351,7 +349,9 @@ pub struct Kernel {
     #[doc(hidden)]
     pub sigma: f32,
     #[doc(hidden)]
-    pub pad: [u32; 3],
+    pub begun: u32,
+    #[doc(hidden)]
+    pub pad: [u32; 2],
 }
 
 impl Kernel {
@@ -363,7 +363,7 @@ impl Kernel {
             *block = [*r, *g, *b, 0.0];
         }
         let taps = i32::try_from(weights.len().clamp(1, MAX_KERNEL) - 1).unwrap_or(0);
-        [[1, 0], [0, 1]].map(|axis| Self { kernel, axis, stride: 1, taps, sigma: 1.0, pad: [0; 3] })
+        [[1, 0], [0, 1]].map(|axis| Self { kernel, axis, stride: 1, taps, sigma: 1.0, begun: 0, pad: [0; 2] })
     }
 }
 

@@ -52,10 +52,10 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(Splat: clip_from_centre, fade_in, fade_out, focal, middle_mm, texel_mm, light, level, side, refines, stride);
     assert_layout_of!(Rings: count, near_mm);
     assert_layout_of!(Upsampling: texels_per_pixel, near_mm);
-    assert_layout_of!(Sums: weights, texels_per_pixel, gaussians, texel_mm);
+    assert_layout_of!(Through: weights, gaussians);
     assert_layout_of!(Frame: size, texels, exposure);
     assert_layout_of!(Stage as Stage in "blur": weights, axis, sigma, stride, taps, step, sparse, begun);
-    assert_layout_of!(Kernel as Stage in "homogeneous": kernel, axis, stride, taps, sigma);
+    assert_layout_of!(Kernel as Stage in "homogeneous": kernel, axis, stride, taps, sigma, begun);
     assert_layout_of!(PatchDomain as Domain in "Patch": size, addressing);
     assert_layout_of!(ScreenDomain as Domain in "Screen": size, focal_texels, middle_mm, pitch_mm);
 }

@@ -30,8 +30,13 @@ struct Taps {
 
 fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
     let centre = textureLoad(maps, vec2<u32>(x), 0u, 0);
-    let taps = taps_at(centre);
     var sums: array<vec4<f32>, TERMS>;
+    // Where nothing is seen, depth is far beyond everything.
+    if centre.w > 50000.0 {
+        sums[0].w = centre.w;
+        return sums;
+    }
+    let taps = taps_at(centre);
     var weights = 0.0;
     for (var k = -taps.count; k <= taps.count; k++) {
         let texel = texel_at(x + k * taps.stride * stage.axis);

@@ -12,7 +12,7 @@ fn blur(@builtin(position) at: vec4<f32>) -> MapsAndSums {
     var total: array<vec4<f32>, TERMS>;
     for (var m = 0u; m < TERMS; m++) {
         var sum = vec3<f32>(0.0);
-        if stage.begun != 0u {
+        if has_sum() {
             sum = textureLoad(sums, texel, m, 0).xyz;
         }
         for (var l = 0u; l < TERMS; l++) {

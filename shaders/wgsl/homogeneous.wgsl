@@ -10,9 +10,9 @@ struct Stage {
     stride: i32,
     taps: i32,
     sigma: f32,
+    begun: u32,
     pad_0: u32,
     pad_1: u32,
-    pad_2: u32,
 }
 
 // Stride, count and what `blur.wgsl` has for a width.

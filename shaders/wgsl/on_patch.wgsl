@@ -33,3 +33,8 @@ fn texel_at(x: vec2<i32>) -> vec2<u32> {
 fn nearness(centre: vec4<f32>, other: vec4<f32>, sigma: f32) -> f32 {
     return 1.0;
 }
+
+// Sums begin with the first stage.
+fn has_sum() -> bool {
+    return stage.begun != 0u;
+}

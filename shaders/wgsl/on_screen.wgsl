@@ -40,3 +40,8 @@ fn nearness(centre: vec4<f32>, other: vec4<f32>, sigma: f32) -> f32 {
     let d = (other.w - centre.w) / (stage.step * domain.pitch_mm);
     return exp(-0.5 * min(d * d, 80.0));
 }
+
+// Sums begin with the light that comes through.
+fn has_sum() -> bool {
+    return true;
+}

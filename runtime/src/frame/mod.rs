@@ -378,7 +378,7 @@ impl Frame {
 }
 
 /// Texels of the narrowest Gaussian, σ, at the middle of the scene: maps are made as coarse as that.
-const NARROWEST_TEXELS: f32 = 1.2;
+const NARROWEST_TEXELS: f32 = 0.8;
 
 /// Pixels of the picture to a side of a texel of the maps.
 fn divisor(scene: &Scene, model: &Model<'_>, size: [u32; 2], light_texels: u32) -> u32 {

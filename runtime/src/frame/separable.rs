@@ -1,7 +1,7 @@
 //! The separable path on the screen: weighted irradiance where the eye sees the mesh, blurred by distances in space.
 
 use subsurf_shaders::source::{self, Domain, Encoding};
-use subsurf_shaders::uniform::{ScreenDomain, Sums};
+use subsurf_shaders::uniform::{ScreenDomain, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoder, TextureFormat, TextureUsages};
 
 use super::light_views::{FAR, LightViews};
@@ -31,8 +31,7 @@ pub(crate) struct Buffers {
     cascade: Cascade,
     depth: Surface2d,
     domain: Tracked<Buffer>,
-    sums: Tracked<Buffer>,
-    sums_block: Sums,
+    upsampling: Tracked<Buffer>,
     weigh: [BindGroup; 2],
     pub(crate) shade: BindGroup,
 }
@@ -40,19 +39,13 @@ pub(crate) struct Buffers {
 impl Passes {
     pub(crate) fn new(gpu: &Gpu, terms: usize, format: TextureFormat, samples: u32) -> Result<Self> {
         let encoding = if format.is_srgb() { Encoding::There } else { Encoding::Here };
-        let of_weigh: [&[Slot]; 2] = [&COMMON[..2], &[Slot::FilteredLayers, Slot::Sampler]];
-        let of_shade = [
-            Slot::FilteredLayers,
-            Slot::Sampler,
-            Slot::Uniform,
-            Slot::FloatLayers,
-            Slot::FloatLayers,
-            Slot::FloatLayers,
-        ];
+        let through = [Slot::FilteredLayers, Slot::Sampler, Slot::Uniform, Slot::FloatLayers, Slot::FloatLayers];
+        let of_weigh: [&[Slot]; 2] = [&COMMON[..2], &through];
+        let of_shade = [Slot::FilteredLayers, Slot::Sampler, Slot::Uniform, Slot::FloatLayers];
         let shader = source::shade_sums(encoding, terms);
         Ok(Self {
             terms,
-            weigh: MeshPass::new(gpu, source::weigh_mesh(terms), "weigh", &of_weigh, &vec![MAP; terms], 1)?,
+            weigh: MeshPass::new(gpu, source::weigh_mesh(terms), "weigh", &of_weigh, &vec![MAP; 2 * terms], 1)?,
             blur: BlurPasses::new(gpu, Domain::Screen, terms)?,
             shade: MeshPass::new(gpu, shader, "shade", &[&COMMON, &of_shade], &[format], samples)?,
         })
@@ -79,27 +72,30 @@ impl Buffers {
         let cascade = Cascade::new(gpu, &passes.blur, material, &domain, size)?;
         let depth =
             TextureSpec { usage: TextureUsages::RENDER_ATTACHMENT, ..TextureSpec::target("map depth", size, DEPTH) };
-        let sums_block = *material.sums();
-        let sums = gpu.uniform("sums", &sums_block);
+        let upsampling = gpu.uniform("upsampling", &Upsampling::default());
         let texture = BindingResource::TextureView;
-        let of_factors = [texture(&material.layers.all), BindingResource::Sampler(&material.layers.sampler)];
-        let of_scene = [common.block.as_entire_binding(), texture(&lights.all[0])];
-        let of_shade = [
-            of_factors[0].clone(),
-            of_factors[1].clone(),
-            sums.as_entire_binding(),
-            texture(&cascade.sums().all),
+        let factors = [texture(&material.layers.all), BindingResource::Sampler(&material.layers.sampler)];
+        let of_weigh = [
+            factors[0].clone(),
+            factors[1].clone(),
+            material.through().as_entire_binding(),
             texture(&lights.all[1]),
             texture(&lights.all[2]),
         ];
+        let of_scene = [common.block.as_entire_binding(), texture(&lights.all[0])];
+        let of_shade = [
+            factors[0].clone(),
+            factors[1].clone(),
+            upsampling.as_entire_binding(),
+            texture(&cascade.sums().all),
+        ];
         Ok(Self {
-            weigh: [passes.weigh.bind(gpu, 0, &of_scene)?, passes.weigh.bind(gpu, 1, &of_factors)?],
+            weigh: [passes.weigh.bind(gpu, 0, &of_scene)?, passes.weigh.bind(gpu, 1, &of_weigh)?],
             shade: passes.shade.bind(gpu, 1, &of_shade)?,
             depth: gpu.texture(&depth)?,
             cascade,
             domain,
-            sums,
-            sums_block,
+            upsampling,
         })
     }
 
@@ -121,10 +117,13 @@ impl Buffers {
             pad: [0; 3],
         };
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
-        self.sums_block.texels_per_pixel = [width / picture[0], height / picture[1]];
-        // Surfaces that are not seen at too flat an angle are the same two texels away.
-        self.sums_block.texel_mm = 2.0 * middle_mm.max(1e-3) / texels_per_tangent;
-        gpu.queue.write_buffer(&self.sums, 0, bytemuck::bytes_of(&self.sums_block));
+        let upsampling = Upsampling {
+            texels_per_pixel: [width / picture[0], height / picture[1]],
+            // Surfaces that are not seen at too flat an angle are the same two texels away.
+            near_mm: 2.0 * middle_mm.max(1e-3) / texels_per_tangent,
+            pad: 0,
+        };
+        gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&upsampling));
     }
 
     pub(crate) fn record(
@@ -134,8 +133,8 @@ impl Buffers {
         mesh: &GpuMesh,
         lap: Lap<'_>,
     ) -> CommandEncoder {
-        let layers = &self.cascade.maps[0].layers;
-        let targets: Vec<_> = layers.iter().map(|view| Target { view, clear: FAR, resolved: None }).collect();
+        let layers = self.cascade.maps[0].layers.iter().chain(&self.cascade.begun_sums().layers);
+        let targets: Vec<_> = layers.map(|view| Target { view, clear: FAR, resolved: None }).collect();
         let [scene, factors] = &self.weigh;
         passes.weigh.record(&mut encoder, &targets, &self.depth.view, &[scene, factors], mesh);
         encoder = lap("weigh", encoder);
