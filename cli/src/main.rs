@@ -18,6 +18,7 @@ mod render;
 mod say;
 mod simulate;
 mod study;
+mod view;
 
 use std::process::ExitCode;
 
@@ -41,6 +42,7 @@ Try it:
   subsurf encode onyx.npy -o onyx.subsurf                 fit 128 base materials, two per pixel
   subsurf compare onyx.npy onyx.subsurf --images out      how far off, in numbers and pictures
   subsurf render onyx.subsurf --mesh bunny.ply -o b.png   draw it
+  subsurf view onyx.subsurf --mesh bunny.ply              look at it from all around
 
 Exit codes:
   0   done
@@ -55,6 +57,7 @@ enum Command {
     Encode(encode::Args),
     Compare(compare::Args),
     Render(render::Args),
+    View(view::Args),
     Info(info::Args),
     /// List the devices that can draw, Vulkan and OpenGL ES; exit with 3 if there is none
     Devices,
@@ -72,6 +75,7 @@ fn main() -> ExitCode {
         Command::Encode(args) => encode::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Render(args) => render::run(&args),
+        Command::View(args) => view::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Devices => devices::run(),
         Command::Bench(command) => bench::run(&command),

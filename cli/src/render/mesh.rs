@@ -64,7 +64,7 @@ impl Shot {
 /// Irradiance of the usual sky.
 pub(super) const SKY: Rgb = [0.35, 0.4, 0.5];
 /// Of the usual coat: polished, but not a mirror.
-pub(super) const ROUGHNESS: f32 = 0.25;
+pub(crate) const ROUGHNESS: f32 = 0.25;
 
 /// A material on the device as a path wants it.
 pub(crate) enum Prepared {
@@ -137,7 +137,7 @@ impl Prepared {
 }
 
 /// Factors of a material, or of its mean.
-pub(super) fn factors(material: &Bssrdf<'_>, path: PathArg) -> Factors {
+pub(crate) fn factors(material: &Bssrdf<'_>, path: PathArg) -> Factors {
     let detail = Detail::default();
     match path {
         PathArg::Homogeneous => Factors::homogeneous(material, detail.gaussians),
@@ -146,7 +146,7 @@ pub(super) fn factors(material: &Bssrdf<'_>, path: PathArg) -> Factors {
 }
 
 /// The mesh with vertices close enough to gather light at, and them as points that exchange light.
-fn points(
+pub(crate) fn points(
     mesh: &Mesh,
     mapping: Mapping,
     material: &Bssrdf<'_>,

@@ -23,7 +23,7 @@ use crate::options::Size;
 use crate::picture::write_png;
 use crate::say::say;
 
-pub(crate) use mesh::{Prepared, Shot, choose_mapping, chosen_exposure, draw_mesh};
+pub(crate) use mesh::{Prepared, ROUGHNESS, Shot, choose_mapping, chosen_exposure, draw_mesh, factors, points};
 pub(crate) use patch::{draw_patch, patch_irradiance};
 
 /// Draw a material, flat or on a mesh, by the reference path or by a fast one.

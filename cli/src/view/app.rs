@@ -1,0 +1,337 @@
+//! The window: events in, pictures out.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use glam::Vec2;
+use subsurf_runtime::{Backend, RuntimeOptions};
+use winit::application::ApplicationHandler;
+use winit::dpi::PhysicalSize;
+use winit::event::{ElementState, StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
+use winit::window::{Window, WindowId};
+
+use super::Notice;
+use super::controls::{Command, Drag, Pointer, command, steps};
+use super::painter::Overlay;
+use super::panel::{self, Message};
+use super::session::Session;
+use super::stage::Stage;
+use super::times::Patience;
+use crate::failure::NoDisplay;
+use crate::picture::{image, write_png};
+use crate::say::say;
+
+/// Frames before a screenshot: the panel has settled, and the time is a median of several.
+const FRAMES: u32 = 5;
+
+/// What was asked for on the command line.
+pub(super) struct Wishes {
+    pub(super) backends: Vec<Backend>,
+    pub(super) options: RuntimeOptions,
+    pub(super) size: [u32; 2],
+    pub(super) screenshot: Option<PathBuf>,
+    /// Loses the device after so many frames: how the window survives that can be tested.
+    pub(super) loses_device_after: Option<u32>,
+}
+
+/// The window and what belongs to it.
+pub(super) struct App {
+    wishes: Wishes,
+    proxy: EventLoopProxy<Notice>,
+    session: Session,
+    context: egui::Context,
+    pointer: Pointer,
+    opened: Option<Opened>,
+    patience: Patience,
+    /// Number of the device; complaints of earlier ones come late.
+    number: u32,
+    frames: u32,
+    settled: u32,
+    last: Instant,
+    outcome: anyhow::Result<()>,
+}
+
+/// What there is once the window is open.
+struct Opened {
+    window: Arc<Window>,
+    input: egui_winit::State,
+    stage: Stage,
+}
+
+impl App {
+    pub(super) fn new(wishes: Wishes, session: Session, proxy: EventLoopProxy<Notice>) -> Self {
+        Self {
+            wishes,
+            proxy,
+            session,
+            context: egui::Context::default(),
+            pointer: Pointer::default(),
+            opened: None,
+            patience: Patience::default(),
+            number: 0,
+            frames: 0,
+            settled: 0,
+            last: Instant::now(),
+            outcome: Ok(()),
+        }
+    }
+
+    /// How it ended.
+    pub(super) fn outcome(self) -> anyhow::Result<()> {
+        self.outcome
+    }
+
+    fn end(&mut self, events: &ActiveEventLoop, outcome: anyhow::Result<()>) {
+        self.outcome = outcome;
+        events.exit();
+    }
+
+    fn open(&mut self, events: &ActiveEventLoop) -> anyhow::Result<Opened> {
+        let [width, height] = self.wishes.size;
+        let attributes =
+            Window::default_attributes().with_title("subsurf view").with_inner_size(PhysicalSize::new(width, height));
+        let window = events.create_window(attributes);
+        let window = Arc::new(window.map_err(|error| NoDisplay(format!("no window can be opened: {error}")))?);
+        let stage = self.open_stage(&window)?;
+        // egui's textures are for the device that they were made on: another device, another context.
+        self.context = egui::Context::default();
+        let side = stage.gpu.device().limits().max_texture_dimension_2d as usize;
+        let (context, id) = (self.context.clone(), egui::ViewportId::ROOT);
+        let input = egui_winit::State::new(context, id, events, None, Some(winit::window::Theme::Dark), Some(side));
+        Ok(Opened { window, input, stage })
+    }
+
+    fn open_stage(&mut self, window: &Arc<Window>) -> anyhow::Result<Stage> {
+        self.number += 1;
+        Stage::open(&self.wishes.backends, window, self.wishes.options, &self.proxy, self.number)
+    }
+
+    /// Opens everything anew after the device was lost.
+    fn recover(&mut self, events: &ActiveEventLoop, reason: &str) {
+        if !self.patience.lasts(Instant::now()) {
+            let error = format!("the device was lost again and again ({reason})");
+            return self.end(events, Err(subsurf_runtime::Error::Device(error).into()));
+        }
+        let Some(Opened { window, stage, .. }) = self.opened.take() else {
+            return;
+        };
+        // A window has one surface at a time.
+        drop(stage);
+        drop(window);
+        match self.open(events) {
+            Ok(opened) => {
+                opened.window.request_redraw();
+                self.opened = Some(opened);
+                self.session.changed();
+                self.session.failure = None;
+                let text = format!("the device was lost and opened anew ({reason})");
+                eprintln!("subsurf: {text}");
+                self.session.message = Some(Message::Done(text));
+            }
+            Err(error) => self.end(events, Err(error.context("the device was lost"))),
+        }
+    }
+
+    fn redraw(&mut self, events: &ActiveEventLoop) {
+        let Some(mut opened) = self.opened.take() else {
+            return;
+        };
+        let result = self.draw(&mut opened, events);
+        self.opened = Some(opened);
+        if let Err(error) = result {
+            self.end(events, Err(error));
+        } else if self.wishes.screenshot.is_some()
+            && let Some(error) = self.session.failure.take()
+        {
+            self.end(events, Err(error));
+        }
+    }
+
+    fn draw(&mut self, opened: &mut Opened, events: &ActiveEventLoop) -> anyhow::Result<()> {
+        let Opened { window, input, stage } = opened;
+        let seconds = self.last.elapsed().as_secs_f32();
+        self.last = Instant::now();
+        let mut goes_on = self.session.pass_time(seconds.min(0.1));
+
+        // The panel, and what it asks for.
+        let (before, facts) = (self.session.settings, self.session.facts(stage));
+        let (context, session) = (&self.context, &mut self.session);
+        let mut commands = Vec::new();
+        let output = context.run(input.take_egui_input(window), |context| {
+            commands.extend(panel::show(context, &mut session.settings, &facts));
+        });
+        session.compare(&before);
+        input.handle_platform_output(window, output.platform_output);
+        let overlay = Overlay {
+            primitives: context.tessellate(output.shapes, output.pixels_per_point),
+            pixels_per_point: output.pixels_per_point,
+        };
+        let (painter, gpu) = stage.painter();
+        painter.receive(gpu, &output.textures_delta);
+
+        // The picture.
+        session.follow(stage);
+        session.draw(stage);
+        let shows = session.shows(stage);
+        stage.present(shows, &overlay, window)?;
+
+        self.frames += 1;
+        if self.wishes.loses_device_after == Some(self.frames) {
+            stage.gpu.device().destroy();
+            goes_on = true;
+        }
+        let is_settled = self.session.is_settled(stage);
+        if let (Some(path), true) = (&self.wishes.screenshot, is_settled) {
+            self.settled += 1;
+            (self.session.is_stale, goes_on) = (true, true);
+            if self.settled > FRAMES {
+                let size = stage.canvas.size();
+                write_png(path, &image(&stage.capture(shows, &overlay)?, size[0]))?;
+                say!("{}: {} x {} pixels, drawn by {}", path.display(), size[0], size[1], facts.device);
+                events.exit();
+            }
+        }
+        for command in commands {
+            match command {
+                Command::Save => self.session.message = Some(save(stage, &self.session, &overlay)),
+                command => self.session.obey(command, stage.canvas.size()),
+            }
+            goes_on = true;
+        }
+        stage.painter().0.forget(&output.textures_delta);
+        window.set_title(&title(&self.session));
+
+        let delay = output.viewport_output.values().map(|viewport| viewport.repaint_delay).min().unwrap_or_default();
+        if goes_on || self.session.is_stale || delay.is_zero() {
+            window.request_redraw();
+        }
+        events.set_control_flow(match Instant::now().checked_add(delay) {
+            Some(then) if !delay.is_zero() => ControlFlow::WaitUntil(then),
+            _ => ControlFlow::Wait,
+        });
+        Ok(())
+    }
+
+    fn press(&mut self, events: &ActiveEventLoop, key: &winit::keyboard::Key) {
+        let Some(Opened { window, stage, .. }) = &mut self.opened else {
+            return;
+        };
+        match command(key) {
+            None => return,
+            Some(Command::Quit) => return events.exit(),
+            // The panel of the next frame is saved with the picture.
+            Some(Command::Save) => {
+                let overlay = Overlay { primitives: Vec::new(), pixels_per_point: 1.0 };
+                self.session.message = Some(save(stage, &self.session, &overlay));
+            }
+            Some(command) => self.session.obey(command, stage.canvas.size()),
+        }
+        window.request_redraw();
+    }
+}
+
+/// Writes what the window shows into this folder, under a name that is not taken.
+fn save(stage: &mut Stage, session: &Session, overlay: &Overlay) -> Message {
+    let (material, path) = (&session.subject.materials[session.settings.material], session.settings.path);
+    let stem = format!("{}-{}-{path:?}", material.name(), session.subject.mesh_name).to_lowercase();
+    let names = (1..).map(|number: u32| PathBuf::from(format!("{stem}-{number}.png")));
+    let path = names.into_iter().find(|name| !Path::new(name).exists()).unwrap_or_default();
+    let size = stage.canvas.size();
+    let written = stage.capture(session.shows(stage), overlay);
+    match written.and_then(|pixels| write_png(&path, &image(&pixels, size[0]))) {
+        Ok(()) => {
+            say!("{}", path.display());
+            Message::Done(format!("saved {}", path.display()))
+        }
+        Err(error) => Message::Failed(crate::failure::line(&error)),
+    }
+}
+
+fn title(session: &Session) -> String {
+    let material = &session.subject.materials[session.settings.material];
+    format!("{} on {} – subsurf view", material.name(), session.subject.mesh_name)
+}
+
+impl ApplicationHandler<Notice> for App {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        if self.opened.is_some() {
+            return;
+        }
+        match self.open(events) {
+            Ok(opened) => {
+                opened.window.request_redraw();
+                self.opened = Some(opened);
+            }
+            Err(error) => self.end(events, Err(error)),
+        }
+    }
+
+    fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
+        if let (StartCause::ResumeTimeReached { .. }, Some(opened)) = (cause, &self.opened) {
+            opened.window.request_redraw();
+        }
+    }
+
+    fn user_event(&mut self, events: &ActiveEventLoop, notice: Notice) {
+        match notice {
+            Notice::Computed(answer) => self.session.receive(answer),
+            Notice::DeviceError(reason) => self.session.fail(subsurf_runtime::Error::Device(reason).into()),
+            Notice::DeviceLost { number, reason } if number == self.number => self.recover(events, &reason),
+            Notice::DeviceLost { .. } => return,
+        }
+        if let Some(opened) = &self.opened {
+            opened.window.request_redraw();
+        }
+    }
+
+    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let Some(Opened { window, input, stage }) = &mut self.opened else {
+            return;
+        };
+        let response = input.on_window_event(window, &event);
+        if response.repaint {
+            window.request_redraw();
+        }
+        let size = stage.canvas.size();
+        match event {
+            WindowEvent::RedrawRequested => return self.redraw(events),
+            WindowEvent::CloseRequested => return events.exit(),
+            WindowEvent::Resized(to) if to.width > 0 && to.height > 0 => {
+                stage.canvas.resize(&stage.gpu, [to.width, to.height]);
+                self.session.changed();
+            }
+            WindowEvent::ModifiersChanged(modifiers) => self.pointer.is_shifted = modifiers.state().shift_key(),
+            WindowEvent::DroppedFile(path) => self.session.open(&path, size),
+            WindowEvent::KeyboardInput { event, .. } => {
+                if event.state == ElementState::Pressed && !event.repeat && !self.context.wants_keyboard_input() {
+                    self.press(events, &event.logical_key);
+                }
+                return;
+            }
+            WindowEvent::MouseInput { state, button, .. } => {
+                if state == ElementState::Released || !response.consumed {
+                    self.pointer.press(button, state);
+                }
+                if self.pointer.drag.is_none() {
+                    self.session.rest();
+                }
+            }
+            WindowEvent::CursorMoved { position, .. } => {
+                #[allow(clippy::cast_possible_truncation, reason = "pixels of a window")]
+                let at = Vec2::new(position.x as f32, position.y as f32);
+                match self.pointer.go(at, size[1]) {
+                    Some((drag @ (Drag::View | Drag::Light), by)) => self.session.drag(drag, by),
+                    None => return,
+                }
+            }
+            WindowEvent::MouseWheel { delta, .. } if !response.consumed => {
+                self.session.studio.zoom(steps(delta));
+                self.session.is_stale = true;
+            }
+            _ => return,
+        }
+        window.request_redraw();
+    }
+}

@@ -1,0 +1,158 @@
+//! What keys and the pointer mean.
+
+use glam::Vec2;
+use winit::event::{ElementState, MouseButton, MouseScrollDelta};
+use winit::keyboard::{Key, NamedKey};
+
+use crate::render::PathArg;
+
+/// Key, path, name and meaning of what can be drawn.
+pub(super) const PATHS: [(&str, PathArg, &str, &str); 4] = [
+    ("1", PathArg::Splat, "splat", "Every place that the light reaches is spread over what lies around it"),
+    ("2", PathArg::Separable, "separable", "Weighted irradiance maps and shared Gaussians: the fastest"),
+    ("3", PathArg::Homogeneous, "homogeneous", "One mean profile everywhere; for comparison"),
+    ("4", PathArg::Gather, "gather", "Every point gathers from all others: the reference, and slow"),
+];
+
+/// The keys, for `--help`.
+pub(super) const KEYS: &str = "\
+In the window:
+  drag            turn the mesh
+  right drag      drag the light; shift and drag do the same
+  wheel           zoom
+  1 2 3 4         path: splat, separable, homogeneous, gather
+  N               next material
+  M               next shape
+  E               ten times the difference to the gather
+  L               let the light go around
+  X               choose the exposure
+  R               view and light as at the beginning
+  S               save what the window shows as PNG, into this folder
+  H               hide the panel
+  Q, Esc          quit
+  drop a file     a material (.subsurf) or a mesh (.obj, .ply, .glb, .gltf)
+
+Examples:
+  subsurf view jade.subsurf onyx.subsurf --mesh bunny.ply
+  subsurf view jade.subsurf --budget 16MB --backend gl
+  subsurf view jade.subsurf --path splat --screenshot jade.png
+
+Exit codes: 3 if there is no display or no device that draws to it.";
+
+/// What keys and buttons ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Command {
+    Path(PathArg),
+    NextMaterial,
+    NextShape,
+    Error,
+    TurnLight,
+    Expose,
+    Reset,
+    Save,
+    Hide,
+    Quit,
+}
+
+/// What a key asks for, if anything.
+pub(super) fn command(key: &Key) -> Option<Command> {
+    if *key == Key::Named(NamedKey::Escape) {
+        return Some(Command::Quit);
+    }
+    let text = key.to_text()?.to_lowercase();
+    if let Some((_, path, ..)) = PATHS.iter().find(|(key, ..)| *key == text) {
+        return Some(Command::Path(*path));
+    }
+    Some(match text.as_str() {
+        "n" => Command::NextMaterial,
+        "m" => Command::NextShape,
+        "e" => Command::Error,
+        "l" => Command::TurnLight,
+        "x" => Command::Expose,
+        "r" => Command::Reset,
+        "s" => Command::Save,
+        "h" => Command::Hide,
+        "q" => Command::Quit,
+        _ => return None,
+    })
+}
+
+/// What the pointer drags.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Drag {
+    View,
+    Light,
+}
+
+/// Where the pointer is and what it drags.
+#[derive(Debug, Default)]
+pub(super) struct Pointer {
+    at: Vec2,
+    pub(super) drag: Option<Drag>,
+    pub(super) is_shifted: bool,
+}
+
+impl Pointer {
+    /// A button went down over the picture, or up anywhere.
+    pub(super) fn press(&mut self, button: MouseButton, state: ElementState) {
+        self.drag = match (state, button) {
+            (ElementState::Released, _) => None,
+            (_, MouseButton::Left) if !self.is_shifted => Some(Drag::View),
+            (_, MouseButton::Left | MouseButton::Right) => Some(Drag::Light),
+            _ => self.drag,
+        };
+    }
+
+    /// Goes to a place in pixels; what is dragged, and how far in heights of the window.
+    pub(super) fn go(&mut self, at: Vec2, height: u32) -> Option<(Drag, Vec2)> {
+        #[allow(clippy::cast_precision_loss, reason = "windows are a few thousand pixels high")]
+        let by = (at - self.at) / height.max(1) as f32;
+        self.at = at;
+        self.drag.map(|drag| (drag, by))
+    }
+}
+
+/// Steps of the wheel, towards the picture.
+pub(super) fn steps(delta: MouseScrollDelta) -> f32 {
+    const PIXELS: f64 = 40.0;
+    match delta {
+        MouseScrollDelta::LineDelta(_, lines) => lines,
+        #[allow(clippy::cast_possible_truncation, reason = "a few")]
+        MouseScrollDelta::PixelDelta(pixels) => (pixels.y / PIXELS) as f32,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_key_of_the_help_does_something() {
+        let asked = |text: &str| command(&Key::Character(text.into()));
+        for line in KEYS.lines().skip(1).take_while(|line| !line.is_empty()) {
+            for word in line[2..18].split([' ', ',']).filter(|word| word.chars().count() == 1) {
+                assert!(asked(word).is_some(), "{word} in \"{line}\"");
+            }
+        }
+        assert_eq!(asked("2"), Some(Command::Path(PathArg::Separable)));
+        assert_eq!(asked("S"), Some(Command::Save));
+        assert_eq!(command(&Key::Named(NamedKey::Escape)), Some(Command::Quit));
+        assert_eq!(asked("ß"), None);
+    }
+
+    #[test]
+    fn the_right_button_and_shift_drag_the_light() {
+        let mut pointer = Pointer::default();
+        assert_eq!(pointer.go(Vec2::new(10.0, 10.0), 100), None);
+        pointer.press(MouseButton::Left, ElementState::Pressed);
+        assert_eq!(pointer.go(Vec2::new(60.0, 10.0), 100), Some((Drag::View, Vec2::new(0.5, 0.0))));
+        pointer.press(MouseButton::Left, ElementState::Released);
+        pointer.is_shifted = true;
+        pointer.press(MouseButton::Left, ElementState::Pressed);
+        assert_eq!(pointer.drag, Some(Drag::Light));
+        pointer.press(MouseButton::Left, ElementState::Released);
+        pointer.is_shifted = false;
+        pointer.press(MouseButton::Right, ElementState::Pressed);
+        assert_eq!(pointer.drag, Some(Drag::Light));
+    }
+}

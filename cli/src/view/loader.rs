@@ -1,0 +1,162 @@
+//! Computes what a path wants to know of material and mesh, on a thread of its own: the window goes on.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use subsurf_runtime::scene::{Mapping, Mesh, Outline, Scene, SkyShare, Surface};
+use subsurf_runtime::{Gpu, GpuMesh, GpuPoints, Known, Material, SeparableMaterial, SplatMaterial};
+use subsurf_shaders::separable::{Detail, Factors};
+use winit::event_loop::EventLoopProxy;
+
+use super::Notice;
+use super::subject::MaterialFile;
+use crate::render::{MappingArg, PathArg, Prepared, choose_mapping, factors, points};
+
+/// What a picture is of, and how it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Key {
+    pub(super) material: usize,
+    pub(super) mesh: u32,
+    pub(super) path: PathArg,
+    /// The light from which vertices are shaded, where a path knows it beforehand.
+    pub(super) light: Option<Vec3>,
+}
+
+impl Key {
+    /// Whether light from all around is the same for both.
+    fn shares_sky(&self, other: &Self) -> bool {
+        (self.material, self.mesh) == (other.material, other.mesh)
+    }
+}
+
+/// What is to be computed.
+pub(super) struct Order {
+    pub(super) key: Key,
+    pub(super) material: Arc<MaterialFile>,
+    pub(super) mesh: Arc<Mesh>,
+    pub(super) mapping: MappingArg,
+    pub(super) scene: Scene,
+}
+
+/// What was computed; the rest is for the device.
+pub(super) struct Ingredients {
+    mapping: Mapping,
+    of_path: OfPath,
+}
+
+enum OfPath {
+    Gather { fine: Mesh, surface: Surface },
+    Splat { sky: Arc<Vec<SkyShare>>, factors: Factors },
+    Separable { sky: Arc<Vec<SkyShare>>, factors: Factors },
+}
+
+impl Ingredients {
+    fn compute(order: &Order, sky: Option<Arc<Vec<SkyShare>>>) -> anyhow::Result<Self> {
+        let material = order.material.read()?;
+        let mapping = choose_mapping(&order.mesh, order.mapping, &material)?;
+        let sky = || match sky {
+            Some(sky) => Ok(sky),
+            None => SkyShare::of(&order.mesh, &material).map(Arc::new),
+        };
+        let of_path = match order.key.path {
+            PathArg::Gather => {
+                let (fine, surface) = points(&order.mesh, mapping, &material, &order.scene)?;
+                OfPath::Gather { fine, surface }
+            }
+            PathArg::Splat => OfPath::Splat { sky: sky()?, factors: Factors::of(&material, Detail::default()) },
+            path @ (PathArg::Separable | PathArg::Homogeneous) => {
+                OfPath::Separable { sky: sky()?, factors: factors(&material, path) }
+            }
+        };
+        Ok(Self { mapping, of_path })
+    }
+
+    fn sky(&self) -> Option<&Arc<Vec<SkyShare>>> {
+        match &self.of_path {
+            OfPath::Splat { sky, .. } | OfPath::Separable { sky, .. } => Some(sky),
+            OfPath::Gather { .. } => None,
+        }
+    }
+
+    /// Brings everything to the device.
+    pub(super) fn upload(&self, gpu: &Gpu, material: &MaterialFile, mesh: &Mesh) -> anyhow::Result<Prepared> {
+        let material = material.read()?;
+        let outline = Outline::new(mesh, self.mapping, material.header());
+        let shared = |sky: &[SkyShare]| GpuMesh::upload(gpu, mesh, &outline, Known::Sky(sky));
+        Ok(match &self.of_path {
+            OfPath::Gather { fine, surface } => Prepared::Gather {
+                mesh: GpuMesh::upload(gpu, fine, &outline, Known::Points(surface.point_of()))?,
+                points: GpuPoints::upload(gpu, surface)?,
+                material: Material::upload(gpu, &material)?,
+            },
+            OfPath::Splat { sky, factors } => {
+                Prepared::Splat { mesh: shared(sky)?, material: SplatMaterial::upload(gpu, &material, factors)? }
+            }
+            OfPath::Separable { sky, factors } => {
+                Prepared::Separable { mesh: shared(sky)?, material: SeparableMaterial::upload(gpu, factors)? }
+            }
+        })
+    }
+}
+
+/// What came of an order.
+pub(super) struct Answer {
+    key: Key,
+    result: anyhow::Result<Ingredients>,
+}
+
+/// Computes one order at a time, and keeps what was wanted last.
+pub(super) struct Loader {
+    proxy: EventLoopProxy<Notice>,
+    pending: Option<Key>,
+    kept: Vec<(Key, Arc<Ingredients>)>,
+}
+
+/// So many answers are kept: all paths of two materials.
+const KEPT: usize = 8;
+
+impl Loader {
+    pub(super) fn new(proxy: EventLoopProxy<Notice>) -> Self {
+        Self { proxy, pending: None, kept: Vec::new() }
+    }
+
+    /// What is being computed.
+    pub(super) fn pending(&self) -> Option<&Key> {
+        self.pending.as_ref()
+    }
+
+    /// What was computed already.
+    pub(super) fn find(&self, key: &Key) -> Option<Arc<Ingredients>> {
+        self.kept.iter().find(|(kept, _)| kept == key).map(|(_, ingredients)| ingredients.clone())
+    }
+
+    /// Starts to compute, unless there is something to wait for; a [`Notice::Computed`] will come.
+    pub(super) fn start(&mut self, order: Order) {
+        if self.pending.is_some() {
+            return;
+        }
+        self.pending = Some(order.key);
+        let sky = self.kept.iter().filter(|(key, _)| key.shares_sky(&order.key)).find_map(|(_, kept)| kept.sky());
+        let (sky, proxy) = (sky.cloned(), self.proxy.clone());
+        std::thread::spawn(move || {
+            let answer = Answer { key: order.key, result: Ingredients::compute(&order, sky) };
+            // Where the window is closed by now, nobody wants it.
+            let _ = proxy.send_event(Notice::Computed(answer));
+        });
+    }
+
+    /// Takes an answer in; fails with the key where there is none.
+    pub(super) fn receive(&mut self, answer: Answer) -> Result<(), (Key, anyhow::Error)> {
+        self.pending = None;
+        let ingredients = answer.result.map_err(|error| (answer.key, error))?;
+        // Other meshes never come back. Points under another light hardly ever do, and are large.
+        let is_gather = |key: &Key| key.path == PathArg::Gather;
+        let replaces = |key: &Key| is_gather(&answer.key) && is_gather(key);
+        self.kept.retain(|(key, _)| key.mesh == answer.key.mesh && !replaces(key));
+        if self.kept.len() == KEPT {
+            self.kept.remove(0);
+        }
+        self.kept.push((answer.key, Arc::new(ingredients)));
+        Ok(())
+    }
+}

@@ -1,0 +1,270 @@
+//! What is wanted, what is there, and how the one becomes the other.
+
+use std::time::Duration;
+
+use glam::Vec3;
+
+use super::compose::Shows;
+use super::controls::{Command, Drag};
+use super::loader::{Answer, Key, Loader, Order};
+use super::panel::{Facts, Message, Settings};
+use super::stage::{Role, Stage};
+use super::studio::Studio;
+use super::subject::{Dropped, Subject};
+use super::times::Times;
+use crate::devices;
+use crate::failure::line;
+use crate::render::{MappingArg, PathArg};
+
+/// All that outlives a device.
+pub(super) struct Session {
+    pub(super) subject: Subject,
+    pub(super) studio: Studio,
+    pub(super) settings: Settings,
+    pub(super) loader: Loader,
+    pub(super) mapping: MappingArg,
+    pub(super) budget_bytes: Option<u64>,
+    pub(super) times: Times,
+    pub(super) message: Option<Message>,
+    /// What went wrong since it was last asked for.
+    pub(super) failure: Option<anyhow::Error>,
+    /// What failed is not tried again until something changes.
+    pub(super) refused: Vec<Key>,
+    /// The picture is not of what is wanted any more.
+    pub(super) is_stale: bool,
+    /// The next picture chooses the exposure.
+    pub(super) exposes: bool,
+}
+
+impl Session {
+    /// The light of the picture: a gather is too slow to follow the pointer.
+    fn light(&self) -> Vec3 {
+        if self.gathers() { self.studio.rested } else { self.studio.light }
+    }
+
+    fn gathers(&self) -> bool {
+        self.settings.shows_error || self.settings.path == PathArg::Gather
+    }
+
+    /// What is to be shown, and what it is to be compared with.
+    fn wanted(&self, role: Role) -> Option<Key> {
+        let Settings { path, material, shows_error, .. } = self.settings;
+        let key = |path: PathArg| {
+            let light = (path == PathArg::Gather).then_some(self.studio.rested);
+            Key { material, mesh: self.subject.mesh_number, path, light }
+        };
+        match role {
+            Role::Shown => Some(key(path)),
+            Role::Reference => (shows_error && path != PathArg::Gather).then(|| key(PathArg::Gather)),
+        }
+    }
+
+    /// Brings to the device what is wanted and computed, and has the rest computed.
+    pub(super) fn follow(&mut self, stage: &mut Stage) {
+        for role in Role::ALL {
+            let Some(key) = self.wanted(role) else {
+                stage.clear(role);
+                continue;
+            };
+            if stage.key(role) == Some(&key) || self.refused.contains(&key) {
+                continue;
+            }
+            let material = &self.subject.materials[key.material];
+            if let Some(ingredients) = self.loader.find(&key) {
+                match stage.place(role, key, &ingredients, material, &self.subject.mesh) {
+                    Ok(()) => self.changed(),
+                    Err(error) => self.refuse(key, error),
+                }
+            } else {
+                self.loader.start(Order {
+                    key,
+                    material: material.clone(),
+                    mesh: self.subject.mesh.clone(),
+                    mapping: self.mapping,
+                    scene: self.studio.scene(self.studio.rested, &self.settings).clone(),
+                });
+            }
+        }
+    }
+
+    /// Takes in what was computed.
+    pub(super) fn receive(&mut self, answer: Answer) {
+        if let Err((key, error)) = self.loader.receive(answer) {
+            self.refuse(key, error);
+        }
+    }
+
+    /// Draws what has changed; how long the picture took.
+    pub(super) fn draw(&mut self, stage: &mut Stage) {
+        if !std::mem::take(&mut self.is_stale) {
+            return;
+        }
+        let light = self.light();
+        for role in Role::ALL {
+            let Some(key) = stage.key(role).copied() else {
+                continue;
+            };
+            if self.refused.contains(&key) {
+                continue;
+            }
+            match self.draw_one(stage, role, light) {
+                Ok(Some(time)) if role == Role::Shown => self.times.enter(time),
+                Ok(_) => {}
+                Err(error) => self.refuse(key, error),
+            }
+        }
+    }
+
+    fn draw_one(&mut self, stage: &mut Stage, role: Role, light: Vec3) -> anyhow::Result<Option<Duration>> {
+        let scene = self.studio.scene(light, &self.settings);
+        let time = stage.draw(role, scene)?;
+        if role == Role::Reference || !std::mem::take(&mut self.exposes) {
+            return Ok(time);
+        }
+        let Some(exposure) = stage.exposure(scene)? else {
+            self.exposes = true;
+            return Ok(time);
+        };
+        self.settings.exposure = exposure;
+        // Drivers compile at the first frame: it does not count.
+        stage.draw(role, self.studio.scene(light, &self.settings))
+    }
+
+    /// What the window shows.
+    pub(super) fn shows(&self, stage: &Stage) -> Shows {
+        let compares = self.settings.shows_error
+            && (stage.has_picture(Role::Reference) || self.settings.path == PathArg::Gather)
+            && stage.key(Role::Reference) == self.wanted(Role::Reference).as_ref();
+        if compares { Shows::Difference } else { Shows::Picture }
+    }
+
+    /// Whether everything that is wanted is shown.
+    pub(super) fn is_settled(&self, stage: &Stage) -> bool {
+        let is_there = |role| match self.wanted(role) {
+            Some(key) => stage.key(role) == Some(&key) && stage.has_picture(role),
+            None => true,
+        };
+        !self.is_stale && Role::ALL.into_iter().all(is_there)
+    }
+
+    /// Notices what the panel or a key changed.
+    pub(super) fn compare(&mut self, before: &Settings) {
+        if *before == self.settings {
+            return;
+        }
+        (self.is_stale, self.message) = (true, None);
+        self.refused.clear();
+        if (before.path, before.material) != (self.settings.path, self.settings.material) {
+            self.times.clear();
+        }
+    }
+
+    /// Another mesh, size or material: nothing that is known of the last frames holds.
+    pub(super) fn changed(&mut self) {
+        self.is_stale = true;
+        self.refused.clear();
+        self.times.clear();
+    }
+
+    /// Does what a key or button asks for, but for what the window does.
+    pub(super) fn obey(&mut self, command: Command, size: [u32; 2]) {
+        let before = self.settings;
+        match command {
+            Command::Path(path) => self.settings.path = path,
+            Command::NextMaterial => {
+                self.settings.material = (self.settings.material + 1) % self.subject.materials.len();
+            }
+            Command::NextShape => match self.subject.next_shape() {
+                Ok(()) => self.show_mesh(size),
+                Err(error) => self.fail(error),
+            },
+            Command::Error => self.settings.shows_error ^= true,
+            Command::TurnLight => self.settings.turns_light ^= true,
+            Command::Expose => (self.exposes, self.is_stale) = (true, true),
+            Command::Reset => {
+                self.studio.reset(&self.subject.mesh, size);
+                self.is_stale = true;
+            }
+            Command::Hide => self.settings.is_open ^= true,
+            Command::Save | Command::Quit => {}
+        }
+        self.compare(&before);
+    }
+
+    /// Opens a file that was dropped onto the window.
+    pub(super) fn open(&mut self, path: &std::path::Path, size: [u32; 2]) {
+        match self.subject.drop(path) {
+            Ok(Dropped::Material(number)) => {
+                let before = self.settings;
+                self.settings.material = number;
+                self.compare(&before);
+            }
+            Ok(Dropped::Mesh) => self.show_mesh(size),
+            Err(error) => self.fail(error),
+        }
+    }
+
+    fn show_mesh(&mut self, size: [u32; 2]) {
+        self.message = None;
+        self.studio.look_at(&self.subject.mesh, size);
+        self.changed();
+    }
+
+    /// Moves what is dragged.
+    pub(super) fn drag(&mut self, drag: Drag, by: glam::Vec2) {
+        match drag {
+            Drag::View => self.studio.turn(by),
+            Drag::Light => self.studio.drag_light(by),
+        }
+        self.is_stale |= drag == Drag::View || !self.gathers();
+    }
+
+    /// The light was let go.
+    pub(super) fn rest(&mut self) {
+        if self.studio.rested != self.studio.light {
+            self.studio.rested = self.studio.light;
+            self.is_stale = true;
+        }
+    }
+
+    /// Lets the light go around, if it does; whether it did.
+    pub(super) fn pass_time(&mut self, seconds: f32) -> bool {
+        let moves = self.settings.turns_light && !self.gathers();
+        if moves {
+            self.studio.move_light(seconds);
+            self.is_stale = true;
+        }
+        moves
+    }
+
+    pub(super) fn fail(&mut self, error: anyhow::Error) {
+        self.message = Some(Message::Failed(line(&error)));
+        self.failure = Some(error);
+    }
+
+    fn refuse(&mut self, key: Key, error: anyhow::Error) {
+        self.refused.push(key);
+        self.fail(error);
+    }
+
+    /// What the panel tells.
+    pub(super) fn facts(&self, stage: &Stage) -> Facts {
+        let busy = self.loader.pending().map(|key| match key.path {
+            PathArg::Gather => "finding which points exchange light ...".to_owned(),
+            _ => "computing what the path needs ...".to_owned(),
+        });
+        Facts {
+            device: devices::name(Some(&stage.gpu)),
+            materials: self.subject.materials.iter().map(|file| file.name()).collect(),
+            mesh: format!("{}, {} triangles", self.subject.mesh_name, self.subject.mesh.triangles.len()),
+            size: stage.canvas.size(),
+            frame_ms: self.times.median_ms(),
+            device_bytes: stage.gpu.ledger().bytes(),
+            budget_bytes: self.budget_bytes,
+            model_bytes: stage.model_bytes(),
+            plan: stage.plan().copied(),
+            busy,
+            message: self.message.clone(),
+        }
+    }
+}
