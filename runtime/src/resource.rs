@@ -2,7 +2,6 @@
 
 use bytemuck::Pod;
 use half::f16;
-use wgpu::util::DeviceExt;
 use wgpu::{
     BindGroupLayoutEntry, BindingType, Buffer, BufferBindingType, BufferUsages, CommandEncoderDescriptor, Extent3d,
     SamplerBindingType, ShaderStages, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture, TextureDescriptor, TextureDimension,
@@ -157,12 +156,24 @@ impl Gpu {
         Ok(surface)
     }
 
-    /// A buffer with its contents.
+    /// A buffer with its contents, a multiple of four bytes.
+    ///
+    /// Where the device is lost or full, the buffer is invalid, and the first pass that uses it says so:
+    /// `create_buffer_init` would panic.
     pub(crate) fn buffer(&self, label: &'static str, contents: &[u8], usage: BufferUsages) -> Tracked<Buffer> {
-        let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage };
-        let buffer = self.device.create_buffer_init(&descriptor);
-        let bytes = buffer.size();
-        self.ledger().enter(buffer, bytes)
+        let bytes = contents.len() as u64;
+        let mut buffer = None;
+        let filled = self.checked(|| {
+            let buffer = buffer.insert(self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: bytes,
+                usage: usage | BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            }));
+            self.queue.write_buffer(buffer, 0, contents);
+        });
+        debug_assert!(filled.is_ok() || contents.len().is_multiple_of(4), "{label}: {bytes} bytes");
+        self.ledger().enter(buffer.expect("made above, valid or not"), bytes)
     }
 
     /// A uniform block.

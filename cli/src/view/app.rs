@@ -49,6 +49,8 @@ pub(super) struct App {
     number: u32,
     frames: u32,
     settled: u32,
+    /// The next frame is saved.
+    saves: bool,
     last: Instant,
     outcome: anyhow::Result<()>,
 }
@@ -73,6 +75,7 @@ impl App {
             number: 0,
             frames: 0,
             settled: 0,
+            saves: false,
             last: Instant::now(),
             outcome: Ok(()),
         }
@@ -135,11 +138,16 @@ impl App {
     }
 
     fn redraw(&mut self, events: &ActiveEventLoop) {
-        let Some(mut opened) = self.opened.take() else {
+        let Some(mut opened) = self.opened.take_if(|opened| !opened.stage.is_lost()) else {
             return;
         };
         let result = self.draw(&mut opened, events);
+        let is_lost = opened.stage.is_lost();
         self.opened = Some(opened);
+        // What a lost device complains of is no news.
+        if is_lost {
+            return;
+        }
         if let Err(error) = result {
             self.end(events, Err(error));
         } else if self.wishes.screenshot.is_some()
@@ -193,6 +201,7 @@ impl App {
                 events.exit();
             }
         }
+        commands.extend(std::mem::take(&mut self.saves).then_some(Command::Save));
         for command in commands {
             match command {
                 Command::Save => self.session.message = Some(save(stage, &self.session, &overlay)),
@@ -221,11 +230,8 @@ impl App {
         match command(key) {
             None => return,
             Some(Command::Quit) => return events.exit(),
-            // The panel of the next frame is saved with the picture.
-            Some(Command::Save) => {
-                let overlay = Overlay { primitives: Vec::new(), pixels_per_point: 1.0 };
-                self.session.message = Some(save(stage, &self.session, &overlay));
-            }
+            // With the panel, which is there in a frame only.
+            Some(Command::Save) => self.saves = true,
             Some(command) => self.session.obey(command, stage.canvas.size()),
         }
         window.request_redraw();

@@ -45,7 +45,7 @@ pub(super) enum Message {
     Failed(String),
 }
 
-const WIDTH: f32 = 280.0;
+const WIDTH: f32 = 288.0;
 const EXPOSURES: std::ops::RangeInclusive<f32> = 0.01..=20.0;
 
 /// Lays the panel out; gives back what was clicked.
@@ -123,7 +123,7 @@ fn tell(ui: &mut Ui, facts: &Facts) {
         small(ui, plan_line(plan));
     }
     small(ui, format!("{} × {} pixels; {}", facts.size[0], facts.size[1], facts.device));
-    small(ui, "drag: turn · right or shift drag: light · wheel: zoom · H: hide".to_owned());
+    small(ui, "drag: turn · right drag: light · wheel: zoom · H: hide".to_owned());
     if let Some(busy) = &facts.busy {
         ui.horizontal(|ui| {
             ui.spinner();

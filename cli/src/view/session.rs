@@ -12,7 +12,6 @@ use super::stage::{Role, Stage};
 use super::studio::Studio;
 use super::subject::{Dropped, Subject};
 use super::times::Times;
-use crate::devices;
 use crate::failure::line;
 use crate::render::{MappingArg, PathArg};
 
@@ -61,6 +60,13 @@ impl Session {
 
     /// Brings to the device what is wanted and computed, and has the rest computed.
     pub(super) fn follow(&mut self, stage: &mut Stage) {
+        // What is shown may be what is compared with next, and the other way around: nothing is computed twice.
+        let [shown, reference] = Role::ALL.map(|role| self.wanted(role));
+        let is_there = |role, wanted: &Option<Key>| wanted.is_some() && stage.key(role) == wanted.as_ref();
+        if is_there(Role::Reference, &shown) || is_there(Role::Shown, &reference) {
+            stage.swap();
+            self.is_stale = true;
+        }
         for role in Role::ALL {
             let Some(key) = self.wanted(role) else {
                 stage.clear(role);
@@ -185,7 +191,11 @@ impl Session {
                 self.studio.reset(&self.subject.mesh, size);
                 self.is_stale = true;
             }
-            Command::Hide => self.settings.is_open ^= true,
+            // Nothing of the picture changes.
+            Command::Hide => {
+                self.settings.is_open ^= true;
+                return;
+            }
             Command::Save | Command::Quit => {}
         }
         self.compare(&before);
@@ -254,7 +264,7 @@ impl Session {
             _ => "computing what the path needs ...".to_owned(),
         });
         Facts {
-            device: devices::name(Some(&stage.gpu)),
+            device: format!("{}, {:?}", stage.gpu.info().name, stage.gpu.info().backend),
             materials: self.subject.materials.iter().map(|file| file.name()).collect(),
             mesh: format!("{}, {} triangles", self.subject.mesh_name, self.subject.mesh.triangles.len()),
             size: stage.canvas.size(),

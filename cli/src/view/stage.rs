@@ -1,12 +1,13 @@
 //! Everything on the device: it goes as a whole when the device is lost.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use subsurf_runtime::scene::{Mesh, Scene};
 use subsurf_runtime::wgpu::{
-    BindGroup, Color, CommandEncoderDescriptor, LoadOp, Operations, RenderPassColorAttachment, RenderPassDescriptor,
-    StoreOp, TextureFormat, TextureView, TextureViewDescriptor,
+    BindGroup, Color, CommandEncoderDescriptor, LoadOp, Operations, PollType, RenderPassColorAttachment,
+    RenderPassDescriptor, StoreOp, TextureFormat, TextureView, TextureViewDescriptor,
 };
 use subsurf_runtime::{Backend, Frame, Gpu, Path, PictureTarget, Plan, Renderer, RuntimeOptions};
 use winit::event_loop::EventLoopProxy;
@@ -64,6 +65,7 @@ struct Drawn {
 pub(super) struct Stage {
     pub(super) gpu: Gpu,
     pub(super) canvas: Canvas,
+    is_lost: Arc<AtomicBool>,
     composer: Composer,
     painter: Painter,
     options: RuntimeOptions,
@@ -94,7 +96,10 @@ impl Stage {
 
     fn new(canvas: Canvas, gpu: Gpu, options: RuntimeOptions, proxy: &EventLoopProxy<Notice>, number: u32) -> Self {
         let (lost, wrong) = (proxy.clone(), proxy.clone());
+        let is_lost = Arc::new(AtomicBool::new(false));
+        let flag = is_lost.clone();
         gpu.device().set_device_lost_callback(move |_, reason| {
+            flag.store(true, Ordering::Relaxed);
             // Nobody is there any more when the window closes.
             let _ = lost.send_event(Notice::DeviceLost { number, reason });
         });
@@ -109,9 +114,17 @@ impl Stage {
             drawn: [None, None],
             pictures: None,
             options,
+            is_lost,
             canvas,
             gpu,
         }
+    }
+
+    /// Whether the device is gone; a [`Notice::DeviceLost`] has come or will.
+    pub(super) fn is_lost(&self) -> bool {
+        // The device says so only when it is asked, and has nothing else to say then.
+        let _ = self.gpu.device().poll(PollType::Poll);
+        self.is_lost.load(Ordering::Relaxed)
     }
 
     /// What a picture is of.
@@ -134,6 +147,12 @@ impl Stage {
     pub(super) fn model_bytes(&self) -> Option<[u64; 2]> {
         let prepared = &self.drawn[Role::Shown as usize].as_ref()?.prepared;
         Some([prepared.material_bytes(), prepared.mesh_bytes()])
+    }
+
+    /// Shows what was compared with, and compares with what was shown.
+    pub(super) fn swap(&mut self) {
+        self.drawn.swap(0, 1);
+        self.pictures = None;
     }
 
     pub(super) fn clear(&mut self, role: Role) {
