@@ -156,7 +156,8 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
     let gpu = gpus.first();
     let (patch, _) = draw_patch(gpu, material, PathArg::Gather, Light::Disc, [512, 512], None)?;
     write_png(&dir.join("patch.png"), &patch)?;
-    let (mesh, _) = draw_mesh(gpu, material, &torus(18.0, 8.0, 64), MappingArg::Auto, PathArg::Gather, &Shot::usual([800, 600]))?;
+    let (mesh, _) =
+        draw_mesh(gpu, material, &torus(18.0, 8.0, 64), MappingArg::Auto, PathArg::Gather, &Shot::usual([800, 600]))?;
     write_png(&dir.join("mesh.png"), &mesh)?;
     Ok(Drawn { devices, agreement })
 }

@@ -27,10 +27,8 @@ impl Maps {
     pub(crate) fn new(gpu: &Gpu, label: &'static str, size: [u32; 2], terms: usize) -> Result<Self> {
         let count = u32::try_from(terms).unwrap_or(u32::MAX);
         let target = TextureSpec::target(label, size, MAP);
-        let surface = gpu.texture(&TextureSpec {
-            usage: target.usage,
-            ..TextureSpec::layered(label, size, count, MAP)
-        })?;
+        let surface =
+            gpu.texture(&TextureSpec { usage: target.usage, ..TextureSpec::layered(label, size, count, MAP) })?;
         let layers = (0..count).map(|layer| layer_of(&surface, layer)).collect();
         Ok(Self { all: layers_of(&surface), layers, surface })
     }
@@ -93,8 +91,7 @@ impl Cascade {
         let groups = material.stages().iter().enumerate().map(|(a, [rows, columns])| {
             let of_rows = [rows.as_entire_binding(), domain.as_entire_binding(), texture(&maps[0].all)];
             let so_far = texture(&sums[(a + 1) % 2].all);
-            let of_columns =
-                [columns.as_entire_binding(), domain.as_entire_binding(), texture(&maps[1].all), so_far];
+            let of_columns = [columns.as_entire_binding(), domain.as_entire_binding(), texture(&maps[1].all), so_far];
             Ok([passes.rows.bind(gpu, 0, &of_rows)?, passes.columns.bind(gpu, 0, &of_columns)?])
         });
         let groups = groups.collect::<Result<_>>()?;

@@ -6,7 +6,8 @@ use pollster::block_on;
 use wgpu::rwh::HasDisplayHandle;
 use wgpu::{
     Adapter, AdapterInfo, Backends, Device, DeviceDescriptor, DeviceType, ErrorFilter, ExperimentalFeatures, Features,
-    GlDebugFns, Instance, InstanceDescriptor, InstanceFlags, Limits, MemoryHints, Queue, Surface, SurfaceTarget, Trace,
+    GlDebugFns, Instance, InstanceDescriptor, InstanceFlags, Limits, MemoryHints, Queue, Surface, SurfaceTarget,
+    TextureFormat, TextureUsages, Trace,
 };
 
 use crate::error::{Error, Result};
@@ -111,6 +112,17 @@ pub fn devices(backend: Backend) -> Vec<AdapterInfo> {
     adapters(&Instance::new(instance(backend)), backend).iter().map(Adapter::get_info).collect()
 }
 
+/// Refuses a device that cannot draw to half floats: everything between light and picture is kept in them.
+fn draws_half_floats(adapter: &Adapter, backend: Backend) -> Result<()> {
+    let features = adapter.get_texture_format_features(TextureFormat::Rgba16Float);
+    if features.allowed_usages.contains(TextureUsages::RENDER_ATTACHMENT) {
+        return Ok(());
+    }
+    let reason = "the driver cannot draw to half floats: it lacks GL_EXT_color_buffer_half_float and \
+                  GL_EXT_color_buffer_float";
+    Err(Error::NoDevice { backend, reason: reason.to_owned() })
+}
+
 impl Gpu {
     /// Opens the best device of a backend, without a window, within `Limits::downlevel_webgl2_defaults()` but for the
     /// size of textures.
@@ -141,6 +153,7 @@ impl Gpu {
     }
 
     fn of(adapter: &Adapter, backend: Backend) -> Result<Self> {
+        draws_half_floats(adapter, backend)?;
         let request = adapter.request_device(&DeviceDescriptor {
             label: Some("subsurf"),
             required_features: Features::empty(),

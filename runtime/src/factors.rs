@@ -4,7 +4,7 @@ use half::f16;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{Addressing, Header};
 use subsurf_shaders::cpu::{self, Rgb};
-use subsurf_shaders::separable::Factors;
+use subsurf_shaders::separable::{Factors, softened};
 use subsurf_shaders::uniform;
 use wgpu::{AddressMode, Buffer, FilterMode, MipmapFilterMode, Sampler, SamplerDescriptor, TextureFormat, TextureView};
 
@@ -59,6 +59,8 @@ fn albedo(factors: &Factors) -> Vec<Rgb> {
 pub struct SplatMaterial {
     pub(crate) planes: Material,
     pub(crate) albedo: PatchLayers,
+    /// What softening takes, by [`softened`].
+    pub(crate) softened: [Rgb; 8],
 }
 
 impl SplatMaterial {
@@ -69,6 +71,7 @@ impl SplatMaterial {
     pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>, factors: &Factors) -> Result<Self> {
         Ok(Self {
             planes: Material::upload(gpu, material)?,
+            softened: softened(material),
             albedo: PatchLayers::upload(gpu, material.header(), vec![albedo(factors)])?,
         })
     }

@@ -2,8 +2,9 @@
 
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindingResource,
-    BlendComponent, BlendFactor, BlendOperation, BlendState, Color, ColorTargetState, ColorWrites, CommandEncoder, CommandEncoderDescriptor, FragmentState, LoadOp, MultisampleState, Operations,
-    PipelineLayoutDescriptor, PrimitiveState, PrimitiveTopology, RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline,
+    BlendComponent, BlendFactor, BlendOperation, BlendState, Color, ColorTargetState, ColorWrites, CommandEncoder,
+    CommandEncoderDescriptor, FragmentState, LoadOp, MultisampleState, Operations, PipelineLayoutDescriptor,
+    PrimitiveState, PrimitiveTopology, RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline,
     RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp, TextureFormat, TextureView, VertexState,
 };
 
@@ -49,7 +50,11 @@ impl CoverPass {
         groups: &[&[Slot]],
         targets: &[TextureFormat],
     ) -> Result<Self> {
-        let add = BlendComponent { src_factor: BlendFactor::One, dst_factor: BlendFactor::One, operation: BlendOperation::Add };
+        let add = BlendComponent {
+            src_factor: BlendFactor::One,
+            dst_factor: BlendFactor::One,
+            operation: BlendOperation::Add,
+        };
         let blend = Some(BlendState { color: add, alpha: add });
         let drawing = Drawing { vertex: "spread", topology: PrimitiveTopology::TriangleStrip, blend };
         Self::build(gpu, shader, fragment, groups, targets, &drawing)

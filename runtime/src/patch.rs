@@ -47,7 +47,13 @@ impl PatchRenderer {
         let present_groups: [&[Slot]; 1] = [&[Slot::Uniform, Slot::Float]];
         Ok(Self {
             storage,
-            gather: CoverPass::new(gpu, source::gather(storage), "gather", &gather_groups, &[TextureFormat::Rgba16Float])?,
+            gather: CoverPass::new(
+                gpu,
+                source::gather(storage),
+                "gather",
+                &gather_groups,
+                &[TextureFormat::Rgba16Float],
+            )?,
             present: CoverPass::new(gpu, source::PRESENT, "present", &present_groups, &[TextureFormat::Rgba8Unorm])?,
         })
     }

@@ -4,8 +4,9 @@ use bytemuck::Pod;
 use half::f16;
 use wgpu::{
     BindGroupLayoutEntry, BindingType, Buffer, BufferBindingType, BufferUsages, CommandEncoderDescriptor, Extent3d,
-    SamplerBindingType, ShaderStages, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture, TextureDescriptor, TextureDimension,
-    TextureFormat, TextureSampleType, TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
+    SamplerBindingType, ShaderStages, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture, TextureDescriptor,
+    TextureDimension, TextureFormat, TextureSampleType, TextureUsages, TextureView, TextureViewDescriptor,
+    TextureViewDimension,
 };
 
 use crate::context::Gpu;
@@ -32,7 +33,15 @@ pub(crate) struct TextureSpec {
 impl TextureSpec {
     /// A texture that is written from the CPU and read by shaders.
     pub(crate) fn table(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
-        Self { label, size, layers: 1, levels: 1, samples: 1, format, usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST }
+        Self {
+            label,
+            size,
+            layers: 1,
+            levels: 1,
+            samples: 1,
+            format,
+            usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
+        }
     }
 
     /// A texture that shaders write and read, and that can be read back.

@@ -1,7 +1,7 @@
 //! Draws a flat patch from its factors: weighted irradiance maps, a cascade of Gaussians, one sum.
 
-use subsurf_shaders::source::{self, Domain};
 use subsurf_decoder::bssrdf::Header;
+use subsurf_shaders::source::{self, Domain};
 use subsurf_shaders::uniform::{Kernel, PatchDomain};
 use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoderDescriptor, TextureFormat, TextureView};
 

@@ -202,6 +202,7 @@ pub const fn shade_sums(encoding: Encoding, terms: usize) -> &'static str {
         "patch_layers.wgsl",
         "factors.wgsl",
         "no_points.wgsl",
+        "neighbours.wgsl",
         "upsampling.wgsl",
         "from_sums.wgsl"
     )
@@ -228,7 +229,7 @@ pub const fn splat(storage: Storage) -> &'static str {
 }
 
 /// All rings of splats in one picture; entry points `cover` and `collapse`.
-pub const COLLAPSE: &str = joined!("cover.wgsl", "collapse.wgsl");
+pub const COLLAPSE: &str = joined!("cover.wgsl", "neighbours.wgsl", "collapse.wgsl");
 
 /// Picture of a mesh from splats; entry points `project` and `shade`.
 #[must_use]
@@ -241,6 +242,7 @@ pub const fn shade_splats(encoding: Encoding) -> &'static str {
         "shadow.wgsl",
         "patch_layers.wgsl",
         "no_points.wgsl",
+        "neighbours.wgsl",
         "upsampling.wgsl",
         "from_splats.wgsl"
     )

@@ -192,6 +192,8 @@ impl Through {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub struct Splat {
+    /// What softening by k / 2 pixels of the material takes from the light of a sample, as the factor that gives it back.
+    pub softened: [[f32; 4]; 8],
     /// From positions relative to the middle of the scene; column-major.
     pub clip_from_centre: [[f32; 4]; 4],
     /// Distances in mm where the ring begins and ends to fade in; twice 0 for the first.
@@ -214,8 +216,10 @@ pub struct Splat {
     pub refines: u32,
     /// Texels of what the eye sees to a texel of the target.
     pub stride: u32,
+    /// Pixel of the material.
+    pub pitch_mm: f32,
     #[doc(hidden)]
-    pub pad: [u32; 3],
+    pub pad: [u32; 2],
 }
 
 /// Most rings of `collapse.wgsl`.

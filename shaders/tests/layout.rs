@@ -49,7 +49,7 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(LightSource: clip_from_world, place, is_local, irradiance, cos_outer, axis, cos_inner, middle_mm, texel_mm);
     assert_layout_of!(Scene: clip_from_world, eye_mm, exposure, forward, middle_mm, centre_mm, eta, sky_transmittance, roughness, lights, row, patches_per_mm, pitch_mm, is_boxed, sky, light);
     assert_layout_of!(Which: light);
-    assert_layout_of!(Splat: clip_from_centre, fade_in, fade_out, focal, middle_mm, texel_mm, light, level, side, refines, stride);
+    assert_layout_of!(Splat: softened, clip_from_centre, fade_in, fade_out, focal, middle_mm, texel_mm, light, level, side, refines, stride, pitch_mm);
     assert_layout_of!(Rings: count, near_mm);
     assert_layout_of!(Upsampling: texels_per_pixel, near_mm);
     assert_layout_of!(Through: weights, gaussians);

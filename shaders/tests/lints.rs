@@ -145,7 +145,7 @@ fn texture_loads_are_accounted_for() {
             // At the target's own texel; taps clamped or wrapped to the size of the maps; what lights see clamped to its size.
             ("weigh, L = 1", 2),
             ("combine, L = 1", 2),
-            ("weigh mesh, L = 1", 5),
+            ("weigh mesh, L = 1", 4),
             ("shade sums, L = 1", 3),
             ("shade sums there, L = 1", 3),
             ("blur rows, Patch, L = 1", 3),
@@ -154,7 +154,7 @@ fn texture_loads_are_accounted_for() {
             ("blur columns, Screen, L = 1", 4),
             ("weigh, L = 2", 2),
             ("combine, L = 2", 2),
-            ("weigh mesh, L = 2", 5),
+            ("weigh mesh, L = 2", 4),
             ("shade sums, L = 2", 3),
             ("shade sums there, L = 2", 3),
             ("blur rows, Patch, L = 2", 3),

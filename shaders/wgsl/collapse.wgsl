@@ -41,14 +41,15 @@ fn ring_at(number: u32, texel: vec2<u32>, depth: f32) -> vec3<f32> {
     let part = corner - floor(corner);
     var sum = vec3<f32>(0.0);
     var weights = 0.0;
-    for (var k = 0u; k < 4u; k++) {
-        let step = vec2<i32>(i32(k & 1u), i32(k >> 1u));
-        let at = clamp(first + step, vec2<i32>(0), (size - 1) / stride);
+    for (var k = 0u; k < NEIGHBOURS; k++) {
+        if k == 4u && weights > ENOUGH {
+            break;
+        }
+        let at = clamp(first + neighbour(k), vec2<i32>(0), (size - 1) / stride);
         // The texel that its samples were compared with.
         let seen = min(at * stride + stride / 2, size - 1);
         let apart = (textureLoad(positions, seen, 0).w - depth) / (rings.near_mm * f32(stride));
-        let linear = mix(1.0 - part, part, vec2<f32>(step));
-        let weight = linear.x * linear.y / (1.0 + apart * apart) + 1e-5 / (1.0 + abs(apart));
+        let weight = near_weight(linear_weight(k, part), apart);
         weights += weight;
         sum += weight * ring_texel(number, at) / max(textureLoad(albedos, seen, 0).xyz, vec3<f32>(LEAST_ALBEDO));
     }

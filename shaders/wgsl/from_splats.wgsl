@@ -7,12 +7,16 @@ fn exitance(in: Varying, normal: vec3<f32>) -> vec3<f32> {
     let change = step_of(in.position_mm, in.uv);
     let albedo = layer_at(0u, in.position_mm, normal, in.uv, change);
     let depth = depth_of(in.position_mm);
-    var blend = blend_at(in.clip.xy, textureDimensions(collapsed));
+    let last = vec2<i32>(textureDimensions(collapsed)) - 1;
+    let place = between(in.clip.xy);
     var sum = vec3<f32>(0.0);
     var weights = 0.0;
-    for (var k = 0u; k < 4u; k++) {
-        let value = textureLoad(collapsed, blend.texel[k], 0);
-        let weight = near_weight(blend.weight[k], value.w - depth);
+    for (var k = 0u; k < NEIGHBOURS; k++) {
+        if k == 4u && weights > ENOUGH {
+            break;
+        }
+        let value = textureLoad(collapsed, clamp(place.first + neighbour(k), vec2<i32>(0), last), 0);
+        let weight = near_weight(linear_weight(k, place.part), (value.w - depth) / upsampling.near_mm);
         weights += weight;
         sum += weight * value.xyz;
     }

@@ -5,16 +5,21 @@
 
 // S_m at a pixel.
 fn sums_at(pixel: vec2<f32>, depth: f32) -> array<vec3<f32>, TERMS> {
-    var blend = blend_at(pixel, textureDimensions(sums));
+    let last = vec2<i32>(textureDimensions(sums)) - 1;
+    let place = between(pixel);
     var total: array<vec3<f32>, TERMS>;
     var weights = 0.0;
-    for (var k = 0u; k < 4u; k++) {
-        let value = textureLoad(sums, blend.texel[k], 0u, 0);
-        let weight = near_weight(blend.weight[k], value.w - depth);
+    for (var k = 0u; k < NEIGHBOURS; k++) {
+        if k == 4u && weights > ENOUGH {
+            break;
+        }
+        let texel = clamp(place.first + neighbour(k), vec2<i32>(0), last);
+        let value = textureLoad(sums, texel, 0u, 0);
+        let weight = near_weight(linear_weight(k, place.part), (value.w - depth) / upsampling.near_mm);
         weights += weight;
         total[0] += weight * value.xyz;
         for (var m = 1u; m < TERMS; m++) {
-            total[m] += weight * textureLoad(sums, blend.texel[k], m, 0).xyz;
+            total[m] += weight * textureLoad(sums, texel, m, 0).xyz;
         }
     }
     for (var m = 0u; m < TERMS; m++) {

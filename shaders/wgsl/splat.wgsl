@@ -2,6 +2,8 @@
 // away from fewer samples and to fewer texels (Chen et al. 2012; Yatagawa et al. 2020, section 3.4).
 
 struct Splat {
+    // What softening by k / 2 pixels of the material takes from the light of a sample, as the factor that gives it back.
+    softened: array<vec4<f32>, 8>,
     // From positions relative to the middle of the scene.
     clip_from_centre: mat4x4<f32>,
     // Distance in mm where the ring begins and ends to fade in; twice 0 for the first.
@@ -23,9 +25,10 @@ struct Splat {
     refines: u32,
     // Texels of what the eye sees to a texel of the target.
     stride: u32,
+    // Pixel of the material in mm.
+    pitch_mm: f32,
     pad_0: u32,
     pad_1: u32,
-    pad_2: u32,
 }
 
 @group(1) @binding(0) var<uniform> splat_of: Splat;
@@ -43,10 +46,21 @@ struct Sample {
     // Flux in irradiance times mm^2.
     @location(1) @interpolate(flat) flux: vec3<f32>,
     @location(2) @interpolate(flat) place: vec2<f32>,
+    // Distances are no less than this, in mm.
+    @location(3) @interpolate(flat) softening_mm: f32,
 }
 
 // Steeper than this many texels deep, or partly empty, a texel is not smooth.
-const STEEP: f32 = 1.5;
+const STEEP: f32 = 1.0;
+// Samples are softened by this share of their distance: peaks of the profiles would show where each of them is.
+const SOFTENING: f32 = 0.6;
+
+// Light of a sample whose distances are r -> sqrt(r^2 + s^2), given back what that takes.
+fn given_back(softening_mm: f32) -> vec3<f32> {
+    let at = min(softening_mm / (0.5 * splat_of.pitch_mm), 6.99);
+    let k = u32(at);
+    return mix(splat_of.softened[min(k, 7u)].xyz, splat_of.softened[min(k + 1u, 7u)].xyz, at - f32(k));
+}
 
 fn is_smooth(texel: vec2<u32>, level: u32, texel_mm: f32) -> bool {
     let range = textureLoad(seen_places, texel, splat_of.light, level).zw;
@@ -83,7 +97,7 @@ fn spread(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance:
         wanted = wanted && is_smooth(texel, splat_of.level, texel_mm);
     }
     if !wanted {
-        return Sample(vec4<f32>(2.0, 2.0, 2.0, 1.0), vec3<f32>(0.0), vec3<f32>(0.0), vec2<f32>(0.0));
+        return Sample(vec4<f32>(2.0, 2.0, 2.0, 1.0), vec3<f32>(0.0), vec3<f32>(0.0), vec2<f32>(0.0), 0.0);
     }
     let centre = splat_of.clip_from_centre * vec4<f32>(position.xyz, 1.0);
     let radius = min(splat_of.fade_out.y, material.r_max_mm);
@@ -92,8 +106,16 @@ fn spread(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance:
     let half_size = splat_of.focal * radius / distance;
     let side = vec2<f32>(vec2<u32>(corner & 1u, corner >> 1u)) * 2.0 - 1.0;
     let clip = centre.xy / max(centre.w, distance) + side * half_size;
-    let place = textureLoad(seen_places, texel, splat_of.light, splat_of.level).xy;
-    return Sample(vec4<f32>(clip, 0.5, 1.0), position.xyz, flux.xyz * texel_mm * texel_mm, place);
+    let place = textureLoad(seen_places, texel, splat_of.light, splat_of.level);
+    var light = flux.xyz * texel_mm * texel_mm;
+    var softening_mm = 0.0;
+    if splat_of.fade_in.y == 0.0 {
+        // Samples of a slanted surface are further apart than those across the light.
+        let slope = min((place.w - place.z) / texel_mm, 2.0);
+        softening_mm = SOFTENING * texel_mm * sqrt(1.0 + slope * slope);
+        light *= given_back(softening_mm);
+    }
+    return Sample(vec4<f32>(clip, 0.5, 1.0), position.xyz, light, place.xy, softening_mm);
 }
 
 fn ring(r_mm: f32) -> f32 {
@@ -108,13 +130,14 @@ fn splat(in: Sample) -> @location(0) vec4<f32> {
     let seen = textureLoad(positions, texel, 0);
     let r_mm = distance(seen.xyz, in.position);
     let share = ring(r_mm);
+    let softened_mm = sqrt(r_mm * r_mm + in.softening_mm * in.softening_mm);
     // Where nothing is seen, depth is far beyond everything.
-    if r_mm > material.r_max_mm || share <= 0.0 || seen.w > 50000.0 {
+    if softened_mm > material.r_max_mm || share <= 0.0 || seen.w > 50000.0 {
         return vec4<f32>(0.0);
     }
     // Rd of the pixels at both points (eq. 2 to 4), r their distance in space.
     let o = load_pixel(patch_texel(textureLoad(places, texel, 0).xy));
     let i = load_pixel(patch_texel(in.place));
-    let rd = reflectance(i, partner_at(o, r_mm), vec2<i32>(0));
+    let rd = reflectance(i, partner_at(o, softened_mm), vec2<i32>(0));
     return vec4<f32>(rd * in.flux * share, 0.0);
 }

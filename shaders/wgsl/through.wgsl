@@ -39,17 +39,17 @@ fn come_through(i: u32, position_mm: vec3<f32>) -> array<vec3<f32>, TERMS> {
     let sight = sight_of(i, position_mm);
     let depth = light_depth(i, position_mm);
     var total: array<vec3<f32>, TERMS>;
-    // Light spreads on its way: five places, as far apart as it has gone.
-    let nearest = textureLoad(seen_positions, seen_texel(vec2<i32>(floor(sight.texel))), i, 0).w;
-    let spread = clamp(0.5 * (depth - nearest) / sight.texel_mm, 1.0, 24.0);
-    for (var k = 0; k < 5; k++) {
-        let aside = vec2<f32>(vec2<i32>(k - 2, ((k * 2 + 2) % 5) - 2)) * 0.7 * spread;
-        let texel = seen_texel(vec2<i32>(floor(sight.texel + aside)));
+    // Light spreads on its way: nine places around it, as far apart as the widest Gaussian reaches from one to the next.
+    let widest_mm = through.weights[min(4u * (through.gaussians - 1u), 31u)].w;
+    let spread = clamp(0.8 * widest_mm / sight.texel_mm, 1.0, 32.0);
+    for (var k = 0; k < 9; k++) {
+        let step = vec2<i32>(k % 3 - 1, k / 3 - 1);
+        let texel = seen_texel(vec2<i32>(floor(sight.texel + vec2<f32>(step) * spread)));
         let flux = textureLoad(seen_fluxes, texel, i, 0);
         let d = max(depth - textureLoad(seen_positions, texel, i, 0).w, 0.0);
         let place = textureLoad(seen_places, texel, i, 0).xy;
-        // Nothing was seen there if the fourth value is 0.
-        let e = flux.xyz * flux.w * 0.2;
+        // Binomial weights. Nothing was seen there if the fourth value is 0.
+        let e = flux.xyz * flux.w * f32((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
         var light: array<vec3<f32>, TERMS>;
         for (var l = 0u; l < TERMS; l++) {
             light[l] = e * textureSampleLevel(layers, layer_sampler, place, l, 1.0).xyz;

@@ -53,6 +53,7 @@ enum Way {
 }
 
 /// A mesh and a material on a device, for one path.
+#[allow(clippy::large_enum_variant, reason = "one or two at a time, and they stay where they are")]
 enum Loaded {
     Gather(GpuMesh, GpuPoints, Material),
     Splat(GpuMesh, SplatMaterial),
@@ -173,8 +174,7 @@ fn psnr(reference: &[[u8; 3]], found: &[[u8; 3]]) -> f64 {
 fn paths_come_close_to_the_gather_and_apis_to_each_other() {
     let file = simulated(Recipe::Jade);
     let gpus = Backend::ALL.map(device);
-    let meshes =
-        [("knot", knot(9.0, 3.0, 24)), ("bowl", bowl(12.0, 2.0, 32)), ("drapery", drapery(14.0, 1.0, 5, 40))];
+    let meshes = [("knot", knot(9.0, 3.0, 24)), ("bowl", bowl(12.0, 2.0, 32)), ("drapery", drapery(14.0, 1.0, 5, 40))];
     for (name, mesh) in &meshes {
         let scene = scene(mesh);
         let draw = |gpu: &Gpu, way| Loaded::new(gpu, way, &file, mesh).picture(gpu, &scene, SIZE);
@@ -238,8 +238,10 @@ fn far_meshes_do_not_shimmer() {
         let places = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
         let inside: Vec<(u32, u32)> = places.filter(|(x, y)| is_inside(*x, *y)).collect();
         let reference: Vec<[f64; 3]> = inside.iter().map(|(x, y)| mean(*x, *y)).collect();
-        let found: Vec<[f64; 3]> =
-            inside.iter().map(|(x, y)| small[(y * size[0] + x) as usize].map(|value| f64::from(value) / 255.0)).collect();
+        let found: Vec<[f64; 3]> = inside
+            .iter()
+            .map(|(x, y)| small[(y * size[0] + x) as usize].map(|value| f64::from(value) / 255.0))
+            .collect();
         assert!(inside.len() > 50, "{} pixels", inside.len());
         worst = worst.min(psnr_db(&reference, &found));
     }

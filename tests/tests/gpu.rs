@@ -10,8 +10,8 @@ use subsurf_runtime::scene::{
     Environment, Light, LightShape, Mapping, Mesh, Outline, REFLECTION_SIZE, Scene, Surface, View, sphere, torus,
 };
 use subsurf_runtime::{
-    BACKGROUND, Backend, Gpu, GpuMesh, GpuPoints, Known, Material, Model, PatchLight, PatchRenderer, Path, Region, Renderer,
-    RuntimeOptions, SeparableMaterial, SeparableRenderer, Storage, storage_of,
+    BACKGROUND, Backend, Gpu, GpuMesh, GpuPoints, Known, Material, Model, PatchLight, PatchRenderer, Path, Region,
+    Renderer, RuntimeOptions, SeparableMaterial, SeparableRenderer, Storage, storage_of,
 };
 use subsurf_shaders::cpu;
 use subsurf_shaders::separable::{Detail, Factors};

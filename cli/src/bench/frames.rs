@@ -144,7 +144,7 @@ impl Times {
     }
 }
 
-/// Draws frames under a light that turns.
+/// Draws frames under a light that turns; the gather, which takes seconds, once.
 pub(super) fn measure(
     gpu: &Gpu,
     material: &Bssrdf<'_>,
@@ -165,6 +165,7 @@ pub(super) fn measure(
     let target = gpu.target(size, RuntimeOptions::default().format)?;
     let device_bytes = gpu.ledger().bytes() - before;
 
+    let frames = if path == PathArg::Gather { 0 } else { frames };
     let bars = Bars::new();
     bars.begin("frames", 2 * frames as u64 + 1);
     let mut times = Times {
@@ -181,7 +182,7 @@ pub(super) fn measure(
         renderer.draw(gpu, &mut frame, &prepared.model(), &scene, target.view())?;
         gpu.finish()?;
         // Drivers compile at the first frame.
-        if number > 0 {
+        if number > 0 || frames == 0 {
             times.frames.push(ms(begin.elapsed()));
         }
         bars.advance(1);

@@ -3,6 +3,7 @@
 mod frames;
 mod load;
 mod load_one;
+mod patch;
 mod render;
 mod timing;
 
@@ -13,6 +14,7 @@ pub(crate) use load::{Case, markdown, measure};
 pub(crate) enum Command {
     Load(load::Args),
     Frames(frames::Args),
+    Patch(patch::Args),
     Render(render::Args),
     #[command(hide = true)]
     LoadOne(load_one::Args),
@@ -22,6 +24,7 @@ pub(crate) fn run(command: &Command) -> anyhow::Result<()> {
     match command {
         Command::Load(args) => load::run(args),
         Command::Frames(args) => frames::run(args),
+        Command::Patch(args) => patch::run(args),
         Command::Render(args) => render::run(args),
         Command::LoadOne(args) => load_one::run(args),
     }

@@ -45,11 +45,8 @@ pub(crate) struct Args {
 }
 
 /// Every path against the reference.
-const PATHS: [(&str, PathArg); 3] = [
-    ("splat", PathArg::Splat),
-    ("separable", PathArg::Separable),
-    ("homogeneous", PathArg::Homogeneous),
-];
+const PATHS: [(&str, PathArg); 3] =
+    [("splat", PathArg::Splat), ("separable", PathArg::Separable), ("homogeneous", PathArg::Homogeneous)];
 
 /// One path, one material, one mesh, one device.
 struct Row {
@@ -256,7 +253,7 @@ impl Page<'_> {
         let _ = write!(
             out,
             "<h1>Paths against the reference</h1><p class=\"note\">Every path draws the same scene at {width} × {height} \
-             pixels: one directional light with shadow, a plain sky, a coat of roughness 0.25. The reference gathers light \
+             pixels: one directional light with shadow, a dim studio around, a coat of roughness 0.25. The reference gathers light \
              between points of the surface by their distances in space. PSNR is of display values over the pixels that the \
              mesh covers in either picture; SSIM is of the whole picture. Times are medians of whole frames until the device \
              is through, the light turning from frame to frame; those of one device come from one run and compare with each \

@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, SkyShare, Surface, View};
 use subsurf_runtime::{
-    BACKGROUND, Frame, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions, SeparableMaterial,
-    SplatMaterial,
+    BACKGROUND, Frame, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions,
+    SeparableMaterial, SplatMaterial,
 };
 use subsurf_shaders::cpu::{self, Rgb};
 use subsurf_shaders::separable::{Detail, Factors};
@@ -39,7 +39,7 @@ impl Shot {
     pub(crate) fn usual(size: [u32; 2]) -> Self {
         Self {
             direction: DEFAULT_LIGHT.normalize(),
-            environment: Environment::uniform(SKY),
+            environment: Environment::studio(),
             roughness: ROUGHNESS,
             angles: Angles { around: 30.0, up: 15.0 },
             size,
@@ -61,12 +61,11 @@ impl Shot {
     }
 }
 
-/// Irradiance of the usual sky.
-pub(super) const SKY: Rgb = [0.35, 0.4, 0.5];
 /// Of the usual coat: polished, but not a mirror.
 pub(crate) const ROUGHNESS: f32 = 0.25;
 
 /// A material on the device as a path wants it.
+#[allow(clippy::large_enum_variant, reason = "one or two at a time, and they stay where they are")]
 pub(crate) enum Prepared {
     Gather { mesh: GpuMesh, points: GpuPoints, material: Material },
     Splat { mesh: GpuMesh, material: SplatMaterial },

@@ -43,7 +43,7 @@ pub(crate) struct Args {
     /// How light scatters
     #[arg(long, value_enum, default_value = "gather")]
     path: PathArg,
-    /// Light from all around: an equirectangular picture, .hdr or .png; a plain sky if not given
+    /// Light from all around: an equirectangular picture, .hdr or .png; a dim studio if not given
     #[arg(long, value_name = "FILE", requires = "mesh")]
     environment: Option<PathBuf>,
     /// How rough the coat is that reflects it, 0 to 1
@@ -176,7 +176,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             let mesh = load(path, args.extent, args.up)?;
             let environment = match &args.environment {
                 Some(path) => read_environment(path)?,
-                None => Environment::uniform(mesh::SKY),
+                None => Environment::studio(),
             };
             let shot = Shot {
                 direction,
@@ -230,4 +230,3 @@ fn exposure_for<'a>(lights: impl Iterator<Item = &'a Rgb>) -> f32 {
     let bright = values.get(values.len() * 99 / 100).copied().unwrap_or(0.0);
     if bright > 0.0 { BRIGHT / bright } else { 1.0 }
 }
-

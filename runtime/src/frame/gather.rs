@@ -78,7 +78,8 @@ impl GpuPoints {
     /// [`Error::Unsupported`] if the device takes no textures of that size.
     pub fn upload(gpu: &Gpu, surface: &Surface) -> Result<Self> {
         let table = |label, len, format, bytes: &[u8]| gpu.filled(&TextureSpec::array(label, len, format), bytes);
-        let target = |label| gpu.texture(&TextureSpec { ..TextureSpec::target(label, array_size(surface.len()), HALF) });
+        let target =
+            |label| gpu.texture(&TextureSpec { ..TextureSpec::target(label, array_size(surface.len()), HALF) });
         let count = surface.len();
         let float = TextureFormat::Rgba32Float;
         Ok(Self {
@@ -135,10 +136,7 @@ impl Buffers {
                 passes.irradiance.bind(gpu, 0, &[common.block.as_entire_binding()])?,
                 passes.irradiance.bind(gpu, 1, &of_irradiance)?,
             ],
-            gather: [
-                passes.gather.bind(gpu, 0, &material.resources())?,
-                passes.gather.bind(gpu, 1, &of_points)?,
-            ],
+            gather: [passes.gather.bind(gpu, 0, &material.resources())?, passes.gather.bind(gpu, 1, &of_points)?],
             shade: passes.shade.bind(gpu, 1, &of_shade)?,
             lit_by: None,
         })

@@ -11,8 +11,8 @@ use std::time::{Duration, Instant};
 use half::f16;
 use subsurf_shaders::{Storage, uniform};
 use wgpu::{
-    AddressMode, BindGroup, BindingResource, Buffer, Color, CommandEncoder, CommandEncoderDescriptor, FilterMode, MipmapFilterMode,
-    SamplerDescriptor, TextureFormat, TextureUsages, TextureView,
+    AddressMode, BindGroup, BindingResource, Buffer, Color, CommandEncoder, CommandEncoderDescriptor, FilterMode,
+    MipmapFilterMode, SamplerDescriptor, TextureFormat, TextureUsages, TextureView,
 };
 
 use crate::context::Gpu;
@@ -135,6 +135,7 @@ pub struct Frame {
 }
 
 #[derive(Debug)]
+#[allow(clippy::large_enum_variant, reason = "one or two at a time, and they stay where they are")]
 enum Buffers {
     Gather(gather::Buffers),
     Splat(splat::Buffers),
@@ -355,13 +356,7 @@ impl Renderer {
     ///
     /// # Errors
     /// [`crate::Error::Device`], also if the format of the renderer has not four bytes.
-    pub fn picture(
-        &self,
-        gpu: &Gpu,
-        frame: &mut Frame,
-        model: &Model<'_>,
-        scene: &Scene,
-    ) -> Result<Vec<[u8; 3]>> {
+    pub fn picture(&self, gpu: &Gpu, frame: &mut Frame, model: &Model<'_>, scene: &Scene) -> Result<Vec<[u8; 3]>> {
         let target = gpu.target(frame.plan.size, self.options.format)?;
         self.draw(gpu, frame, model, scene, target.view())?;
         let texels: Vec<[u8; 4]> = gpu.read(&target.0.texture)?;

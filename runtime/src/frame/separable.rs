@@ -83,12 +83,8 @@ impl Buffers {
             texture(&lights.all[2]),
         ];
         let of_scene = [common.block.as_entire_binding(), texture(&lights.all[0])];
-        let of_shade = [
-            factors[0].clone(),
-            factors[1].clone(),
-            upsampling.as_entire_binding(),
-            texture(&cascade.sums().all),
-        ];
+        let of_shade =
+            [factors[0].clone(), factors[1].clone(), upsampling.as_entire_binding(), texture(&cascade.sums().all)];
         Ok(Self {
             weigh: [passes.weigh.bind(gpu, 0, &of_scene)?, passes.weigh.bind(gpu, 1, &of_weigh)?],
             shade: passes.shade.bind(gpu, 1, &of_shade)?,

@@ -5,9 +5,9 @@
 //! fragments for each sample, and a quarter of the samples.
 
 use glam::{Mat4, Vec3};
+use subsurf_shaders::Storage;
 use subsurf_shaders::source::{self, Encoding};
 use subsurf_shaders::uniform::{self, MAX_RINGS, Rings, Splat, Upsampling, Which};
-use subsurf_shaders::Storage;
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureFormat, TextureUsages, TextureView};
 
 use super::light_views::{FAR, LightViews};
@@ -102,6 +102,8 @@ pub(crate) struct Buffers {
     #[expect(dead_code, reason = "kept in the ledger as long as the device has them")]
     which: Vec<Tracked<Buffer>>,
     pub(crate) shade: BindGroup,
+    softened: [[f32; 4]; 8],
+    pitch_mm: f32,
     size: [u32; 2],
 }
 
@@ -224,12 +226,8 @@ impl Buffers {
         // Rings that do not exist are never read.
         of_collapse.extend((0..MAX_RINGS).map(|ring| texture(&rings[ring.min(rings.len() - 1)].view)));
         let upsampling = gpu.uniform("upsampling", &Upsampling::default());
-        let of_shade = [
-            of_albedo[0].clone(),
-            of_albedo[1].clone(),
-            upsampling.as_entire_binding(),
-            texture(&collapsed.view),
-        ];
+        let of_shade =
+            [of_albedo[0].clone(), of_albedo[1].clone(), upsampling.as_entire_binding(), texture(&collapsed.view)];
         Ok(Self {
             view: [
                 passes.view.bind(gpu, 0, &[common.block.as_entire_binding()])?,
@@ -248,6 +246,8 @@ impl Buffers {
             rings_block,
             upsampling,
             which,
+            softened: material.softened.map(|[r, g, b]| [r, g, b, 0.0]),
+            pitch_mm: outline.header.pitch_mm,
             size,
         })
     }
@@ -276,6 +276,7 @@ impl Buffers {
             let fade = |ring: u32| [end(ring), FADE * end(ring)];
             let beyond = [1e6, 2e6];
             let splat = Splat {
+                softened: self.softened,
                 clip_from_centre: clip_from_centre.to_cols_array_2d(),
                 fade_in: if draw.ring == 0 { [0.0; 2] } else { fade(draw.ring - 1) },
                 fade_out: if draw.ring + 1 == self.levels.rings { beyond } else { fade(draw.ring) },
@@ -287,7 +288,8 @@ impl Buffers {
                 side: (plan.light_texels >> draw.level).max(1),
                 refines: u32::from(draw.refines),
                 stride: 1 << draw.ring,
-                pad: [0; 3],
+                pitch_mm: self.pitch_mm,
+                pad: [0; 2],
             };
             gpu.queue.write_buffer(&draw.block, 0, bytemuck::bytes_of(&splat));
         }

@@ -78,11 +78,8 @@ impl Scene {
     #[must_use]
     pub fn block(&self, outline: &Outline, size: [u32; 2], light_texels: u32) -> uniform::Scene {
         #[allow(clippy::cast_precision_loss, reason = "pictures and patches are a few thousand pixels wide")]
-        let [aspect, width, height] = [
-            size[0] as f32 / size[1] as f32,
-            outline.header.width as f32,
-            outline.header.height as f32,
-        ];
+        let [aspect, width, height] =
+            [size[0] as f32 / size[1] as f32, outline.header.width as f32, outline.header.height as f32];
         let view = &self.view;
         let forward = (view.target_mm - view.eye_mm).normalize_or(Vec3::NEG_Z);
         let middle_mm = (outline.centre_mm - view.eye_mm).dot(forward);

@@ -122,7 +122,10 @@ fn pixel_of(mesh: &Mesh, vertex: usize, mapping: Mapping, header: &Header) -> [u
             let uv = uvs[vertex] * Vec2::from(times);
             Vec2::new(uv.x, 1.0 - uv.y) * size
         }
-        _ => cpu::place_in_box(mesh.positions[vertex], mesh.normals[vertex], header.pitch_mm) / header.pitch_mm + 0.5 * size,
+        _ => {
+            cpu::place_in_box(mesh.positions[vertex], mesh.normals[vertex], header.pitch_mm) / header.pitch_mm
+                + 0.5 * size
+        }
     };
     let addressing = match header.addressing {
         Addressing::Clamp => Addressing::Mirror,

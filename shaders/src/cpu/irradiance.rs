@@ -11,12 +11,7 @@ use crate::uniform::{MAX_LIGHTS, Scene};
 /// # Panics
 /// If there are more lights than a scene may have.
 #[must_use]
-pub fn irradiance(
-    scene: &Scene,
-    positions: &[Vec4],
-    normals: &[Vec4],
-    visibilities: &[[f32; MAX_LIGHTS]],
-) -> Vec<Rgb> {
+pub fn irradiance(scene: &Scene, positions: &[Vec4], normals: &[Vec4], visibilities: &[[f32; MAX_LIGHTS]]) -> Vec<Rgb> {
     let points = positions.iter().zip(normals).zip(visibilities);
     points
         .map(|((position, normal), seen)| {

@@ -32,8 +32,7 @@ pub fn entering(scene: &Scene, normal: Vec3, towards: Vec3) -> f32 {
 /// Irradiance of the environment that enters (Ramamoorthi and Hanrahan 2001, eq. 13).
 #[must_use]
 pub fn sky_irradiance(scene: &Scene, n: Vec3) -> Rgb {
-    let basis =
-        [1.0, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3.0 * n.z * n.z - 1.0, n.x * n.z, n.x * n.x - n.y * n.y];
+    let basis = [1.0, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3.0 * n.z * n.z - 1.0, n.x * n.z, n.x * n.x - n.y * n.y];
     [0, 1, 2].map(|c| {
         let sum: f32 = basis.iter().zip(&scene.sky).map(|(value, coefficients)| value * coefficients[c]).sum();
         sum.max(0.0) * scene.sky_transmittance

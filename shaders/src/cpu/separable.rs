@@ -18,7 +18,8 @@ pub fn separable(factors: &Factors, irradiance: &[Rgb]) -> Vec<Rgb> {
     let mut exitance = vec![[0.0; 3]; irradiance.len()];
     for l in 0..terms {
         // c_l E, then what every stage of the cascade makes of it.
-        let mut map: Vec<Rgb> = factors.coefficients_of(l).iter().zip(irradiance).map(|(c, e)| multiply(*c, *e)).collect();
+        let mut map: Vec<Rgb> =
+            factors.coefficients_of(l).iter().zip(irradiance).map(|(c, e)| multiply(*c, *e)).collect();
         for (a, stage) in Stage::cascade(&factors.sigmas).iter().enumerate() {
             map = blur(&map, header, stage);
             for m in 0..terms {

@@ -10,6 +10,29 @@ pub fn mean_profile(material: &Bssrdf<'_>) -> impl Fn(f32) -> Rgb + Sync + use<>
     mean_reflectance(material)
 }
 
+/// Share of the light of the mean profile that is left when distances are √(r² + s²), inverted, for s = k / 2 pixels:
+/// ∫ R(r) r dr from 0 and from s. At least 0.1 is taken to be left.
+#[must_use]
+pub fn softened(material: &Bssrdf<'_>) -> [Rgb; 8] {
+    const STEPS: u16 = 4_096;
+    let header = material.header();
+    let profile = mean_reflectance(material);
+    let step = header.r_max_mm / f32::from(STEPS);
+    let rest = |k: u8| {
+        let begin = 0.5 * f32::from(k) * header.pitch_mm;
+        let radii = (0..STEPS).map(|n| (f32::from(n) + 0.5) * step).filter(|r_mm| *r_mm > begin);
+        radii.fold([0.0; 3], |sum: Rgb, r_mm| {
+            let ring = profile(r_mm);
+            [0, 1, 2].map(|c| sum[c] + ring[c] * r_mm)
+        })
+    };
+    let all = rest(0);
+    std::array::from_fn(|k| {
+        let left = rest(u8::try_from(k).unwrap_or(0));
+        [0, 1, 2].map(|c| all[c] / left[c].max(0.1 * all[c]).max(1e-30))
+    })
+}
+
 /// Weights at 0, 1, 2 ... pixels to either side of a kernel whose product along both axes carries the light of the mean
 /// profile: a(x) = Σ_y R(√(x² + y²)) pitch², divided by √Σ R pitch² (Jimenez et al. 2015, eq. 10).
 #[must_use]
@@ -29,4 +52,3 @@ pub fn mean_kernel(material: &Bssrdf<'_>) -> Vec<Rgb> {
     let albedo = [0, 1, 2].map(|c| lines[0][c] + 2.0 * lines[1..].iter().map(|line| line[c]).sum::<f32>());
     lines.iter().map(|line| [0, 1, 2].map(|c| line[c] / albedo[c].max(1e-30).sqrt())).collect()
 }
-

@@ -14,7 +14,7 @@ mod homogeneous;
 mod radial;
 
 pub use cascade::Stage;
-pub use homogeneous::{mean_kernel, mean_profile};
+pub use homogeneous::{mean_kernel, mean_profile, softened};
 
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Header;
@@ -63,7 +63,10 @@ impl Factors {
     /// If `detail` is out of range.
     #[must_use]
     pub fn of(material: &Bssrdf<'_>, detail: Detail) -> Self {
-        assert!((1..=MAX_TERMS).contains(&detail.terms) && (1..=MAX_GAUSSIANS).contains(&detail.gaussians), "{detail:?}");
+        assert!(
+            (1..=MAX_TERMS).contains(&detail.terms) && (1..=MAX_GAUSSIANS).contains(&detail.gaussians),
+            "{detail:?}"
+        );
         let header = *material.header();
         let radial = radial::Radial::of(material, detail.terms);
         let (sigmas, weights) = gaussians::fit(&header, &radial, detail);
