@@ -138,10 +138,10 @@ impl Session {
 
     /// What the window shows.
     pub(super) fn shows(&self, stage: &Stage) -> Shows {
-        let compares = self.settings.shows_error
-            && (stage.has_picture(Role::Reference) || self.settings.path == PathArg::Gather)
-            && stage.key(Role::Reference) == self.wanted(Role::Reference).as_ref();
-        if compares { Shows::Difference } else { Shows::Picture }
+        // The gather itself differs from nothing: it is shown.
+        let reference = self.wanted(Role::Reference);
+        let is_there = stage.has_picture(Role::Reference) && stage.key(Role::Reference) == reference.as_ref();
+        if is_there { Shows::Difference } else { Shows::Picture }
     }
 
     /// Whether everything that is wanted is shown.
