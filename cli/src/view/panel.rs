@@ -117,7 +117,7 @@ fn tell(ui: &mut Ui, facts: &Facts) {
     let budget = facts.budget_bytes.map_or_else(String::new, |bytes| format!(" of {}", human(bytes)));
     ui.label(format!("{}{budget} on the device", human(facts.device_bytes)));
     if let Some([material, mesh]) = facts.model_bytes {
-        small(ui, format!("material {}, mesh {}, the rest are buffers of the frame", human(material), human(mesh)));
+        small(ui, format!("material {}, mesh {}, the rest are buffers", human(material), human(mesh)));
     }
     if let Some(plan) = &facts.plan {
         small(ui, plan_line(plan));
