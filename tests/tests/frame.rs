@@ -72,8 +72,9 @@ impl Loaded {
         };
         match way {
             Way::Gather => {
-                let fine = mesh.clone().subdivided(1.5 * material.header().pitch_mm).unwrap();
-                let visibilities = shadows(&fine, &scene(mesh));
+                // Fine enough that the sum is close to its integral.
+                let fine = mesh.clone().subdivided(0.8 * material.header().pitch_mm).unwrap();
+                let visibilities = shadows(&fine, mesh, &scene(mesh));
                 let surface = Surface::new(&fine, mapping, material.header(), &visibilities);
                 let on_gpu = GpuMesh::upload(gpu, &fine, &outline, Known::Points(surface.point_of())).unwrap();
                 let points = GpuPoints::upload(gpu, &surface).unwrap();
@@ -107,12 +108,12 @@ impl Loaded {
     }
 }
 
-/// Which vertices the first light reaches, by trying all triangles.
-fn shadows(mesh: &Mesh, scene: &Scene) -> Vec<[f32; 4]> {
+/// Which vertices of a mesh the first light reaches, by trying all triangles of what is in its way.
+fn shadows(mesh: &Mesh, opaque: &Mesh, scene: &Scene) -> Vec<[f32; 4]> {
     use rayon::prelude::*;
     let light = scene.lights[0];
     let triangles: Vec<[Vec3; 3]> =
-        mesh.triangles.iter().map(|triangle| triangle.map(|k| mesh.positions[k as usize])).collect();
+        opaque.triangles.iter().map(|triangle| triangle.map(|k| opaque.positions[k as usize])).collect();
     let [low, high] = mesh.bounds();
     let offset = 2e-3 * (high - low).max_element();
     let vertices = mesh.positions.par_iter().zip(&mesh.normals);
@@ -174,12 +175,12 @@ fn psnr(reference: &[[u8; 3]], found: &[[u8; 3]]) -> f64 {
 fn paths_come_close_to_the_gather_and_apis_to_each_other() {
     let file = simulated(Recipe::Jade);
     let gpus = Backend::ALL.map(device);
-    let meshes = [("knot", knot(9.0, 3.0, 24)), ("bowl", bowl(12.0, 2.0, 32)), ("drapery", drapery(14.0, 1.0, 5, 40))];
+    let meshes = [("knot", knot(14.0, 4.5, 32)), ("bowl", bowl(12.0, 2.0, 32)), ("drapery", drapery(14.0, 1.0, 5, 40))];
     for (name, mesh) in &meshes {
         let scene = scene(mesh);
         let draw = |gpu: &Gpu, way| Loaded::new(gpu, way, &file, mesh).picture(gpu, &scene, SIZE);
         let reference = draw(&gpus[0], Way::Gather);
-        for (way, least_db) in [(Way::Splat, 38.0), (Way::Separable, 30.0)] {
+        for (way, least_db) in [(Way::Splat, 36.0), (Way::Separable, 28.0)] {
             let pictures = gpus.each_ref().map(|gpu| draw(gpu, way));
             let db = pictures.each_ref().map(|picture| psnr(&reference, picture));
             let [a, b] = &pictures;
@@ -246,7 +247,7 @@ fn far_meshes_do_not_shimmer() {
         worst = worst.min(psnr_db(&reference, &found));
     }
     println!("far away: at least {worst:.1} dB from {LARGER} × {LARGER} samples to a pixel");
-    assert!(worst >= 34.0, "{worst} dB");
+    assert!(worst >= 32.0, "{worst} dB");
 }
 
 fn prepared(gpu: &Gpu, loaded: &Loaded, scene: &Scene, budget_bytes: Option<u64>) -> Result<Frame, Error> {
