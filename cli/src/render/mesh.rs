@@ -135,12 +135,14 @@ impl Prepared {
     }
 }
 
+/// How close to the gather the separable path has to come on a flat patch, in dB.
+const LEAST_DB: f32 = 40.0;
+
 /// Factors of a material, or of its mean.
 pub(crate) fn factors(material: &Bssrdf<'_>, path: PathArg) -> Factors {
-    let detail = Detail::default();
     match path {
-        PathArg::Homogeneous => Factors::homogeneous(material, detail.gaussians),
-        PathArg::Gather | PathArg::Splat | PathArg::Separable => Factors::of(material, detail),
+        PathArg::Homogeneous => Factors::homogeneous(material, Detail::default().gaussians),
+        PathArg::Gather | PathArg::Splat | PathArg::Separable => Factors::within(material, LEAST_DB),
     }
 }
 

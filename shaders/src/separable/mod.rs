@@ -9,6 +9,7 @@
 //! which takes L maps and A separable blurs of each, whatever the material.
 
 mod cascade;
+mod choose;
 mod gaussians;
 mod homogeneous;
 mod radial;
@@ -67,8 +68,10 @@ impl Factors {
             (1..=MAX_TERMS).contains(&detail.terms) && (1..=MAX_GAUSSIANS).contains(&detail.gaussians),
             "{detail:?}"
         );
-        let header = *material.header();
-        let radial = radial::Radial::of(material, detail.terms);
+        Self::from_radial(*material.header(), radial::Radial::of(material, detail.terms), detail)
+    }
+
+    fn from_radial(header: Header, radial: radial::Radial, detail: Detail) -> Self {
         let (sigmas, weights) = gaussians::fit(&header, &radial, detail);
         Self { header, detail, coefficients: radial.coefficients, sigmas, weights }
     }
@@ -81,10 +84,7 @@ impl Factors {
     pub fn homogeneous(material: &Bssrdf<'_>, gaussians: usize) -> Self {
         let detail = Detail { terms: 1, gaussians };
         assert!((1..=MAX_GAUSSIANS).contains(&gaussians), "{gaussians}");
-        let header = *material.header();
-        let radial = radial::Radial::mean_of(material);
-        let (sigmas, weights) = gaussians::fit(&header, &radial, detail);
-        Self { header, detail, coefficients: radial.coefficients, sigmas, weights }
+        Self::from_radial(*material.header(), radial::Radial::mean_of(material), detail)
     }
 
     /// w_lma of all Gaussians.

@@ -13,6 +13,7 @@ const RADII: usize = 64;
 /// Weight of a radius is its share of the area, max(r, this many pixels): light near the beam is not forgotten.
 const LEAST_RADIUS: f64 = 0.3;
 
+#[derive(Clone)]
 pub(super) struct Radial {
     /// `[L][pixel]`.
     pub(super) coefficients: Vec<Rgb>,
@@ -69,6 +70,14 @@ impl Radial {
             functions: (0..RADII).map(|k| mean(radius(k)).map(f32::sqrt)).collect(),
             step: f64::from(header.r_max_mm / header.pitch_mm) / (RADII - 1) as f64,
         }
+    }
+
+    /// The first terms alone.
+    pub(super) fn truncated(mut self, terms: usize) -> Self {
+        let pixels = self.coefficients.len() * RADII / self.functions.len();
+        self.coefficients.truncate(terms * pixels);
+        self.functions.truncate(terms * RADII);
+        self
     }
 
     /// g_l(r), r in pixels, at most r_max.
