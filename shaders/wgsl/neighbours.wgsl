@@ -7,13 +7,15 @@ const ENOUGH: f32 = 0.01;
 const OUTER: f32 = 0.02;
 
 fn neighbour(k: u32) -> vec2<i32> {
-    var steps = array<vec2<i32>, 16>(
-        vec2<i32>(0, 0), vec2<i32>(1, 0), vec2<i32>(0, 1), vec2<i32>(1, 1),
-        vec2<i32>(-1, 0), vec2<i32>(-1, 1), vec2<i32>(2, 0), vec2<i32>(2, 1),
-        vec2<i32>(0, -1), vec2<i32>(1, -1), vec2<i32>(0, 2), vec2<i32>(1, 2),
-        vec2<i32>(-1, -1), vec2<i32>(2, -1), vec2<i32>(-1, 2), vec2<i32>(2, 2),
-    );
-    return steps[min(k, 15u)];
+    if k < 4u {
+        return vec2<i32>(i32(k & 1u), i32(k >> 1u));
+    }
+    // The rows above and below, then the columns beside.
+    let j = i32(k) - 4;
+    if j < 8 {
+        return vec2<i32>(j % 4 - 1, select(-1, 2, j >= 4));
+    }
+    return vec2<i32>(select(-1, 2, j >= 10), (j - 8) % 2);
 }
 
 // Linear between the four; `part` is where the place lies between them.
