@@ -228,7 +228,8 @@ pub(crate) fn draw_mesh(
     Ok((average_down(&pixels, large), facts))
 }
 
-/// The exposure that brings all but the brightest hundredth of a first picture below [`BRIGHT`].
+/// The exposure that brings all but the brightest parts of a first picture below middle values: light materials keep their
+/// colours.
 pub(crate) fn chosen_exposure(
     gpu: &Gpu,
     renderer: &Renderer,
@@ -238,6 +239,7 @@ pub(crate) fn chosen_exposure(
 ) -> anyhow::Result<f32> {
     // So dark that nothing is compressed, which is then undone.
     const DARK: f32 = 0.05;
+    const MIDDLE: f32 = 0.5;
     let mut dark = scene.clone();
     dark.view.exposure = DARK;
     let picture = renderer.picture(gpu, frame, &prepared.model(), &dark)?;
@@ -248,7 +250,7 @@ pub(crate) fn chosen_exposure(
         .collect();
     values.sort_by(f32::total_cmp);
     let bright = values.get(values.len() * 97 / 100).copied().unwrap_or(0.0);
-    Ok(if bright > 0.0 { DARK * BRIGHT / bright } else { 1.0 })
+    Ok(if bright > 0.0 { DARK * MIDDLE / bright } else { 1.0 })
 }
 
 /// Repeats texture coordinates so that the material has its own size on average, a whole number of times.

@@ -89,6 +89,7 @@ enum Api {
 }
 
 /// What other threads tell the window.
+#[allow(clippy::large_enum_variant, reason = "a few in flight at a time")]
 enum Notice {
     Computed(Answer),
     /// Of the device of this number.
