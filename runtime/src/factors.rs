@@ -35,7 +35,9 @@ impl PatchLayers {
         for (mut pixels, layer) in layers.into_iter().zip(0..) {
             let mut side = size;
             for level in 0..levels {
-                let texels = pixels.iter().flat_map(|[r, g, b]| [*r, *g, *b, 1.0]);
+                // Half floats hold no more.
+                let clamped = |value: f32| value.clamp(-65_504.0, 65_504.0);
+                let texels = pixels.iter().flat_map(|[r, g, b]| [*r, *g, *b, 1.0].map(clamped));
                 let texels: Vec<u16> = texels.map(|value| f16::from_f32(value).to_bits()).collect();
                 gpu.checked(|| gpu.fill_level(&surface.texture, layer, level, bytemuck::cast_slice(&texels)))?;
                 (pixels, side) = halved(&pixels, side);

@@ -4,7 +4,7 @@ use subsurf_shaders::{Storage, source, uniform};
 use wgpu::{BindingResource, TextureFormat, TextureView};
 
 use crate::context::Gpu;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::material::{Material, slots};
 use crate::pass::{CoverPass, Rows};
 use crate::resource::{Slot, Surface2d, TextureSpec};
@@ -64,6 +64,7 @@ impl PatchRenderer {
     /// [`crate::Error::Device`].
     pub fn gather(&self, gpu: &Gpu, material: &Material, light: &PatchLight, region: Region) -> Result<Exitance> {
         material.expect(self.storage)?;
+        light.expect([material.header().width, material.header().height])?;
         let spec = TextureSpec::target("exitance", region.size, TextureFormat::Rgba16Float);
         let surface = gpu.texture(&spec)?;
         let view = gpu.uniform("view", &uniform::View { origin: region.origin, pad: [0; 2] });
@@ -106,6 +107,15 @@ impl PatchLight {
 
     pub(crate) fn view(&self) -> &TextureView {
         &self.0.view
+    }
+
+    /// Refuses light of another size than the patch: texels beyond it are not there.
+    pub(crate) fn expect(&self, size: [u32; 2]) -> Result<()> {
+        let have = [self.0.texture.width(), self.0.texture.height()];
+        if have == size {
+            return Ok(());
+        }
+        Err(Error::Device(format!("light for a patch of {have:?} pixels, the material has {size:?}")))
     }
 }
 

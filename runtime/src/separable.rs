@@ -60,6 +60,7 @@ impl SeparableRenderer {
         }
         let header = material.header();
         let size = [header.width, header.height];
+        light.expect(size)?;
         let domain = gpu.uniform("patch", &PatchDomain::new(header));
         let cascade = Cascade::new(gpu, &self.blur, material, &domain, size)?;
         let texture = BindingResource::TextureView;
@@ -130,6 +131,7 @@ impl HomogeneousRenderer {
         light: &PatchLight,
     ) -> Result<HomogeneousPatch> {
         let size = [header.width, header.height];
+        light.expect(size)?;
         let domain = gpu.uniform("patch", &PatchDomain::new(header));
         let [rows, columns] = Kernel::new(kernel).map(|block| gpu.uniform("kernel", &block));
         let between = gpu.texture(&TextureSpec::target("between rows and columns", size, MAP))?;

@@ -1,5 +1,7 @@
 // Share of unpolarised light that passes from air into a dielectric of index eta at an angle of incidence.
-fn fresnel_transmittance(cos_i: f32, eta: f32) -> f32 {
+fn fresnel_transmittance(cosine: f32, eta: f32) -> f32 {
+    // Along the surface, without a boundary, it would be 0 / 0.
+    let cos_i = max(cosine, 1e-3);
     let sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
     let cos_t = sqrt(1.0 - sin2_t);
     let parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);

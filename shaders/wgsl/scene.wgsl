@@ -55,6 +55,9 @@ struct Scene {
 
 @group(0) @binding(0) var<uniform> scene: Scene;
 
+// Half floats hold little more; beyond they are infinite, and infinity times nothing is no number.
+const BRIGHTEST: vec3<f32> = vec3<f32>(60000.0);
+
 // Light of one source at a point.
 struct Incident {
     // Unit vector.

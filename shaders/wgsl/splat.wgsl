@@ -76,9 +76,10 @@ fn patch_texel(place: vec2<f32>) -> vec2<u32> {
     // Made positive first: GLSL's remainder of negative numbers is another one.
     let m = (x + 4 * period) % period;
     if material.addressing == 1u {
-        return vec2<u32>(m);
+        return min(vec2<u32>(m), material.size - 1u);
     }
-    return vec2<u32>(min(m, period - 1 - m));
+    // What is no number may be anywhere: clamped once more.
+    return min(vec2<u32>(min(m, period - 1 - m)), material.size - 1u);
 }
 
 @vertex
@@ -96,11 +97,12 @@ fn spread(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance:
     } else {
         wanted = wanted && is_smooth(texel, splat_of.level, texel_mm);
     }
-    if !wanted {
-        return Sample(vec4<f32>(2.0, 2.0, 2.0, 1.0), vec3<f32>(0.0), vec3<f32>(0.0), vec2<f32>(0.0), 0.0);
-    }
     let centre = splat_of.clip_from_centre * vec4<f32>(position.xyz, 1.0);
     let radius = min(splat_of.fade_out.y, material.r_max_mm);
+    // Nothing that is behind the eye can be seen.
+    if !wanted || centre.w < -radius {
+        return Sample(vec4<f32>(2.0, 2.0, 2.0, 1.0), vec3<f32>(0.0), vec3<f32>(0.0), vec2<f32>(0.0), 0.0);
+    }
     // A sphere of that radius, seen in perspective; close to the eye it may be everywhere.
     let distance = max(centre.w - radius, 0.02 * radius);
     let half_size = splat_of.focal * radius / distance;
@@ -139,5 +141,6 @@ fn splat(in: Sample) -> @location(0) vec4<f32> {
     let o = load_pixel(patch_texel(textureLoad(places, texel, 0).xy));
     let i = load_pixel(patch_texel(in.place));
     let rd = reflectance(i, partner_at(o, softened_mm), vec2<i32>(0));
-    return vec4<f32>(rd * in.flux * share, 0.0);
+    // Half floats hold little more.
+    return vec4<f32>(min(rd * in.flux * share, vec3<f32>(60000.0)), 0.0);
 }

@@ -46,7 +46,7 @@ fn come_through(i: u32, position_mm: vec3<f32>) -> array<vec3<f32>, TERMS> {
         let step = vec2<i32>(k % 3 - 1, k / 3 - 1);
         let texel = seen_texel(vec2<i32>(floor(sight.texel + vec2<f32>(step) * spread)));
         let flux = textureLoad(seen_fluxes, texel, i, 0);
-        let d = max(depth - textureLoad(seen_positions, texel, i, 0).w, 0.0);
+        let d = abs(depth - textureLoad(seen_positions, texel, i, 0).w);
         let place = textureLoad(seen_places, texel, i, 0).xy;
         // Binomial weights. Nothing was seen there if the fourth value is 0.
         let e = flux.xyz * flux.w * f32((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;

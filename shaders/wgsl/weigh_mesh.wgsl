@@ -26,7 +26,7 @@ fn weigh(in: Varying) -> MapsAndSums {
     }
     var maps: array<vec4<f32>, TERMS>;
     for (var l = 0u; l < TERMS; l++) {
-        maps[l] = vec4<f32>(c[l] * e, depth);
+        maps[l] = vec4<f32>(min(c[l] * e, BRIGHTEST), depth);
         sums[l].w = depth;
     }
     return maps_and_sums_of(maps, sums);

@@ -354,5 +354,7 @@ fn a_device_of_the_callers_own_draws_the_same() {
     let theirs = Gpu::from_device(ours.device().clone(), ours.queue().clone(), ours.info().clone());
     let draw = |gpu: &Gpu| Loaded::new(gpu, Way::Separable, &file, &mesh).picture(gpu, &scene, SIZE);
     assert!(draw(&ours) == draw(&theirs), "the same picture");
+    let kept = Loaded::new(&ours, Way::Separable, &file, &mesh);
+    assert!(ours.ledger().bytes() > 0, "{:?} is there", kept.path());
     assert_eq!(theirs.ledger().bytes(), 0, "each has a ledger of its own");
 }

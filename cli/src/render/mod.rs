@@ -151,6 +151,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     {
         return Err(bad_request(format!("--exposure is {exposure}; it must be positive")));
     }
+    if !(0.0..=1.0).contains(&args.roughness) {
+        return Err(bad_request(format!("--roughness is {}; it must be between 0 and 1", args.roughness)));
+    }
     let bytes = read_file(&args.file)?;
     let material = parse(&args.file, &bytes)?;
     let gpu = args.backend.open()?;

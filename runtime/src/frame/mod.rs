@@ -26,6 +26,7 @@ use crate::scene::{REFLECTION_LEVELS, REFLECTION_SIZE, Scene};
 use light_views::LightViews;
 
 pub use gather::GpuPoints;
+use plan::LEAST_LIGHT_TEXELS;
 pub use plan::Plan;
 
 /// How light scatters.
@@ -48,7 +49,7 @@ pub struct RuntimeOptions {
     pub format: TextureFormat,
     /// Samples to a pixel, 1 or 4.
     pub samples: u32,
-    /// Texels to a side of what each light sees.
+    /// Texels to a side of what each light sees: a power of two, at least 128.
     pub light_texels: u32,
     /// Behind the mesh, as the target takes it.
     pub background: Color,
@@ -163,7 +164,12 @@ impl Renderer {
     /// # Errors
     /// [`crate::Error::Device`] if the driver refuses them; captures are not drawn on meshes.
     pub fn new(gpu: &Gpu, path: Path, options: RuntimeOptions) -> Result<Self> {
-        let RuntimeOptions { format, samples, .. } = options;
+        let RuntimeOptions { format, samples, light_texels, .. } = options;
+        if !light_texels.is_power_of_two() || light_texels < LEAST_LIGHT_TEXELS {
+            return Err(crate::Error::Device(format!(
+                "light_texels is {light_texels}; it must be a power of two, at least {LEAST_LIGHT_TEXELS}"
+            )));
+        }
         let passes = match path {
             Path::Gather(storage) => Passes::Gather(gather::Passes::new(gpu, storage, format, samples)?),
             Path::Splat(storage) => Passes::Splat(splat::Passes::new(gpu, storage, format, samples)?),
@@ -172,7 +178,7 @@ impl Renderer {
         Ok(Self { options, light_view: light_views::pass(gpu)?, passes })
     }
 
-    /// Makes room for pictures of `size` of a model, within the budget: views of lights, samples and maps become coarser
+    /// Makes room for pictures of `size` of a model, within the budget: views of lights and maps become coarser
     /// until everything fits.
     ///
     /// # Errors
@@ -300,7 +306,9 @@ impl Renderer {
     fn update(&self, gpu: &Gpu, frame: &mut Frame, model: &Model<'_>, scene: &Scene) -> Result<()> {
         let mesh = model.mesh();
         let plan = frame.plan;
-        let block = scene.block(&mesh.outline, plan.size, plan.light_texels);
+        let mut block = scene.block(&mesh.outline, plan.size, plan.light_texels);
+        // Lights that came after the frame was prepared have no view: they shine once it is prepared anew.
+        block.lights = block.lights.min(plan.lights);
         gpu.queue.write_buffer(&frame.common.block, 0, bytemuck::bytes_of(&block));
         frame.common.show(gpu, scene)?;
         match (&mut frame.buffers, &self.passes, model) {
@@ -388,7 +396,8 @@ fn divisor(scene: &Scene, model: &Model<'_>, size: [u32; 2], light_texels: u32) 
             let narrowest = material.narrowest_pixels() * outline.header.pitch_mm * pixels_per_mm;
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
             let divisor = (narrowest / NARROWEST_TEXELS).clamp(1.0, 4.0) as u32;
-            divisor
+            // Of what is no number nothing is left.
+            divisor.max(1)
         }
     }
 }

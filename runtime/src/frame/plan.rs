@@ -25,7 +25,7 @@ pub struct Plan {
 const HALF4: u64 = 8;
 /// Coarsest maps and views that still look like the scene.
 const LARGEST_DIVISOR: u32 = 4;
-const LEAST_LIGHT_TEXELS: u32 = 128;
+pub(crate) const LEAST_LIGHT_TEXELS: u32 = 128;
 
 impl Plan {
     /// Texels of the maps.
@@ -43,9 +43,9 @@ impl Plan {
 
     /// Bytes of depth and samples of the picture.
     pub(crate) fn picture_bytes(&self, format: TextureFormat) -> u64 {
-        let pixels = u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(self.samples);
+        let pixels = u64::from(self.size[0]).saturating_mul(self.size[1].into()).saturating_mul(self.samples.into());
         let coloured = if self.samples > 1 { bytes_of(format) } else { 0 };
-        pixels * (bytes_of(DEPTH) + coloured)
+        pixels.saturating_mul(bytes_of(DEPTH) + coloured)
     }
 
     /// The next cheaper plan, if there is one.

@@ -1,5 +1,6 @@
 //! The separable path on the screen: weighted irradiance where the eye sees the mesh, blurred by distances in space.
 
+use subsurf_shaders::separable::MAX_TERMS;
 use subsurf_shaders::source::{self, Domain, Encoding};
 use subsurf_shaders::uniform::{ScreenDomain, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoder, TextureFormat, TextureUsages};
@@ -9,7 +10,7 @@ use super::plan::Plan;
 use super::{COMMON, Common, Lap};
 use crate::cascade::{BlurPasses, Cascade, MAP};
 use crate::context::Gpu;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::factors::SeparableMaterial;
 use crate::ledger::Tracked;
 use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
@@ -38,6 +39,9 @@ pub(crate) struct Buffers {
 
 impl Passes {
     pub(crate) fn new(gpu: &Gpu, terms: usize, format: TextureFormat, samples: u32) -> Result<Self> {
+        if !(1..=MAX_TERMS).contains(&terms) {
+            return Err(Error::Device(format!("L = {terms}; factors have 1 to {MAX_TERMS} terms")));
+        }
         let encoding = if format.is_srgb() { Encoding::There } else { Encoding::Here };
         let through = [Slot::FilteredLayers, Slot::Sampler, Slot::Uniform, Slot::FloatLayers, Slot::FloatLayers];
         let of_weigh: [&[Slot]; 2] = [&COMMON[..2], &through];
@@ -67,6 +71,10 @@ impl Buffers {
         lights: &LightViews,
         plan: &Plan,
     ) -> Result<Self> {
+        if material.terms() != passes.terms {
+            let (have, want) = (material.terms(), passes.terms);
+            return Err(Error::Device(format!("this renderer draws L = {want}, the material has L = {have}")));
+        }
         let size = plan.map_size();
         let domain = gpu.uniform("screen", &ScreenDomain::default());
         let cascade = Cascade::new(gpu, &passes.blur, material, &domain, size)?;

@@ -14,7 +14,7 @@ use super::light_views::{FAR, LightViews};
 use super::plan::Plan;
 use super::{COMMON, Common, Lap};
 use crate::context::Gpu;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::factors::SplatMaterial;
 use crate::ledger::Tracked;
 use crate::material::{layers_of_level, slots};
@@ -35,6 +35,7 @@ const TEXELS_PER_SAMPLE: f32 = 2.0;
 /// Its pipelines.
 #[derive(Debug)]
 pub(crate) struct Passes {
+    storage: Storage,
     view: MeshPass,
     reduce: CoverPass,
     splat: CoverPass,
@@ -64,7 +65,7 @@ impl Levels {
         let reach = outline.header.r_max_mm / (RING * first_mm);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
         let rings = (reach.log2().ceil() + 1.0).clamp(1.0, MAX_RINGS as f32) as u32;
-        Self { first, rings: rings.min((light_texels.ilog2() - first).max(1)) }
+        Self { first, rings: rings.min(light_texels.ilog2().saturating_sub(first).max(1)) }
     }
 
     /// Levels that lights' views have.
@@ -80,7 +81,8 @@ pub(crate) fn divisor(outline: &Outline, light_texels: u32, pixels_per_mm: f32) 
     let sample_mm = 2.0 * outline.radius_mm / light_texels as f32 * (1_u32 << levels.first) as f32;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
     let divisor = (sample_mm * pixels_per_mm / TEXELS_PER_SAMPLE).clamp(1.0, 8.0) as u32;
-    divisor
+    // Of what is no number nothing is left.
+    divisor.max(1)
 }
 
 /// Its buffers, for one size of picture.
@@ -129,6 +131,9 @@ struct Draw {
 
 impl Passes {
     pub(crate) fn new(gpu: &Gpu, storage: Storage, format: TextureFormat, samples: u32) -> Result<Self> {
+        if storage == Storage::Capture {
+            return Err(Error::Device("captures are drawn flat, not on meshes".to_owned()));
+        }
         let encoding = if format.is_srgb() { Encoding::There } else { Encoding::Here };
         let of_view: [&[Slot]; 2] = [&[Slot::Uniform], &[Slot::FilteredLayers, Slot::Sampler]];
         let of_reduce = [Slot::Uniform, Slot::FloatLayers, Slot::FloatLayers, Slot::FloatLayers];
@@ -140,6 +145,7 @@ impl Passes {
         let splat = source::splat(storage);
         let shade = source::shade_splats(encoding);
         Ok(Self {
+            storage,
             view: MeshPass::new(gpu, source::SURFACE_VIEW, "view", &of_view, &[HALF; 3], 1)?,
             reduce: CoverPass::new(gpu, source::REDUCE, "reduce", &[&of_reduce], &[HALF; 3])?,
             splat: CoverPass::adding_squares(gpu, splat, "splat", &[slots(storage), &of_splat], &[HALF])?,
@@ -173,6 +179,7 @@ impl Buffers {
         plan: &Plan,
         outline: &Outline,
     ) -> Result<Self> {
+        material.planes.expect(passes.storage)?;
         let levels = Levels::new(outline, plan.light_texels);
         let size = plan.map_size();
         let target = |label, size| gpu.texture(&TextureSpec::target(label, size, HALF));
