@@ -7,6 +7,8 @@ use super::radial::Radial;
 use super::{Detail, Factors, MAX_TERMS};
 use crate::cpu::{Rgb, gather, separable};
 
+/// Columns of the patch that are compared.
+const COLUMNS: usize = 16;
 /// From cheap to dear.
 const DETAILS: [[usize; 2]; 6] = [[1, 3], [1, 4], [2, 3], [2, 4], [2, 5], [2, 6]];
 
@@ -18,8 +20,10 @@ impl Factors {
     #[must_use]
     pub fn within(material: &Bssrdf<'_>, least_db: f32) -> Self {
         let header = *material.header();
-        // A row of light is as rare on columns as on the patch.
-        let columns = [1, 3, 5, 7].map(|k| k * header.width / 8);
+        // A row of light is as rare on columns as on the patch. By the golden ratio: no pattern keeps step with them.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the width")]
+        let column = |k: u8| ((f64::from(k) * 0.618_034).fract() * f64::from(header.width)) as u32;
+        let columns: [u32; COLUMNS] = std::array::from_fn(|k| column(u8::try_from(k).unwrap_or(0)));
         let trials: Vec<(Vec<Rgb>, Vec<Rgb>)> = lights(&header)
             .map(|light| {
                 let gathered = columns.iter().map(|&column| gather(material, &light, [column, 0], [1, header.height]));
