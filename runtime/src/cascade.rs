@@ -1,7 +1,7 @@
 //! Weighted irradiance maps, and the cascade of Gaussians over them.
 
 use subsurf_shaders::source::{self, Domain};
-use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoder, TextureFormat, TextureView};
+use wgpu::{BindGroup, BindingResource, CommandEncoder, TextureFormat, TextureView};
 
 use crate::context::Gpu;
 use crate::error::Result;
@@ -54,8 +54,12 @@ pub(crate) struct BlurPasses {
 
 impl BlurPasses {
     pub(crate) fn new(gpu: &Gpu, domain: Domain, terms: usize) -> Result<Self> {
-        let of_rows = [Slot::Uniform, Slot::Uniform, Slot::FloatLayers];
-        let of_columns = [Slot::Uniform, Slot::Uniform, Slot::FloatLayers, Slot::FloatLayers];
+        let of_domain = match domain {
+            Domain::Patch => Slot::Nearest,
+            Domain::Screen => Slot::Uniform,
+        };
+        let of_rows = [Slot::Uniform, of_domain, Slot::FloatLayers];
+        let of_columns = [Slot::Uniform, of_domain, Slot::FloatLayers, Slot::FloatLayers];
         let targets = vec![MAP; 2 * terms];
         Ok(Self {
             terms,
@@ -77,11 +81,12 @@ pub(crate) struct Cascade {
 }
 
 impl Cascade {
+    /// `domain` is what [`Domain`] wants bound: the block of the screen, or a sampler that wraps as the patch does.
     pub(crate) fn new(
         gpu: &Gpu,
         passes: &BlurPasses,
         material: &SeparableMaterial,
-        domain: &Buffer,
+        domain: &BindingResource<'_>,
         size: [u32; 2],
     ) -> Result<Self> {
         let map = |label| Maps::new(gpu, label, size, passes.terms);
@@ -89,9 +94,9 @@ impl Cascade {
         let sums = [map("sums of stages")?, map("sums of stages, by turns")?];
         let texture = BindingResource::TextureView;
         let groups = material.stages().iter().enumerate().map(|(a, [rows, columns])| {
-            let of_rows = [rows.as_entire_binding(), domain.as_entire_binding(), texture(&maps[0].all)];
+            let of_rows = [rows.as_entire_binding(), domain.clone(), texture(&maps[0].all)];
             let so_far = texture(&sums[(a + 1) % 2].all);
-            let of_columns = [columns.as_entire_binding(), domain.as_entire_binding(), texture(&maps[1].all), so_far];
+            let of_columns = [columns.as_entire_binding(), domain.clone(), texture(&maps[1].all), so_far];
             Ok([passes.rows.bind(gpu, 0, &of_rows)?, passes.columns.bind(gpu, 0, &of_columns)?])
         });
         let groups = groups.collect::<Result<_>>()?;
@@ -117,15 +122,37 @@ impl Cascade {
         &self.sums[(self.groups.len() + 1) % 2]
     }
 
-    /// Blurs what stands in the first maps, stage by stage.
-    pub(crate) fn record(&self, encoder: &mut CommandEncoder, passes: &BlurPasses) {
+    /// S_m before the last stage.
+    pub(crate) fn sums_before_last(&self) -> &Maps {
+        &self.sums[self.groups.len() % 2]
+    }
+
+    /// Blurs stage by stage, from the first maps to the sums; or from where `ends` begin to where they end.
+    pub(crate) fn record(&self, encoder: &mut CommandEncoder, passes: &BlurPasses, ends: Option<Ends<'_>>) {
         let [maps, between] = &self.maps;
         let all = Rows::all(self.size);
-        for (a, [rows, columns]) in self.groups.iter().enumerate() {
+        let last = self.groups.len() - 1;
+        for (a, [of_rows, of_columns]) in self.groups.iter().enumerate() {
             let to: Vec<&TextureView> = between.layers.iter().collect();
-            passes.rows.record(encoder, &to, &[rows], all);
+            match ends {
+                Some(Ends { first: (rows, of_rows), .. }) if a == 0 => rows.record(encoder, &to, &[of_rows], all),
+                _ => passes.rows.record(encoder, &to, &[of_rows], all),
+            }
             let to: Vec<&TextureView> = maps.layers.iter().chain(&self.sums[a % 2].layers).collect();
-            passes.columns.record(encoder, &to, &[columns], all);
+            match ends {
+                Some(Ends { last: (columns, of_columns), target, .. }) if a == last => {
+                    columns.record(encoder, &[target], &[of_columns], all);
+                }
+                _ => passes.columns.record(encoder, &to, &[of_columns], all),
+            }
         }
     }
+}
+
+/// What takes the place of the first pass and of the last one: passes, what is bound to them, and what is drawn to.
+#[derive(Clone, Copy)]
+pub(crate) struct Ends<'a> {
+    pub(crate) first: (&'a CoverPass, &'a BindGroup),
+    pub(crate) last: (&'a CoverPass, &'a BindGroup),
+    pub(crate) target: &'a TextureView,
 }

@@ -9,7 +9,7 @@ use subsurf_shaders::uniform;
 use wgpu::{AddressMode, Buffer, FilterMode, MipmapFilterMode, Sampler, SamplerDescriptor, TextureFormat, TextureView};
 
 use crate::context::Gpu;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::ledger::Tracked;
 use crate::material::{Material, layers_of};
 use crate::resource::{Surface2d, TextureSpec};
@@ -69,7 +69,7 @@ impl SplatMaterial {
     /// Uploads the planes of a file as they stand in it, and the albedo that its factors give.
     ///
     /// # Errors
-    /// [`crate::Error::Unsupported`] if the device takes no texture of that size.
+    /// [`Error::Unsupported`] if the device takes no texture of that size.
     pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>, factors: &Factors) -> Result<Self> {
         Ok(Self {
             planes: Material::upload(gpu, material)?,
@@ -108,11 +108,14 @@ impl SeparableMaterial {
     /// Uploads factors as half floats.
     ///
     /// # Errors
-    /// [`crate::Error::Unsupported`] if the device takes no texture of that size.
+    /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if there is no Gaussian.
     pub fn upload(gpu: &Gpu, factors: &Factors) -> Result<Self> {
         let terms = factors.detail.terms;
         let layers = (0..terms).map(|l| factors.coefficients_of(l).to_vec()).chain([albedo(factors)]);
         let stages = uniform::Stage::cascade(factors);
+        if stages.is_empty() {
+            return Err(Error::Device("factors without a Gaussian; a cascade has at least one".to_owned()));
+        }
         Ok(Self {
             header: factors.header,
             terms,
@@ -133,6 +136,14 @@ impl SeparableMaterial {
     #[must_use]
     pub fn terms(&self) -> usize {
         self.terms
+    }
+
+    /// Refuses passes for another number of terms.
+    pub(crate) fn expect(&self, terms: usize) -> Result<()> {
+        if self.terms == terms {
+            return Ok(());
+        }
+        Err(Error::Device(format!("this renderer draws L = {terms}, the material has L = {}", self.terms)))
     }
 
     /// Bytes on the device.

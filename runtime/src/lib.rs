@@ -12,6 +12,7 @@ mod material;
 mod mesh;
 mod pass;
 mod patch;
+mod pipeline;
 mod resource;
 pub mod scene;
 mod separable;

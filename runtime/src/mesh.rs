@@ -2,17 +2,15 @@
 
 use glam::{Vec2, Vec3};
 use wgpu::{
-    BindGroup, BindGroupLayout, BindingResource, Buffer, BufferUsages, Color, ColorTargetState, CommandEncoder,
-    CompareFunction, DepthStencilState, FragmentState, IndexFormat, LoadOp, MultisampleState, Operations,
-    PipelineLayoutDescriptor, PrimitiveState, RenderPassColorAttachment, RenderPassDepthStencilAttachment,
-    RenderPassDescriptor, RenderPipeline, RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp,
-    TextureFormat, TextureView, VertexBufferLayout, VertexState, VertexStepMode, vertex_attr_array,
+    BindGroup, BindingResource, Buffer, BufferUsages, Color, CommandEncoder, CompareFunction, DepthStencilState,
+    IndexFormat, LoadOp, MultisampleState, RenderPassColorAttachment, TextureFormat, TextureView, VertexBufferLayout,
+    VertexStepMode, vertex_attr_array,
 };
 
 use crate::context::Gpu;
 use crate::error::{Error, Result};
 use crate::ledger::Tracked;
-use crate::pass::{attachment, bind, bind_group_layouts};
+use crate::pipeline::{Drawing, Pipeline, Program, attachment};
 use crate::resource::Slot;
 use crate::scene::{Mapping, Mesh, Outline, SkyShare};
 
@@ -109,16 +107,20 @@ impl GpuMesh {
 
 /// A pass that draws meshes.
 #[derive(Debug)]
-pub(crate) struct MeshPass {
-    pipeline: RenderPipeline,
-    groups: Vec<BindGroupLayout>,
-}
+pub(crate) struct MeshPass(Pipeline);
 
 /// A colour target of a pass, and what is there before; drawn to with several samples, `resolved` gets their mean.
 pub(crate) struct Target<'a> {
     pub(crate) view: &'a TextureView,
     pub(crate) clear: Color,
     pub(crate) resolved: Option<&'a TextureView>,
+}
+
+impl<'a> Target<'a> {
+    fn cleared(&self) -> RenderPassColorAttachment<'a> {
+        let plain = attachment(self.view, LoadOp::Clear(self.clear));
+        RenderPassColorAttachment { resolve_target: self.resolved, ..plain }
+    }
 }
 
 impl MeshPass {
@@ -131,58 +133,31 @@ impl MeshPass {
         targets: &[TextureFormat],
         samples: u32,
     ) -> Result<Self> {
-        gpu.checked(|| {
-            let groups = bind_group_layouts(gpu, groups);
-            let module = gpu.device.create_shader_module(ShaderModuleDescriptor {
-                label: Some(fragment),
-                source: ShaderSource::Wgsl(shader.into()),
-            });
-            let bind_group_layouts: Vec<Option<&BindGroupLayout>> = groups.iter().map(Some).collect();
-            let layout = gpu.device.create_pipeline_layout(&PipelineLayoutDescriptor {
-                label: Some(fragment),
-                bind_group_layouts: &bind_group_layouts,
-                immediate_size: 0,
-            });
-            let targets: Vec<Option<ColorTargetState>> = targets.iter().map(|format| Some((*format).into())).collect();
-            let attributes = vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32, 4 => Unorm8x4, 5 => Unorm8x4];
-            let pipeline = gpu.device.create_render_pipeline(&RenderPipelineDescriptor {
-                label: Some(fragment),
-                layout: Some(&layout),
-                vertex: VertexState {
-                    module: &module,
-                    entry_point: Some("project"),
-                    compilation_options: Default::default(),
-                    buffers: &[Some(VertexBufferLayout {
-                        array_stride: size_of::<Vertex>() as u64,
-                        step_mode: VertexStepMode::Vertex,
-                        attributes: &attributes,
-                    })],
-                },
-                primitive: PrimitiveState::default(),
-                depth_stencil: Some(DepthStencilState {
-                    format: DEPTH,
-                    depth_write_enabled: Some(true),
-                    depth_compare: Some(CompareFunction::Less),
-                    stencil: Default::default(),
-                    bias: Default::default(),
-                }),
-                multisample: MultisampleState { count: samples, ..Default::default() },
-                fragment: Some(FragmentState {
-                    module: &module,
-                    entry_point: Some(fragment),
-                    compilation_options: Default::default(),
-                    targets: &targets,
-                }),
-                multiview_mask: None,
-                cache: None,
-            });
-            Self { pipeline, groups }
-        })
+        let program = Program { shader, vertex: "project", fragment, groups, targets };
+        let drawing = Drawing {
+            vertices: Some(VertexBufferLayout {
+                array_stride: size_of::<Vertex>() as u64,
+                step_mode: VertexStepMode::Vertex,
+                attributes: &vertex_attr_array![
+                    0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32, 4 => Unorm8x4, 5 => Unorm8x4
+                ],
+            }),
+            depth: Some(DepthStencilState {
+                format: DEPTH,
+                depth_write_enabled: Some(true),
+                depth_compare: Some(CompareFunction::Less),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: MultisampleState { count: samples, ..Default::default() },
+            ..Default::default()
+        };
+        Ok(Self(Pipeline::new(gpu, &program, drawing)?))
     }
 
     /// Binds resources, in order, to bind group number `group`.
     pub(crate) fn bind(&self, gpu: &Gpu, group: usize, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
-        bind(gpu, &self.groups[group], resources)
+        self.0.bind(gpu, group, resources)
     }
 
     /// Draws a mesh.
@@ -194,29 +169,8 @@ impl MeshPass {
         groups: &[&BindGroup],
         mesh: &GpuMesh,
     ) {
-        let attachments: Vec<_> = targets
-            .iter()
-            .map(|target| {
-                let plain = attachment(target.view, LoadOp::Clear(target.clear));
-                Some(RenderPassColorAttachment { resolve_target: target.resolved, ..plain })
-            })
-            .collect();
-        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
-            label: None,
-            color_attachments: &attachments,
-            depth_stencil_attachment: Some(RenderPassDepthStencilAttachment {
-                view: depth,
-                depth_ops: Some(Operations { load: LoadOp::Clear(1.0), store: StoreOp::Discard }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: None,
-            occlusion_query_set: None,
-            multiview_mask: None,
-        });
-        pass.set_pipeline(&self.pipeline);
-        for (group, index) in groups.iter().zip(0..) {
-            pass.set_bind_group(index, *group, &[]);
-        }
+        let attachments: Vec<_> = targets.iter().map(|target| Some(target.cleared())).collect();
+        let mut pass = self.0.begin(encoder, &attachments, Some(depth), groups);
         pass.set_vertex_buffer(0, mesh.vertices.slice(..));
         pass.set_index_buffer(mesh.indices.slice(..), IndexFormat::Uint32);
         pass.draw_indexed(0..mesh.index_count, 0, 0..1);

@@ -47,7 +47,12 @@ impl TextureSpec {
     /// A texture that shaders write and read, and that can be read back.
     pub(crate) fn target(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
-        Self { label, size, layers: 1, levels: 1, samples: 1, format, usage }
+        Self { usage, ..Self::table(label, size, format) }
+    }
+
+    /// A texture that is only drawn to.
+    pub(crate) fn attachment(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
+        Self { usage: TextureUsages::RENDER_ATTACHMENT, ..Self::table(label, size, format) }
     }
 
     /// Layers of a table, at least as many as asked for.
@@ -276,6 +281,8 @@ pub(crate) enum Slot {
     FilteredLayers,
     /// What filters them.
     Sampler,
+    /// One that does not filter: textures are looked up at texels, and wrapped.
+    Nearest,
     /// An unsigned integer texture.
     Uint,
     /// Layers of one.
@@ -304,6 +311,7 @@ pub(crate) fn layout_entries(slots: &[Slot]) -> Vec<BindGroupLayoutEntry> {
                 Slot::Filtered => texture(filtered, TextureViewDimension::D2),
                 Slot::FilteredLayers => texture(filtered, TextureViewDimension::D2Array),
                 Slot::Sampler => BindingType::Sampler(SamplerBindingType::Filtering),
+                Slot::Nearest => BindingType::Sampler(SamplerBindingType::NonFiltering),
                 Slot::Uint => texture(TextureSampleType::Uint, TextureViewDimension::D2),
                 Slot::UintLayers => texture(TextureSampleType::Uint, TextureViewDimension::D2Array),
             },

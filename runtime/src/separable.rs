@@ -1,13 +1,16 @@
-//! Draws a flat patch from its factors: weighted irradiance maps, a cascade of Gaussians, one sum.
+//! Draws a flat patch from its factors: a cascade of Gaussians from weighted irradiance to exitance.
 
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::{Addressing, Header};
 use subsurf_shaders::source::{self, Domain};
-use subsurf_shaders::uniform::{Kernel, PatchDomain};
-use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoderDescriptor, TextureFormat, TextureView};
+use subsurf_shaders::uniform::Kernel;
+use wgpu::{
+    AddressMode, BindGroup, BindingResource, Buffer, CommandEncoderDescriptor, Sampler, SamplerDescriptor,
+    TextureFormat, TextureView,
+};
 
-use crate::cascade::{BlurPasses, Cascade, MAP};
+use crate::cascade::{BlurPasses, Cascade, Ends, MAP};
 use crate::context::Gpu;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::factors::SeparableMaterial;
 use crate::pass::{CoverPass, Rows};
 use crate::patch::{Exitance, PatchLight};
@@ -17,19 +20,18 @@ use crate::resource::{Slot, Surface2d, TextureSpec};
 #[derive(Debug)]
 pub struct SeparableRenderer {
     terms: usize,
-    weigh: CoverPass,
+    first: CoverPass,
     blur: BlurPasses,
-    combine: CoverPass,
+    last: CoverPass,
 }
 
 /// A factorised patch under a light, ready to be drawn any number of times.
 #[derive(Debug)]
 pub struct SeparablePatch {
     cascade: Cascade,
-    weigh: BindGroup,
-    combine: BindGroup,
+    first: BindGroup,
+    last: BindGroup,
     exitance: Exitance,
-    size: [u32; 2],
 }
 
 impl SeparableRenderer {
@@ -38,56 +40,59 @@ impl SeparableRenderer {
     /// # Errors
     /// [`crate::Error::Device`] if the driver refuses them.
     pub fn new(gpu: &Gpu, terms: usize) -> Result<Self> {
-        let maps = vec![MAP; terms];
-        let of_weigh = [Slot::FilteredLayers, Slot::Float];
-        let of_combine = [Slot::FilteredLayers, Slot::FloatLayers];
+        let of_first = [Slot::Uniform, Slot::Nearest, Slot::FilteredLayers, Slot::Float];
+        let of_last = [Slot::Uniform, Slot::Nearest, Slot::FloatLayers, Slot::FloatLayers, Slot::FilteredLayers];
         Ok(Self {
             terms,
-            weigh: CoverPass::new(gpu, source::weigh(terms), "weigh", &[&of_weigh], &maps)?,
+            first: CoverPass::new(gpu, source::first_rows(terms), "blur", &[&of_first], &vec![MAP; terms])?,
             blur: BlurPasses::new(gpu, Domain::Patch, terms)?,
-            combine: CoverPass::new(gpu, source::combine(terms), "combine", &[&of_combine], &[MAP])?,
+            last: CoverPass::new(gpu, source::last_columns(terms), "blur", &[&of_last], &[MAP])?,
         })
     }
 
     /// Makes room for the maps of a patch.
     ///
     /// # Errors
-    /// [`Error::Device`] if the material has another number of terms, [`Error::Unsupported`] if it is too large.
+    /// [`crate::Error::Device`] if the material has another number of terms, [`crate::Error::Unsupported`] if it is too large.
     pub fn prepare(&self, gpu: &Gpu, material: &SeparableMaterial, light: &PatchLight) -> Result<SeparablePatch> {
-        if material.terms() != self.terms {
-            let (have, want) = (material.terms(), self.terms);
-            return Err(Error::Device(format!("this renderer draws L = {want}, the material has L = {have}")));
-        }
+        material.expect(self.terms)?;
         let header = material.header();
         let size = [header.width, header.height];
         light.expect(size)?;
-        let domain = gpu.uniform("patch", &PatchDomain::new(header));
-        let cascade = Cascade::new(gpu, &self.blur, material, &domain, size)?;
+        let nearest = nearest(gpu, header.addressing);
+        let nearest = BindingResource::Sampler(&nearest);
+        let cascade = Cascade::new(gpu, &self.blur, material, &nearest, size)?;
         let texture = BindingResource::TextureView;
-        let of_weigh = [texture(&material.layers.all), texture(light.view())];
-        let of_combine = [texture(&material.layers.all), texture(&cascade.sums().all)];
+        let [rows, _] = &material.stages()[0];
+        let [_, columns] = &material.stages()[material.stages().len() - 1];
+        let factors = texture(&material.layers.all);
+        let of_first = [rows.as_entire_binding(), nearest.clone(), factors.clone(), texture(light.view())];
+        let of_last = [
+            columns.as_entire_binding(),
+            nearest.clone(),
+            texture(&cascade.maps[1].all),
+            texture(&cascade.sums_before_last().all),
+            factors,
+        ];
         let surface = gpu.texture(&TextureSpec::target("exitance", size, TextureFormat::Rgba16Float))?;
         Ok(SeparablePatch {
-            weigh: self.weigh.bind(gpu, 0, &of_weigh)?,
-            combine: self.combine.bind(gpu, 0, &of_combine)?,
+            first: self.first.bind(gpu, 0, &of_first)?,
+            last: self.last.bind(gpu, 0, &of_last)?,
             cascade,
             exitance: Exitance::new(surface, size),
-            size,
         })
     }
 
     /// Exitance of the whole patch.
     ///
     /// # Errors
-    /// [`Error::Device`].
+    /// [`crate::Error::Device`].
     pub fn draw<'a>(&self, gpu: &Gpu, patch: &'a SeparablePatch) -> Result<&'a Exitance> {
-        let all = Rows::all(patch.size);
+        let ends =
+            Ends { first: (&self.first, &patch.first), last: (&self.last, &patch.last), target: patch.exitance.view() };
         gpu.checked(|| {
             let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-            let maps: Vec<&TextureView> = patch.cascade.maps[0].layers.iter().collect();
-            self.weigh.record(&mut encoder, &maps, &[&patch.weigh], all);
-            patch.cascade.record(&mut encoder, &self.blur);
-            self.combine.record(&mut encoder, &[patch.exitance.view()], &[&patch.combine], all);
+            patch.cascade.record(&mut encoder, &self.blur, Some(ends));
             gpu.queue.submit([encoder.finish()]);
         })?;
         Ok(&patch.exitance)
@@ -113,16 +118,16 @@ impl HomogeneousRenderer {
     /// Compiles the pass.
     ///
     /// # Errors
-    /// [`Error::Device`] if the driver refuses it.
+    /// [`crate::Error::Device`] if the driver refuses it.
     pub fn new(gpu: &Gpu) -> Result<Self> {
-        let slots = [Slot::Uniform, Slot::Uniform, Slot::Float];
+        let slots = [Slot::Uniform, Slot::Nearest, Slot::Float];
         Ok(Self { pass: CoverPass::new(gpu, source::HOMOGENEOUS, "homogeneous", &[&slots], &[MAP])? })
     }
 
     /// Makes room for a patch; `kernel` as [`subsurf_shaders::separable::mean_kernel`] has it.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if it is too large.
+    /// [`crate::Error::Unsupported`] if it is too large.
     pub fn prepare(
         &self,
         gpu: &Gpu,
@@ -132,12 +137,12 @@ impl HomogeneousRenderer {
     ) -> Result<HomogeneousPatch> {
         let size = [header.width, header.height];
         light.expect(size)?;
-        let domain = gpu.uniform("patch", &PatchDomain::new(header));
+        let nearest = nearest(gpu, header.addressing);
         let [rows, columns] = Kernel::new(kernel).map(|block| gpu.uniform("kernel", &block));
         let between = gpu.texture(&TextureSpec::target("between rows and columns", size, MAP))?;
         let bind = |block: &Buffer, image: &TextureView| {
             let image = BindingResource::TextureView(image);
-            self.pass.bind(gpu, 0, &[block.as_entire_binding(), domain.as_entire_binding(), image])
+            self.pass.bind(gpu, 0, &[block.as_entire_binding(), BindingResource::Sampler(&nearest), image])
         };
         let groups = [bind(&rows, light.view())?, bind(&columns, &between.view)?];
         let surface = gpu.texture(&TextureSpec::target("exitance", size, TextureFormat::Rgba16Float))?;
@@ -147,7 +152,7 @@ impl HomogeneousRenderer {
     /// Exitance of the whole patch.
     ///
     /// # Errors
-    /// [`Error::Device`].
+    /// [`crate::Error::Device`].
     pub fn draw<'a>(&self, gpu: &Gpu, patch: &'a HomogeneousPatch) -> Result<&'a Exitance> {
         let all = Rows::all(patch.size);
         gpu.checked(|| {
@@ -172,4 +177,19 @@ impl SeparablePatch {
     pub fn gpu_bytes(&self) -> u64 {
         self.cascade.bytes()
     }
+}
+
+/// Texels as they stand there; beyond the border as the patch says.
+fn nearest(gpu: &Gpu, addressing: Addressing) -> Sampler {
+    let mode = match addressing {
+        Addressing::Clamp => AddressMode::ClampToEdge,
+        Addressing::Repeat => AddressMode::Repeat,
+        Addressing::Mirror => AddressMode::MirrorRepeat,
+    };
+    gpu.device.create_sampler(&SamplerDescriptor {
+        label: Some("patch"),
+        address_mode_u: mode,
+        address_mode_v: mode,
+        ..Default::default()
+    })
 }

@@ -83,6 +83,7 @@ pub const LIGHT_VIEW: &str = concat!(
     include_str!("../wgsl/scene.wgsl"),
     include_str!("../wgsl/mapping.wgsl"),
     include_str!("../wgsl/light_depth.wgsl"),
+    include_str!("../wgsl/seen.wgsl"),
     include_str!("../wgsl/light_view.wgsl")
 );
 
@@ -94,12 +95,6 @@ macro_rules! with_terms {
             _ => concat!(include_str!("../wgsl/terms_2.wgsl"), $(include_str!(concat!("../wgsl/", $part))),+),
         }
     };
-}
-
-/// L weighted irradiance maps of a flat patch; entry points `cover` and `weigh`.
-#[must_use]
-pub const fn weigh(terms: usize) -> &'static str {
-    with_terms!(terms, "cover.wgsl", "weigh.wgsl")
 }
 
 /// Where maps lie that are blurred.
@@ -115,32 +110,48 @@ pub enum Domain {
 #[must_use]
 pub const fn blur_rows(domain: Domain, terms: usize) -> &'static str {
     match domain {
-        Domain::Patch => with_terms!(terms, "cover.wgsl", "on_patch.wgsl", "blur.wgsl", "blur_rows.wgsl"),
-        Domain::Screen => with_terms!(terms, "cover.wgsl", "on_screen.wgsl", "blur.wgsl", "blur_rows.wgsl"),
+        Domain::Patch => {
+            with_terms!(terms, "cover.wgsl", "on_patch.wgsl", "blur.wgsl", "from_stage.wgsl", "blur_rows.wgsl")
+        }
+        Domain::Screen => {
+            with_terms!(terms, "cover.wgsl", "on_screen.wgsl", "blur.wgsl", "blur_rows.wgsl")
+        }
     }
 }
 
-/// The same along columns, and the sum of the stages; entry points `cover` and `blur`.
+/// The first stage along rows of a flat patch, from its factors and the light on it; entry points `cover` and `blur`.
+#[must_use]
+pub const fn first_rows(terms: usize) -> &'static str {
+    with_terms!(terms, "cover.wgsl", "on_patch.wgsl", "blur.wgsl", "from_light.wgsl", "blur_rows.wgsl")
+}
+
+/// One stage along columns, and the sum of the stages; entry points `cover` and `blur`.
 #[must_use]
 pub const fn blur_columns(domain: Domain, terms: usize) -> &'static str {
     match domain {
-        Domain::Patch => with_terms!(terms, "cover.wgsl", "on_patch.wgsl", "blur.wgsl", "blur_columns.wgsl"),
-        Domain::Screen => with_terms!(terms, "cover.wgsl", "on_screen.wgsl", "blur.wgsl", "blur_columns.wgsl"),
+        Domain::Patch => with_terms!(
+            terms,
+            "cover.wgsl",
+            "on_patch.wgsl",
+            "blur.wgsl",
+            "from_stage.wgsl",
+            "sum.wgsl",
+            "blur_columns.wgsl"
+        ),
+        Domain::Screen => {
+            with_terms!(terms, "cover.wgsl", "on_screen.wgsl", "blur.wgsl", "sum.wgsl", "blur_columns.wgsl")
+        }
     }
 }
 
-/// Exitance of a flat patch from the sums; entry points `cover` and `combine`.
+/// The last stage along columns of a flat patch, and its exitance; entry points `cover` and `blur`.
 #[must_use]
-pub const fn combine(terms: usize) -> &'static str {
-    with_terms!(terms, "cover.wgsl", "combine.wgsl")
+pub const fn last_columns(terms: usize) -> &'static str {
+    with_terms!(terms, "cover.wgsl", "on_patch.wgsl", "blur.wgsl", "from_stage.wgsl", "sum.wgsl", "last_columns.wgsl")
 }
 
 /// One kernel for a whole patch, along one axis; entry points `cover` and `homogeneous`.
-pub const HOMOGENEOUS: &str = concat!(
-    include_str!("../wgsl/cover.wgsl"),
-    include_str!("../wgsl/on_patch.wgsl"),
-    include_str!("../wgsl/homogeneous.wgsl")
-);
+pub const HOMOGENEOUS: &str = concat!(include_str!("../wgsl/cover.wgsl"), include_str!("../wgsl/homogeneous.wgsl"));
 
 /// L weighted irradiance maps where the eye sees a mesh; entry points `project` and `weigh`.
 #[must_use]
@@ -220,7 +231,7 @@ pub const SURFACE_VIEW: &str = joined!(
 );
 
 /// The next level of what a light sees; entry points `cover` and `reduce`.
-pub const REDUCE: &str = joined!("cover.wgsl", "reduce.wgsl");
+pub const REDUCE: &str = joined!("cover.wgsl", "seen.wgsl", "reduce.wgsl");
 
 /// Light of samples on what lies around them; entry points `spread` and `splat`. Nothing for captures.
 #[must_use]
@@ -274,8 +285,8 @@ pub fn all() -> Vec<(String, &'static str)> {
             ]
         };
         let others = [
-            (format!("weigh, L = {terms}"), weigh(terms)),
-            (format!("combine, L = {terms}"), combine(terms)),
+            (format!("blur first rows, Patch, L = {terms}"), first_rows(terms)),
+            (format!("blur last columns, Patch, L = {terms}"), last_columns(terms)),
             (format!("weigh mesh, L = {terms}"), weigh_mesh(terms)),
             (format!("shade sums, L = {terms}"), shade_sums(Encoding::Here, terms)),
             (format!("shade sums there, L = {terms}"), shade_sums(Encoding::There, terms)),

@@ -149,7 +149,7 @@ pub struct Scene {
     pub light: [LightSource; MAX_LIGHTS],
 }
 
-/// `Which` of `light_view.wgsl`.
+/// `Which` of `seen.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Which {
@@ -299,26 +299,6 @@ impl Stage {
     }
 }
 
-/// `Domain` of `on_patch.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct PatchDomain {
-    /// Pixels of the patch.
-    pub size: [u32; 2],
-    /// 0 clamp, 1 repeat, 2 mirror.
-    pub addressing: u32,
-    #[doc(hidden)]
-    pub pad: u32,
-}
-
-impl PatchDomain {
-    /// The block for a patch.
-    #[must_use]
-    pub fn new(header: &Header) -> Self {
-        Self { size: [header.width, header.height], addressing: header.addressing.code().into(), pad: 0 }
-    }
-}
-
 /// `Domain` of `on_screen.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
@@ -346,16 +326,10 @@ pub struct Kernel {
     pub kernel: [[f32; 4]; MAX_KERNEL],
     /// (1, 0) or (0, 1).
     pub axis: [i32; 2],
-    /// Pixels from one tap to the next.
-    pub stride: i32,
     /// Taps to each side.
     pub taps: i32,
     #[doc(hidden)]
-    pub sigma: f32,
-    #[doc(hidden)]
-    pub begun: u32,
-    #[doc(hidden)]
-    pub pad: [u32; 2],
+    pub pad: u32,
 }
 
 impl Kernel {
@@ -367,7 +341,7 @@ impl Kernel {
             *block = [*r, *g, *b, 0.0];
         }
         let taps = i32::try_from(weights.len().clamp(1, MAX_KERNEL) - 1).unwrap_or(0);
-        [[1, 0], [0, 1]].map(|axis| Self { kernel, axis, stride: 1, taps, sigma: 1.0, begun: 0, pad: [0; 2] })
+        [[1, 0], [0, 1]].map(|axis| Self { kernel, axis, taps, pad: 0 })
     }
 }
 

@@ -18,8 +18,6 @@ struct Stage {
 }
 
 @group(0) @binding(0) var<uniform> stage: Stage;
-// c_l E, blurred by the stages before; in the fourth place what the domain wants to know of a texel.
-@group(0) @binding(2) var maps: texture_2d_array<f32>;
 
 // Taps at k stride texels, |k| <= count.
 struct Taps {
@@ -28,8 +26,9 @@ struct Taps {
     sigma: f32,
 }
 
+// All maps; in the fourth place of the first what the domain wants to know of a texel.
 fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
-    let centre = textureLoad(maps, vec2<u32>(x), 0u, 0);
+    let centre = maps_at(x)[0];
     var sums: array<vec4<f32>, TERMS>;
     // Where nothing is seen, depth is far beyond everything.
     if centre.w > 50000.0 {
@@ -39,14 +38,12 @@ fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
     let taps = taps_at(centre);
     var weights = 0.0;
     for (var k = -taps.count; k <= taps.count; k++) {
-        let texel = texel_at(x + k * taps.stride * stage.axis);
-        let first = textureLoad(maps, texel, 0u, 0);
+        var light = maps_at(x + k * taps.stride * stage.axis);
         let distance = f32(k * taps.stride) / taps.sigma;
-        let weight = exp(-0.5 * distance * distance) * nearness(centre, first, taps.sigma);
+        let weight = exp(-0.5 * distance * distance) * nearness(centre, light[0]);
         weights += weight;
-        sums[0] += weight * first;
-        for (var l = 1u; l < TERMS; l++) {
-            sums[l] += weight * textureLoad(maps, texel, l, 0);
+        for (var l = 0u; l < TERMS; l++) {
+            sums[l] += weight * light[l];
         }
     }
     for (var l = 0u; l < TERMS; l++) {

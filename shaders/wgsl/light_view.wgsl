@@ -1,22 +1,5 @@
 // What a light sees: where its light enters, and how much.
 
-struct Seen {
-    // Relative to the middle of the scene, and depth along the light's axis, in mm.
-    @location(0) position: vec4<f32>,
-    // Irradiance that enters, on a plane across the axis, and 1 where there is a surface.
-    @location(1) flux: vec4<f32>,
-    // Place on the patch; lowest and highest depth within the texel.
-    @location(2) place: vec4<f32>,
-}
-
-struct Which {
-    // Number of the light.
-    light: u32,
-    pad_0: u32,
-    pad_1: u32,
-    pad_2: u32,
-}
-
 @group(1) @binding(0) var<uniform> which: Which;
 
 struct FromLight {

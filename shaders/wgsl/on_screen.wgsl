@@ -16,6 +16,8 @@ struct Domain {
 }
 
 @group(0) @binding(1) var<uniform> domain: Domain;
+// c_l E, blurred by the stages before; depth in the fourth place.
+@group(0) @binding(2) var maps: texture_2d_array<f32>;
 
 // Most taps to one side, close to the eye.
 const MOST_TAPS: f32 = 16.0;
@@ -31,12 +33,8 @@ fn taps_at(centre: vec4<f32>) -> Taps {
     return Taps(i32(stride), i32(taps), max(sigma, 1e-3));
 }
 
-fn texel_at(x: vec2<i32>) -> vec2<u32> {
-    return vec2<u32>(clamp(x, vec2<i32>(0), vec2<i32>(domain.size) - 1));
-}
-
 // The part of exp(-r^2 / 2 sigma^2) that lies in the difference of depth (Jimenez et al. 2015, supplement, section E).
-fn nearness(centre: vec4<f32>, other: vec4<f32>, sigma: f32) -> f32 {
+fn nearness(centre: vec4<f32>, other: vec4<f32>) -> f32 {
     let d = (other.w - centre.w) / (stage.step * domain.pitch_mm);
     return exp(-0.5 * min(d * d, 80.0));
 }
@@ -44,4 +42,13 @@ fn nearness(centre: vec4<f32>, other: vec4<f32>, sigma: f32) -> f32 {
 // Sums begin with the light that comes through.
 fn has_sum() -> bool {
     return true;
+}
+
+fn maps_at(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
+    let texel = clamp(x, vec2<i32>(0), vec2<i32>(domain.size) - 1);
+    var all: array<vec4<f32>, TERMS>;
+    for (var l = 0u; l < TERMS; l++) {
+        all[l] = textureLoad(maps, texel, l, 0);
+    }
+    return all;
 }

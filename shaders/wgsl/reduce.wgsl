@@ -1,22 +1,5 @@
 // The next level of what a light sees: four texels become one.
 
-struct Seen {
-    // Mean of the positions, and of depth along the light's axis, in mm.
-    @location(0) position: vec4<f32>,
-    // Mean irradiance, and the share of the texel where there is a surface.
-    @location(1) flux: vec4<f32>,
-    // Place of one of them; lowest and highest depth of all.
-    @location(2) place: vec4<f32>,
-}
-
-struct Which {
-    // Number of the light.
-    light: u32,
-    pad_0: u32,
-    pad_1: u32,
-    pad_2: u32,
-}
-
 @group(0) @binding(0) var<uniform> which: Which;
 @group(0) @binding(1) var positions: texture_2d_array<f32>;
 @group(0) @binding(2) var fluxes: texture_2d_array<f32>;

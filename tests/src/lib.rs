@@ -8,6 +8,7 @@ use subsurf_decoder::container::crc32;
 use subsurf_decoder::{Bssrdf, Section};
 use subsurf_encoder::bssrdf::write_file;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
+use subsurf_encoder::simulate::{Finish, Scene, Slab, simulate};
 use subsurf_encoder::synthetic::Shape;
 
 /// A small synthetic material of seven base materials.
@@ -41,6 +42,30 @@ pub fn write_capture(
     });
     result.expect("a temporary folder can be written to");
     path
+}
+
+/// Simulates the capture of a square piece of a scene, 20 mm thick, in air (η = 1.5), and opens it.
+///
+/// # Panics
+/// If it cannot be written.
+#[must_use]
+pub fn simulated(
+    folder: &Path,
+    scene: Scene,
+    side: usize,
+    radius: usize,
+    pitch_mm: f32,
+    addressing: Addressing,
+    finish: &Finish,
+) -> Capture {
+    let path = folder.join("capture.npy");
+    let map = scene.map([side; 2], addressing, 1);
+    let slab =
+        Slab { map: &map, addressing, pitch_mm: pitch_mm.into(), radius, thickness_mm: 20.0, eta: 1.5, refine: 1.0 };
+    let sidecar = Sidecar { pitch_mm, addressing, eta: 1.5, simulated: None };
+    let writer = CaptureWriter { path: &path, size: [side; 2], radius, scalar: Scalar::F32, sidecar: &sidecar };
+    simulate(&slab, finish, &writer, &()).expect("a temporary folder can be written to");
+    open(&path)
 }
 
 /// Opens a capture with what its sidecar says.

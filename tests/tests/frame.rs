@@ -4,9 +4,8 @@ use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::bssrdf::{Options, encode};
-use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
 use subsurf_encoder::metrics::psnr_db;
-use subsurf_encoder::simulate::{Finish, Scene as Recipe, Slab, simulate};
+use subsurf_encoder::simulate::{Finish, Scene as Recipe};
 use subsurf_encoder::synthetic::per_pixel_of;
 use subsurf_runtime::scene::{
     Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, SkyShare, Surface, View, bowl, drapery, knot, torus,
@@ -16,7 +15,7 @@ use subsurf_runtime::{
     SeparableMaterial, SplatMaterial,
 };
 use subsurf_shaders::separable::{Detail, Factors};
-use subsurf_tests::{open, shape};
+use subsurf_tests::{shape, simulated};
 
 /// Display values: steps of 255 between the two APIs. Their arithmetic is the same but for rounding; sums of splats are
 /// half floats that lose up to 2⁻¹¹ with each addition.
@@ -142,23 +141,10 @@ fn is_hit([a, b, c]: &[Vec3; 3], from: Vec3, towards: Vec3) -> bool {
 }
 
 /// A small simulated material, encoded.
-fn simulated(recipe: Recipe) -> Vec<u8> {
+fn material_of(recipe: Recipe) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("capture.npy");
-    let map = recipe.map([32, 32], Addressing::Repeat, 1);
-    let slab = Slab {
-        map: &map,
-        addressing: Addressing::Repeat,
-        pitch_mm: 0.8,
-        radius: 8,
-        thickness_mm: 20.0,
-        eta: 1.5,
-        refine: 1.0,
-    };
-    let sidecar = Sidecar { pitch_mm: 0.8, addressing: Addressing::Repeat, eta: 1.5, simulated: None };
-    let writer = CaptureWriter { path: &path, size: [32, 32], radius: 8, scalar: Scalar::F32, sidecar: &sidecar };
-    simulate(&slab, &Finish::default(), &writer, &()).unwrap();
-    encode(&open(&path), None, &Options { base_materials: 32, ..Options::default() }, &()).unwrap().bytes
+    let capture = simulated(folder.path(), recipe, 32, 8, 0.8, Addressing::Repeat, &Finish::default());
+    encode(&capture, None, &Options { base_materials: 32, ..Options::default() }, &()).unwrap().bytes
 }
 
 /// PSNR of display values over the pixels that the mesh covers in either picture.
@@ -173,7 +159,7 @@ fn psnr(reference: &[[u8; 3]], found: &[[u8; 3]]) -> f64 {
 /// Every path against the gather, on meshes thick and thin; and both APIs against each other.
 #[test]
 fn paths_come_close_to_the_gather_and_apis_to_each_other() {
-    let file = simulated(Recipe::Jade);
+    let file = material_of(Recipe::Jade);
     let gpus = Backend::ALL.map(device);
     let meshes = [("knot", knot(14.0, 4.5, 32)), ("bowl", bowl(12.0, 2.0, 32)), ("drapery", drapery(14.0, 1.0, 5, 40))];
     for (name, mesh) in &meshes {
@@ -211,7 +197,7 @@ fn splats_are_the_same_from_profiles_of_every_pixel() {
 #[test]
 fn far_meshes_do_not_shimmer() {
     const LARGER: u32 = 8;
-    let file = simulated(Recipe::Chessboard);
+    let file = material_of(Recipe::Chessboard);
     let mesh = torus(9.0, 4.0, 48);
     let gpu = device(Backend::Vulkan);
     let loaded = Loaded::new(&gpu, Way::Separable, &file, &mesh);

@@ -6,12 +6,12 @@
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::bssrdf::{Method, Options, encode};
-use subsurf_encoder::capture::{Capture, CaptureWriter, Scalar, Sidecar};
+use subsurf_encoder::capture::Capture;
 use subsurf_encoder::metrics::{Light, compare, psnr_db};
-use subsurf_encoder::simulate::{Finish, Scene, Slab, simulate};
+use subsurf_encoder::simulate::{Finish, Scene};
 use subsurf_shaders::cpu;
 use subsurf_shaders::separable::{Detail, Factors};
-use subsurf_tests::open;
+use subsurf_tests::simulated;
 
 struct Quality {
     relative_error: f64,
@@ -55,21 +55,8 @@ fn separable_db(material: &Bssrdf<'_>, factors: &Factors) -> [(Light, f64); 3] {
 /// albedo error that clusters of per-pixel profiles have at the same size.
 fn judge(scene: Scene, share: f64) {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("capture.npy");
-    let map = scene.map([80, 80], Addressing::Clamp, 1);
-    let slab = Slab {
-        map: &map,
-        addressing: Addressing::Clamp,
-        pitch_mm: 0.5,
-        radius: 12,
-        thickness_mm: 20.0,
-        eta: 1.5,
-        refine: 1.0,
-    };
-    let sidecar = Sidecar { pitch_mm: 0.5, addressing: Addressing::Clamp, eta: 1.5, simulated: None };
-    let writer = CaptureWriter { path: &path, size: [80, 80], radius: 12, scalar: Scalar::F32, sidecar: &sidecar };
-    simulate(&slab, &Finish { one_way: true, sensor: None }, &writer, &()).unwrap();
-    let capture = open(&path);
+    let finish = Finish { one_way: true, sensor: None };
+    let capture = simulated(folder.path(), scene, 80, 12, 0.5, Addressing::Clamp, &finish);
 
     let [lsp, clusters, direct] =
         [Method::Lsp, Method::Clusters, Method::Direct].map(|method| quality(&capture, method, 128));

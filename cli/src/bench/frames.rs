@@ -10,15 +10,16 @@ use subsurf_decoder::Bssrdf;
 use subsurf_encoder::Progress as _;
 use subsurf_encoder::synthetic::per_pixel_of;
 use subsurf_runtime::scene::{LightShape, Mesh, Scene, relief};
-use subsurf_runtime::{Backend, Gpu, Renderer, RuntimeOptions};
+use subsurf_runtime::{Backend, Gpu, RuntimeOptions};
 
+use super::timing::{median, quantile};
 use crate::failure::bad_request;
 use crate::info::{parse, read_file};
 use crate::memory::human;
-use crate::mesh::{Up, load};
+use crate::mesh::{Up, fitted, load, stem};
 use crate::options::Size;
 use crate::progress::Bars;
-use crate::render::{MappingArg, PathArg, Prepared, Shot, choose_mapping};
+use crate::render::{Ingredients, MappingArg, PathArg, Prepared, Ready, Shot, choose_mapping};
 use crate::say::say;
 
 /// Time frames of meshes of 5 to 871 thousand triangles, pass by pass, on every device there is.
@@ -56,28 +57,29 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let profiles = per_pixel_of(&material);
     let profiles = Bssrdf::parse(&profiles)?;
     let meshes: Vec<(String, Mesh)> = match &args.meshes[..] {
-        [] => RELIEFS.iter().map(|&rings| sized(relief(20.0, 8, rings))).collect::<anyhow::Result<_>>()?,
+        [] => RELIEFS.iter().map(|&rings| bumpy_sphere(rings)).collect::<anyhow::Result<_>>()?,
         paths => paths.iter().map(|path| named(path)).collect::<anyhow::Result<_>>()?,
     };
+    let ways = [
+        ("splat", &material, PathArg::Splat),
+        ("splat, per-pixel profiles", &profiles, PathArg::Splat),
+        ("separable", &material, PathArg::Separable),
+        ("homogeneous", &material, PathArg::Homogeneous),
+    ];
+    let gpus = devices();
     let mut all = Vec::new();
-    for backend in Backend::ALL {
-        let Ok(gpu) = Gpu::open(backend) else {
-            say!("{backend}: no device");
-            continue;
-        };
-        say!("{backend}: {} ({})", gpu.info().name, gpu.info().driver_info);
-        for (name, mesh) in &meshes {
-            say!("  {name}, {} triangles, {}x{} pixels", mesh.triangles.len(), args.size.0[0], args.size.0[1]);
-            let ways = [
-                ("splat", &material, PathArg::Splat),
-                ("splat, per-pixel profiles", &profiles, PathArg::Splat),
-                ("separable", &material, PathArg::Separable),
-                ("homogeneous", &material, PathArg::Homogeneous),
-            ];
-            for (way, material, path) in ways {
-                let times = measure(&gpu, material, mesh, path, args.size.0, args.frames, MappingArg::Auto)?;
-                say!("    {way:26} {}", times.line());
-                all.push(times.json(backend, name, way));
+    for (name, mesh) in &meshes {
+        say!("{name}, {} triangles, {}x{} pixels", mesh.triangles.len(), args.size.0[0], args.size.0[1]);
+        let mapping = choose_mapping(mesh, MappingArg::Auto, &material)?;
+        let scene = Shot::usual(args.size.0).scene(mesh);
+        let mut sky = None;
+        for (way, material, path) in ways {
+            let ingredients = Ingredients::compute(material, mesh, mapping, &scene, path, sky.clone())?;
+            sky = sky.or(ingredients.sky().cloned());
+            for (backend, gpu) in &gpus {
+                let times = measure(gpu, &ingredients, material, mesh, args.size.0, args.frames)?;
+                say!("  {backend:10} {way:26} {}", times.line());
+                all.push(times.json(*backend, name, way));
             }
         }
     }
@@ -87,16 +89,28 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn sized(mesh: Mesh) -> anyhow::Result<(String, Mesh)> {
-    let [low, high] = mesh.bounds();
-    let scale = EXTENT_MM / (high - low).max_element();
-    Ok(("bumpy sphere".to_owned(), Mesh::new(mesh.positions, mesh.normals, mesh.uvs, mesh.triangles, scale)?))
+fn bumpy_sphere(rings: u16) -> anyhow::Result<(String, Mesh)> {
+    Ok(("bumpy sphere".to_owned(), fitted(relief(20.0, 8, rings), EXTENT_MM)?))
 }
 
 /// A mesh and what to call it.
 pub(super) fn named(path: &Path) -> anyhow::Result<(String, Mesh)> {
-    let name = path.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    Ok((name, load(path, EXTENT_MM, Up::Y)?))
+    Ok((stem(path), load(path, EXTENT_MM, Up::Y)?))
+}
+
+/// All devices, and what they are.
+pub(super) fn devices() -> Vec<(Backend, Gpu)> {
+    let mut gpus = Vec::new();
+    for backend in Backend::ALL {
+        match Gpu::open(backend) {
+            Ok(gpu) => {
+                say!("{backend}: {} ({})", gpu.info().name, gpu.info().driver_info);
+                gpus.push((backend, gpu));
+            }
+            Err(_) => say!("{backend}: no device"),
+        }
+    }
+    gpus
 }
 
 /// Milliseconds of frames.
@@ -112,21 +126,12 @@ pub(super) struct Times {
     pub(super) mesh_bytes: u64,
 }
 
-/// The value that this share of all is not above.
-pub(super) fn quantile(values: &[f64], share: f64) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "small")]
-    let at = (share * (sorted.len().max(1) - 1) as f64).ceil() as usize;
-    sorted.get(at).copied().unwrap_or(0.0)
-}
-
 impl Times {
     fn line(&self) -> String {
-        let passes = self.order.iter().map(|name| format!("{name} {:.1}", quantile(&self.passes[name], 0.5)));
+        let passes = self.order.iter().map(|name| format!("{name} {:.1}", median(&self.passes[name])));
         format!(
             "{:8.1} ms, p95 {:.1} ({}); buffers {}",
-            quantile(&self.frames, 0.5),
+            median(&self.frames),
             quantile(&self.frames, 0.95),
             passes.collect::<Vec<_>>().join(", "),
             human(self.device_bytes - self.material_bytes - self.mesh_bytes),
@@ -134,7 +139,7 @@ impl Times {
     }
 
     fn json(&self, backend: Backend, mesh: &str, way: &str) -> Value {
-        let of = |values: &[f64]| json!({ "median_ms": quantile(values, 0.5), "p95_ms": quantile(values, 0.95) });
+        let of = |values: &[f64]| json!({ "median_ms": median(values), "p95_ms": quantile(values, 0.95) });
         let passes: serde_json::Map<String, Value> =
             self.order.iter().map(|name| ((*name).to_owned(), of(&self.passes[name]))).collect();
         json!({
@@ -147,25 +152,22 @@ impl Times {
 /// Draws frames under a light that turns; the gather, which takes seconds, once.
 pub(super) fn measure(
     gpu: &Gpu,
+    ingredients: &Ingredients,
     material: &Bssrdf<'_>,
     mesh: &Mesh,
-    path: PathArg,
     size: [u32; 2],
     frames: usize,
-    mapping: MappingArg,
 ) -> anyhow::Result<Times> {
-    let shot = Shot::usual(size);
-    let mapping = choose_mapping(mesh, mapping, material)?;
-    let mut scene = shot.scene(mesh);
+    let mut scene = Shot::usual(size).scene(mesh);
     scene.view.exposure = 0.5;
     let before = gpu.ledger().bytes();
-    let prepared = Prepared::new(gpu, material, mesh, mapping, &scene, path)?;
-    let renderer = Renderer::new(gpu, prepared.path(), RuntimeOptions::default())?;
-    let mut frame = renderer.prepare(gpu, &prepared.model(), &scene, size)?;
+    let prepared = ingredients.upload(gpu, material, mesh)?;
+    let is_slow = matches!(prepared, Prepared::Gather { .. });
+    let Ready { prepared, renderer, mut frame } = Ready::new(gpu, prepared, &scene, size)?;
     let target = gpu.target(size, RuntimeOptions::default().format)?;
     let device_bytes = gpu.ledger().bytes() - before;
 
-    let frames = if path == PathArg::Gather { 0 } else { frames };
+    let frames = if is_slow { 0 } else { frames };
     let bars = Bars::new();
     bars.begin("frames", 2 * frames as u64 + 1);
     let mut times = Times {

@@ -228,7 +228,7 @@ fn parts_of_parse(bytes: &[u8], runs: usize) -> BTreeMap<String, f64> {
             std::hint::black_box(work(std::hint::black_box(&mut copy)));
             clock.lap()
         });
-        median(laps.collect())
+        median(&laps.collect::<Vec<_>>())
     };
     let memcpy = time(&mut |copy| {
         copy.copy_from_slice(std::hint::black_box(bytes));

@@ -12,7 +12,8 @@ use subsurf_runtime::{
 };
 use subsurf_shaders::separable::{Detail, Factors, Stage, mean_kernel};
 
-use super::frames::quantile;
+use super::frames::devices;
+use super::timing::median;
 use crate::failure::bad_request;
 use crate::say::say;
 
@@ -44,12 +45,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         return Err(bad_request("--side must be between 8 and 2048"));
     }
     let mut all = Vec::new();
-    for backend in Backend::ALL {
-        let Ok(gpu) = Gpu::open(backend) else {
-            say!("{backend}: no device");
-            continue;
-        };
-        say!("{backend}: {} ({})", gpu.info().name, gpu.info().driver_info);
+    for (backend, gpu) in devices() {
+        say!("{backend}");
         for &side in &args.sides {
             all.push(measure(&gpu, backend, side, args)?);
         }
@@ -86,7 +83,7 @@ fn measure(gpu: &Gpu, backend: Backend, side: u32, args: &Args) -> anyhow::Resul
     let homogeneous = times(gpu, args.frames, || renderer.draw(gpu, &patch).map(|_| ()))?;
 
     let taps: i32 = Stage::cascade(&factors.sigmas).iter().map(|stage| 2 * stage.taps + 1).sum();
-    let [gather, separable, homogeneous] = [gather, separable, homogeneous].map(|times| quantile(&times, 0.5));
+    let [gather, separable, homogeneous] = [gather, separable, homogeneous].map(|times| median(&times));
     say!(
         "  {side}x{side}: gather {gather:.1} ms, separable {separable:.2} ms ({taps} taps an axis), one kernel \
          {homogeneous:.2} ms ({} taps): {:.1} × faster than the gather, {:.2} × the one kernel",

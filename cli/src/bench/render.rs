@@ -9,16 +9,18 @@ use serde_json::{Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::{psnr_db, ssim};
 use subsurf_encoder::write_bytes;
-use subsurf_runtime::scene::{Mapping, Mesh, Scene};
-use subsurf_runtime::{BACKGROUND, Backend, Gpu, Renderer, RuntimeOptions};
+use subsurf_runtime::scene::{Mesh, Scene};
+use subsurf_runtime::{BACKGROUND, Backend, Gpu};
 
-use super::frames::{measure, named, quantile};
+use super::frames::{devices, measure, named};
+use super::timing::{median, quantile};
 use crate::failure::bad_request;
 use crate::info::{parse, read_file};
 use crate::memory::human;
+use crate::mesh::stem;
 use crate::options::Size;
 use crate::picture::{image, montage, write_png};
-use crate::render::{MappingArg, PathArg, Prepared, Shot, choose_mapping, chosen_exposure};
+use crate::render::{Ingredients, MappingArg, PathArg, Ready, Shot, choose_mapping};
 use crate::say::say;
 
 /// Compare all paths with the reference gather: PSNR, SSIM, difference pictures, frame times and memory.
@@ -44,10 +46,6 @@ pub(crate) struct Args {
     frames: usize,
 }
 
-/// Every path against the reference.
-const PATHS: [(&str, PathArg); 3] =
-    [("splat", PathArg::Splat), ("separable", PathArg::Separable), ("homogeneous", PathArg::Homogeneous)];
-
 /// One path, one material, one mesh, one device.
 struct Row {
     material: String,
@@ -66,8 +64,7 @@ struct Row {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     std::fs::create_dir_all(&args.output)?;
-    let gpus: Vec<(Backend, Gpu)> =
-        Backend::ALL.into_iter().filter_map(|backend| Some((backend, Gpu::open(backend).ok()?))).collect();
+    let gpus = devices();
     if gpus.is_empty() {
         return Err(bad_request("there is no device; this compares what devices draw"));
     }
@@ -76,9 +73,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     for file in &args.files {
         let bytes = read_file(file)?;
         let material = parse(file, &bytes)?;
-        let name = file.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         for (mesh_name, mesh) in &meshes {
-            compare(args, &gpus, (&name, &material), (mesh_name, mesh), &mut page)?;
+            compare(args, &gpus, (&stem(file), &material), (mesh_name, mesh), &mut page)?;
         }
     }
     page.write(&gpus, args.size.0)?;
@@ -93,35 +89,37 @@ fn compare(
     (mesh_name, mesh): (&str, &Mesh),
     page: &mut Page<'_>,
 ) -> anyhow::Result<()> {
-    let shot = Shot::usual(args.size.0);
+    let size = args.size.0;
     let mapping = choose_mapping(mesh, MappingArg::Auto, material)?;
-    let mut scene = shot.scene(mesh);
+    let mut scene = Shot::usual(size).scene(mesh);
+    let compute = |path, sky| Ingredients::compute(material, mesh, mapping, &scene, path, sky);
+    let gather = compute(PathArg::Gather, None)?;
+    let splat = compute(PathArg::Splat, None)?;
+    let separable = compute(PathArg::Separable, splat.sky().cloned())?;
+    let homogeneous = compute(PathArg::Homogeneous, splat.sky().cloned())?;
+    let paths = [("splat", &splat), ("separable", &separable), ("homogeneous", &homogeneous)];
     let (first, gpu) = &gpus[0];
-    scene.view.exposure = {
-        let prepared = Prepared::new(gpu, material, mesh, mapping, &scene, PathArg::Separable)?;
-        let renderer = Renderer::new(gpu, prepared.path(), RuntimeOptions::default())?;
-        let mut frame = renderer.prepare(gpu, &prepared.model(), &scene, args.size.0)?;
-        chosen_exposure(gpu, &renderer, &mut frame, &prepared, &scene)?
+    let ready = |gpu, ingredients: &Ingredients, scene: &Scene| {
+        Ready::new(gpu, ingredients.upload(gpu, material, mesh)?, scene, size)
     };
-    let scene = scene;
-    let reference = picture(gpu, material, mesh, mapping, &scene, PathArg::Gather, args.size.0)?;
-    let mut shown = vec![image(&reference, args.size.0[0])];
+    let exposure = ready(gpu, &separable, &scene)?.exposure(gpu, &scene)?;
+    scene.view.exposure = exposure;
+    let reference = ready(gpu, &gather, &scene)?.picture(gpu, &scene)?;
+    let mut shown = vec![image(&reference, size[0])];
     for (backend, gpu) in gpus {
+        let times = |ingredients, frames| measure(gpu, ingredients, material, mesh, size, frames);
         let gather_ms = match args.frames {
             0 => None,
-            _ => {
-                let times = measure(gpu, material, mesh, PathArg::Gather, args.size.0, 1, MappingArg::Auto)?;
-                Some(quantile(&times.frames, 0.5))
-            }
+            _ => Some(median(&times(&gather, 1)?.frames)),
         };
-        for (path_name, path) in PATHS {
-            let found = picture(gpu, material, mesh, mapping, &scene, path, args.size.0)?;
-            let times = measure(gpu, material, mesh, path, args.size.0, args.frames.max(1), MappingArg::Auto)?;
-            let (psnr_db, ssim) = similarity(&reference, &found, args.size.0[0]);
+        for (path, ingredients) in paths {
+            let found = ready(gpu, ingredients, &scene)?.picture(gpu, &scene)?;
+            let times = times(ingredients, args.frames.max(1))?;
+            let (psnr_db, ssim) = similarity(&reference, &found, size[0]);
             let row = Row {
                 material: material_name.to_owned(),
                 mesh: mesh_name.to_owned(),
-                path: path_name,
+                path,
                 backend: *backend,
                 psnr_db,
                 ssim,
@@ -133,8 +131,8 @@ fn compare(
             say!("{}", row.line());
             page.rows.push(row);
             if backend == first {
-                shown.push(image(&found, args.size.0[0]));
-                shown.push(image(&differences(&reference, &found), args.size.0[0]));
+                shown.push(image(&found, size[0]));
+                shown.push(image(&differences(&reference, &found), size[0]));
             }
         }
     }
@@ -151,21 +149,6 @@ fn compare(
     write_png(&args.output.join(&file), &montage(&[pictures, errors]))?;
     page.pictures.push((format!("{material_name}, {mesh_name}"), file));
     Ok(())
-}
-
-fn picture(
-    gpu: &Gpu,
-    material: &Bssrdf<'_>,
-    mesh: &Mesh,
-    mapping: Mapping,
-    scene: &Scene,
-    path: PathArg,
-    size: [u32; 2],
-) -> anyhow::Result<Vec<[u8; 3]>> {
-    let prepared = Prepared::new(gpu, material, mesh, mapping, scene, path)?;
-    let renderer = Renderer::new(gpu, prepared.path(), RuntimeOptions::default())?;
-    let mut frame = renderer.prepare(gpu, &prepared.model(), scene, size)?;
-    Ok(renderer.picture(gpu, &mut frame, &prepared.model(), scene)?)
 }
 
 /// PSNR over covered pixels, and SSIM of the whole picture, of display values.

@@ -28,7 +28,7 @@ impl Steps {
 
 /// Step-wise medians.
 pub(crate) fn medians(runs: &[Steps]) -> Steps {
-    let of = |step: fn(&Steps) -> f64| median(runs.iter().map(step).collect());
+    let of = |step: fn(&Steps) -> f64| median(&runs.iter().map(step).collect::<Vec<_>>());
     Steps {
         read: of(|run| run.read),
         parse: of(|run| run.parse),
@@ -39,13 +39,20 @@ pub(crate) fn medians(runs: &[Steps]) -> Steps {
 }
 
 /// The middle value; 0 of none.
-pub(crate) fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    match values.len() {
-        0 => 0.0,
-        n if n % 2 == 1 => values[n / 2],
-        n => 0.5 * (values[n / 2 - 1] + values[n / 2]),
-    }
+pub(crate) fn median(values: &[f64]) -> f64 {
+    quantile(values, 0.5)
+}
+
+/// The value that this share of all is not above, linear between two of them; 0 of none.
+pub(crate) fn quantile(values: &[f64], share: f64) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    #[allow(clippy::cast_precision_loss, reason = "small")]
+    let place = share * sorted.len().saturating_sub(1) as f64;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place among them")]
+    let below = place as usize;
+    let at = |k: usize| sorted.get(k).or(sorted.last()).copied().unwrap_or(0.0);
+    at(below) + place.fract() * (at(below + 1) - at(below))
 }
 
 /// What is known of one way to store a material.
@@ -66,4 +73,18 @@ pub(crate) struct Storage {
     /// Parts of `parse`, and what to compare them with.
     #[serde(flatten)]
     pub(crate) parts_us: BTreeMap<String, f64>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_lie_between_values() {
+        assert!(median(&[]).abs() < 1e-12);
+        assert!((median(&[3.0]) - 3.0).abs() < 1e-12);
+        assert!((median(&[4.0, 1.0, 2.0]) - 2.0).abs() < 1e-12);
+        assert!((median(&[4.0, 1.0, 2.0, 3.0]) - 2.5).abs() < 1e-12);
+        assert!((quantile(&[5.0, 1.0, 2.0, 3.0, 4.0], 0.95) - 4.8).abs() < 1e-12);
+    }
 }

@@ -45,14 +45,24 @@ fn shape(name: &str) -> Option<Mesh> {
     })
 }
 
+/// A mesh whose longest side is `extent_mm`, its middle at the origin.
+pub(crate) fn fitted(mesh: Mesh, extent_mm: f32) -> anyhow::Result<Mesh> {
+    let [low, high] = mesh.bounds();
+    let middle = 0.5 * (low + high);
+    let positions = mesh.positions.iter().map(|position| *position - middle).collect();
+    let scale = extent_mm / (high - low).max_element();
+    Ok(Mesh::new(positions, mesh.normals, mesh.uvs, mesh.triangles, scale)?)
+}
+
+/// What to call what is in a file.
+pub(crate) fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
 /// Reads a mesh, or makes one of [`SHAPES`], and scales its longest side to `extent_mm`, its middle at the origin.
 pub(crate) fn load(path: &Path, extent_mm: f32, up: Up) -> anyhow::Result<Mesh> {
     if let Some(mesh) = path.to_str().and_then(shape) {
-        let [low, high] = mesh.bounds();
-        let middle = 0.5 * (low + high);
-        let positions = mesh.positions.iter().map(|position| *position - middle).collect();
-        let scale = extent_mm / (high - low).max_element();
-        return Ok(Mesh::new(positions, mesh.normals, mesh.uvs, mesh.triangles, scale)?);
+        return fitted(mesh, extent_mm);
     }
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or("").to_ascii_lowercase();
     let raw = match extension.as_str() {

@@ -4,25 +4,18 @@ use glam::Vec3;
 use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
-use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, SkyShare, Surface, View};
-use subsurf_runtime::{
-    BACKGROUND, Frame, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions,
-    SeparableMaterial, SplatMaterial,
-};
+use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, View};
+use subsurf_runtime::{BACKGROUND, Frame, Gpu, Renderer, RuntimeOptions};
 use subsurf_shaders::cpu::{self, Rgb};
-use subsurf_shaders::separable::{Detail, Factors};
-use subsurf_shaders::uniform::MAX_LIGHTS;
 
+use super::prepared::{Ingredients, Prepared, Ready, points};
 use super::{Angles, BRIGHT, MappingArg, PathArg, exposure_for};
 use crate::failure::bad_request;
-use crate::mesh;
 
 /// Pictures are drawn this much larger and averaged down, so that edges are smooth.
 const SUPERSAMPLING: u32 = 2;
 /// From over the right shoulder.
 pub(super) const DEFAULT_LIGHT: Vec3 = Vec3::new(0.9, 1.1, 0.35);
-/// Longest edge of the mesh between whose vertices light is gathered, in pixels of the material.
-const LONGEST_EDGE: f32 = 1.5;
 
 /// One picture of a mesh.
 pub(crate) struct Shot {
@@ -64,111 +57,6 @@ impl Shot {
 /// Of the usual coat: polished, but not a mirror.
 pub(crate) const ROUGHNESS: f32 = 0.25;
 
-/// A material on the device as a path wants it.
-#[allow(clippy::large_enum_variant, reason = "one or two at a time, and they stay where they are")]
-pub(crate) enum Prepared {
-    Gather { mesh: GpuMesh, points: GpuPoints, material: Material },
-    Splat { mesh: GpuMesh, material: SplatMaterial },
-    Separable { mesh: GpuMesh, material: SeparableMaterial },
-}
-
-impl Prepared {
-    /// Uploads a mesh and a material for a path.
-    pub(crate) fn new(
-        gpu: &Gpu,
-        material: &Bssrdf<'_>,
-        mesh: &Mesh,
-        mapping: Mapping,
-        scene: &Scene,
-        path: PathArg,
-    ) -> anyhow::Result<Self> {
-        let outline = Outline::new(mesh, mapping, material.header());
-        Ok(match path {
-            PathArg::Gather => {
-                let (fine, surface) = points(mesh, mapping, material, scene)?;
-                Self::Gather {
-                    mesh: GpuMesh::upload(gpu, &fine, &outline, Known::Points(surface.point_of()))?,
-                    points: GpuPoints::upload(gpu, &surface)?,
-                    material: Material::upload(gpu, material)?,
-                }
-            }
-            PathArg::Splat => Self::Splat {
-                mesh: GpuMesh::upload(gpu, mesh, &outline, Known::Sky(&SkyShare::of(mesh, material)?))?,
-                material: SplatMaterial::upload(gpu, material, &Factors::of(material, Detail::default()))?,
-            },
-            PathArg::Separable | PathArg::Homogeneous => Self::Separable {
-                mesh: GpuMesh::upload(gpu, mesh, &outline, Known::Sky(&SkyShare::of(mesh, material)?))?,
-                material: SeparableMaterial::upload(gpu, &factors(material, path))?,
-            },
-        })
-    }
-
-    pub(crate) fn mesh_bytes(&self) -> u64 {
-        match self {
-            Self::Gather { mesh, .. } | Self::Splat { mesh, .. } | Self::Separable { mesh, .. } => mesh.gpu_bytes(),
-        }
-    }
-
-    pub(crate) fn model(&self) -> Model<'_> {
-        match self {
-            Self::Gather { mesh, points, material } => Model::Gather { mesh, points, material },
-            Self::Splat { mesh, material } => Model::Splat { mesh, material },
-            Self::Separable { mesh, material } => Model::Separable { mesh, material },
-        }
-    }
-
-    /// The renderer's name for the path.
-    pub(crate) fn path(&self) -> Path {
-        match self {
-            Self::Gather { material, .. } => Path::Gather(material.storage()),
-            Self::Splat { material, .. } => Path::Splat(material.planes().storage()),
-            Self::Separable { material, .. } => Path::Separable(material.terms()),
-        }
-    }
-
-    pub(crate) fn material_bytes(&self) -> u64 {
-        match self {
-            Self::Gather { material, .. } => material.gpu_bytes(),
-            Self::Splat { material, .. } => material.planes().gpu_bytes(),
-            Self::Separable { material, .. } => material.gpu_bytes(),
-        }
-    }
-}
-
-/// How close to the gather the separable path has to come on a flat patch, in dB.
-const LEAST_DB: f32 = 40.0;
-
-/// Factors of a material, or of its mean.
-pub(crate) fn factors(material: &Bssrdf<'_>, path: PathArg) -> Factors {
-    match path {
-        PathArg::Homogeneous => Factors::homogeneous(material, Detail::default().gaussians),
-        PathArg::Gather | PathArg::Splat | PathArg::Separable => Factors::within(material, LEAST_DB),
-    }
-}
-
-/// The mesh with vertices close enough to gather light at, and them as points that exchange light.
-pub(crate) fn points(
-    mesh: &Mesh,
-    mapping: Mapping,
-    material: &Bssrdf<'_>,
-    scene: &Scene,
-) -> anyhow::Result<(Mesh, Surface)> {
-    let fine = mesh.clone().subdivided(LONGEST_EDGE * material.header().pitch_mm)?;
-    let visibilities = visibilities(&fine, scene);
-    let surface = Surface::new(&fine, mapping, material.header(), &visibilities);
-    Ok((fine, surface))
-}
-
-fn visibilities(mesh: &Mesh, scene: &Scene) -> Vec<[f32; MAX_LIGHTS]> {
-    let mut all = vec![[0.0; MAX_LIGHTS]; mesh.positions.len()];
-    for (k, light) in scene.lights.iter().take(MAX_LIGHTS).enumerate() {
-        for (of_vertex, seen) in all.iter_mut().zip(mesh::visibility(mesh, light)) {
-            of_vertex[k] = seen;
-        }
-    }
-    all
-}
-
 /// Draws a mesh made of the material.
 pub(crate) fn draw_mesh(
     gpu: Option<&Gpu>,
@@ -187,15 +75,15 @@ pub(crate) fn draw_mesh(
     facts.insert("mapping".to_owned(), json!(format!("{mapping:?}")));
     let pixels = match gpu {
         Some(gpu) => {
-            let prepared = Prepared::new(gpu, material, mesh, mapping, &scene, path)?;
-            let renderer = Renderer::new(gpu, prepared.path(), RuntimeOptions::default())?;
-            let mut frame = renderer.prepare(gpu, &prepared.model(), &scene, large)?;
+            let prepared =
+                Ingredients::compute(material, mesh, mapping, &scene, path, None)?.upload(gpu, material, mesh)?;
+            facts.insert("gpu_bytes".to_owned(), json!(prepared.material_bytes()));
+            let mut ready = Ready::new(gpu, prepared, &scene, large)?;
             scene.view.exposure = match shot.exposure {
                 Some(exposure) => exposure,
-                None => chosen_exposure(gpu, &renderer, &mut frame, &prepared, &scene)?,
+                None => ready.exposure(gpu, &scene)?,
             };
-            facts.insert("gpu_bytes".to_owned(), json!(prepared.material_bytes()));
-            renderer.picture(gpu, &mut frame, &prepared.model(), &scene)?
+            ready.picture(gpu, &scene)?
         }
         None if path != PathArg::Gather => {
             return Err(bad_request("the CPU draws meshes by --path gather only; the other paths need a device"));
@@ -209,12 +97,14 @@ pub(crate) fn draw_mesh(
             let chosen = || exposure_for(exitance.iter()).min(BRIGHT / brightest.max(1e-6)) * std::f32::consts::PI;
             block.exposure = shot.exposure.unwrap_or_else(chosen);
             scene.view.exposure = block.exposure;
-            let exitances: Vec<Rgb> = surface.point_of().iter().map(|&point| exitance[point as usize]).collect();
+            let of_vertices = || surface.point_of().iter().map(|&point| point as usize);
+            let exitances: Vec<Rgb> = of_vertices().map(|point| exitance[point]).collect();
+            let visibilities: Vec<_> = of_vertices().map(|point| surface.visibilities()[point]).collect();
             let triangles = cpu::Triangles {
                 positions: &fine.positions,
                 normals: &fine.normals,
                 exitances: &exitances,
-                visibilities: &visibilities(&fine, &scene),
+                visibilities: &visibilities,
                 triangles: &fine.triangles,
             };
             let reflections = cpu::Reflections {
@@ -246,7 +136,7 @@ pub(crate) fn chosen_exposure(
     let mut values: Vec<f32> = picture
         .iter()
         .filter(|pixel| **pixel != [BACKGROUND; 3])
-        .map(|pixel| pixel.iter().map(|&value| linear(value)).fold(0.0, f32::max))
+        .map(|pixel| light_of(*pixel).into_iter().fold(0.0, f32::max))
         .collect();
     values.sort_by(f32::total_cmp);
     let bright = values.get(values.len() * 97 / 100).copied().unwrap_or(0.0);
@@ -293,15 +183,14 @@ fn frame(mesh: &Mesh, angles: Angles, size: [u32; 2]) -> View {
     View { eye_mm: target_mm + distance * towards, target_mm, angle: ANGLE, exposure: 1.0 }
 }
 
-/// Light of a display value, 0 to 1.
-fn linear(value: u8) -> f32 {
-    let value = f32::from(value) / 255.0;
-    if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+/// Light of display values, 0 to 1.
+fn light_of(pixel: [u8; 3]) -> Rgb {
+    cpu::linear(pixel.map(|value| f32::from(value) / 255.0))
 }
 
 /// Means of blocks of pixels, taken of light rather than of display values.
 fn average_down(pixels: &[[u8; 3]], size: [u32; 2]) -> RgbImage {
-    let light: Vec<f32> = (0..=255_u8).map(linear).collect();
+    let light: Vec<f32> = (0..=255_u8).map(|value| light_of([value; 3])[0]).collect();
     let n = SUPERSAMPLING;
     RgbImage::from_fn(size[0] / n, size[1] / n, |x, y| {
         let mut sum = [0.0; 3];

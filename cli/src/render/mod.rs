@@ -2,6 +2,7 @@
 
 mod mesh;
 mod patch;
+mod prepared;
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -12,7 +13,7 @@ use serde_json::{Value, json};
 use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::Light;
 use subsurf_runtime::scene::Environment;
-use subsurf_shaders::cpu::Rgb;
+use subsurf_shaders::cpu::{self, Rgb};
 
 use crate::devices::{self, BackendArg, check_picture};
 use crate::failure::bad_request;
@@ -23,8 +24,9 @@ use crate::options::Size;
 use crate::picture::write_png;
 use crate::say::say;
 
-pub(crate) use mesh::{Prepared, ROUGHNESS, Shot, choose_mapping, chosen_exposure, draw_mesh, factors, points};
+pub(crate) use mesh::{ROUGHNESS, Shot, choose_mapping, chosen_exposure, draw_mesh};
 pub(crate) use patch::{draw_patch, patch_irradiance};
+pub(crate) use prepared::{Ingredients, Prepared, Ready};
 
 /// Draw a material, flat or on a mesh, by the reference path or by a fast one.
 #[derive(clap::Args)]
@@ -217,12 +219,8 @@ pub(crate) fn read_environment(path: &Path) -> anyhow::Result<Environment> {
     let is_linear = matches!(picture.color(), image::ColorType::Rgb32F | image::ColorType::Rgba32F);
     let picture = picture.into_rgb32f();
     let size = [picture.width(), picture.height()];
-    let decoded = |value: f32| match is_linear {
-        true => value,
-        false if value <= 0.040_45 => value / 12.92,
-        false => ((value + 0.055) / 1.055).powf(2.4),
-    };
-    let pixels: Vec<Rgb> = picture.pixels().map(|pixel| pixel.0.map(decoded)).collect();
+    let decoded = |pixel: Rgb| if is_linear { pixel } else { cpu::linear(pixel) };
+    let pixels: Vec<Rgb> = picture.pixels().map(|pixel| decoded(pixel.0)).collect();
     Environment::equirectangular(size, &pixels).map_err(|error| wrong(error.to_string()))
 }
 

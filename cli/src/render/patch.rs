@@ -9,7 +9,7 @@ use subsurf_runtime::{
 };
 use subsurf_shaders::cpu::{self, Rgb};
 
-use super::mesh::factors;
+use super::prepared::factors;
 use super::{PathArg, exposure_for};
 use crate::failure::bad_request;
 use crate::picture::image;

@@ -3,14 +3,12 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use subsurf_runtime::scene::{Mapping, Mesh, Outline, Scene, SkyShare, Surface};
-use subsurf_runtime::{Gpu, GpuMesh, GpuPoints, Known, Material, SeparableMaterial, SplatMaterial};
-use subsurf_shaders::separable::{Detail, Factors};
+use subsurf_runtime::scene::{Mesh, Scene, SkyShare};
 use winit::event_loop::EventLoopProxy;
 
 use super::Notice;
 use super::subject::MaterialFile;
-use crate::render::{MappingArg, PathArg, Prepared, choose_mapping, factors, points};
+use crate::render::{Ingredients, MappingArg, PathArg, choose_mapping};
 
 /// What a picture is of, and how it is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,64 +36,11 @@ pub(super) struct Order {
     pub(super) scene: Scene,
 }
 
-/// What was computed; the rest is for the device.
-pub(super) struct Ingredients {
-    mapping: Mapping,
-    of_path: OfPath,
-}
-
-enum OfPath {
-    Gather { fine: Mesh, surface: Surface },
-    Splat { sky: Arc<Vec<SkyShare>>, factors: Factors },
-    Separable { sky: Arc<Vec<SkyShare>>, factors: Factors },
-}
-
-impl Ingredients {
-    fn compute(order: &Order, sky: Option<Arc<Vec<SkyShare>>>) -> anyhow::Result<Self> {
-        let material = order.material.read()?;
-        let mapping = choose_mapping(&order.mesh, order.mapping, &material)?;
-        let sky = || match sky {
-            Some(sky) => Ok(sky),
-            None => SkyShare::of(&order.mesh, &material).map(Arc::new),
-        };
-        let of_path = match order.key.path {
-            PathArg::Gather => {
-                let (fine, surface) = points(&order.mesh, mapping, &material, &order.scene)?;
-                OfPath::Gather { fine, surface }
-            }
-            PathArg::Splat => OfPath::Splat { sky: sky()?, factors: Factors::of(&material, Detail::default()) },
-            path @ (PathArg::Separable | PathArg::Homogeneous) => {
-                OfPath::Separable { sky: sky()?, factors: factors(&material, path) }
-            }
-        };
-        Ok(Self { mapping, of_path })
-    }
-
-    fn sky(&self) -> Option<&Arc<Vec<SkyShare>>> {
-        match &self.of_path {
-            OfPath::Splat { sky, .. } | OfPath::Separable { sky, .. } => Some(sky),
-            OfPath::Gather { .. } => None,
-        }
-    }
-
-    /// Brings everything to the device.
-    pub(super) fn upload(&self, gpu: &Gpu, material: &MaterialFile, mesh: &Mesh) -> anyhow::Result<Prepared> {
-        let material = material.read()?;
-        let outline = Outline::new(mesh, self.mapping, material.header());
-        let shared = |sky: &[SkyShare]| GpuMesh::upload(gpu, mesh, &outline, Known::Sky(sky));
-        Ok(match &self.of_path {
-            OfPath::Gather { fine, surface } => Prepared::Gather {
-                mesh: GpuMesh::upload(gpu, fine, &outline, Known::Points(surface.point_of()))?,
-                points: GpuPoints::upload(gpu, surface)?,
-                material: Material::upload(gpu, &material)?,
-            },
-            OfPath::Splat { sky, factors } => {
-                Prepared::Splat { mesh: shared(sky)?, material: SplatMaterial::upload(gpu, &material, factors)? }
-            }
-            OfPath::Separable { sky, factors } => {
-                Prepared::Separable { mesh: shared(sky)?, material: SeparableMaterial::upload(gpu, factors)? }
-            }
-        })
+impl Order {
+    fn compute(&self, sky: Option<Arc<Vec<SkyShare>>>) -> anyhow::Result<Ingredients> {
+        let material = self.material.read()?;
+        let mapping = choose_mapping(&self.mesh, self.mapping, &material)?;
+        Ingredients::compute(&material, &self.mesh, mapping, &self.scene, self.key.path, sky)
     }
 }
 
@@ -139,7 +84,7 @@ impl Loader {
         let sky = self.kept.iter().filter(|(key, _)| key.shares_sky(&order.key)).find_map(|(_, kept)| kept.sky());
         let (sky, proxy) = (sky.cloned(), self.proxy.clone());
         std::thread::spawn(move || {
-            let answer = Answer { key: order.key, result: Ingredients::compute(&order, sky) };
+            let answer = Answer { key: order.key, result: order.compute(sky) };
             // Where the window is closed by now, nobody wants it.
             let _ = proxy.send_event(Notice::Computed(answer));
         });

@@ -8,7 +8,7 @@ use subsurf_runtime::scene::Mesh;
 
 use crate::failure::bad_request;
 use crate::info::{parse, read_file};
-use crate::mesh::{SHAPES, Up, load};
+use crate::mesh::{SHAPES, Up, load, stem};
 
 /// A material file that was found to be in order.
 pub(super) struct MaterialFile {
@@ -30,10 +30,6 @@ impl MaterialFile {
     pub(super) fn read(&self) -> anyhow::Result<Bssrdf<'_>> {
         parse(&self.path, &self.bytes)
     }
-}
-
-fn stem(path: &Path) -> String {
-    path.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 /// How meshes are read.

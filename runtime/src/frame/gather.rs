@@ -1,12 +1,12 @@
 //! The reference path: every vertex gathers from all others within reach.
 
-use subsurf_shaders::source::{self, Encoding};
+use subsurf_shaders::source;
 use subsurf_shaders::{Storage, uniform};
 use wgpu::{BindGroup, BindingResource, Buffer, TextureFormat};
 
-use super::{COMMON, Common};
+use super::{COMMON, Common, encoding_of};
 use crate::context::Gpu;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::ledger::Tracked;
 use crate::material::{Material, slots};
 use crate::mesh::MeshPass;
@@ -53,15 +53,11 @@ pub(crate) struct Buffers {
 
 impl Passes {
     pub(crate) fn new(gpu: &Gpu, storage: Storage, format: TextureFormat, samples: u32) -> Result<Self> {
-        if storage == Storage::Capture {
-            return Err(Error::Device("captures are drawn flat, not on meshes".to_owned()));
-        }
-        let encoding = if format.is_srgb() { Encoding::There } else { Encoding::Here };
         let of_points = [Slot::Uniform, Slot::Float, Slot::Uint, Slot::Uint, Slot::Float];
         let of_irradiance: [&[Slot]; 2] = [&[Slot::Uniform], &[Slot::Float, Slot::Float, Slot::Float]];
         let of_shade = [Slot::Float, Slot::Float];
         let gather = source::surface_gather(storage);
-        let shade = source::shade_points(encoding);
+        let shade = source::shade_points(encoding_of(format));
         Ok(Self {
             storage,
             irradiance: CoverPass::new(gpu, source::IRRADIANCE, "irradiance", &of_irradiance, &[HALF])?,
@@ -75,11 +71,10 @@ impl GpuPoints {
     /// Uploads the points of a mesh.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if the device takes no textures of that size.
+    /// [`crate::Error::Unsupported`] if the device takes no textures of that size.
     pub fn upload(gpu: &Gpu, surface: &Surface) -> Result<Self> {
         let table = |label, len, format, bytes: &[u8]| gpu.filled(&TextureSpec::array(label, len, format), bytes);
-        let target =
-            |label| gpu.texture(&TextureSpec { ..TextureSpec::target(label, array_size(surface.len()), HALF) });
+        let target = |label| gpu.texture(&TextureSpec::target(label, array_size(surface.len()), HALF));
         let count = surface.len();
         let float = TextureFormat::Rgba32Float;
         Ok(Self {
@@ -103,7 +98,7 @@ impl GpuPoints {
     /// Exitance of every point as it was last gathered, linear rgb.
     ///
     /// # Errors
-    /// [`Error::Device`].
+    /// [`crate::Error::Device`].
     pub fn read(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>> {
         let mut texels = gpu.read_rgb(&self.exitance.texture)?;
         texels.truncate(self.count);

@@ -2,7 +2,7 @@
 
 use subsurf_shaders::source;
 use subsurf_shaders::uniform::Which;
-use wgpu::{BindGroup, Buffer, Color, CommandEncoder, TextureFormat, TextureUsages, TextureView};
+use wgpu::{BindGroup, Buffer, Color, CommandEncoder, TextureFormat, TextureView};
 
 use super::plan::{Plan, light_layers};
 use crate::context::Gpu;
@@ -40,8 +40,6 @@ impl LightViews {
         let surface = |label| gpu.texture(&TextureSpec { layers, levels, ..TextureSpec::target(label, size, SEEN) });
         let surfaces = [surface("positions seen")?, surface("fluxes seen")?, surface("places seen")?];
         let of_light = |layer| [0, 1, 2].map(|k| level_of(&surfaces[k], layer, 0));
-        let depth =
-            TextureSpec { usage: TextureUsages::RENDER_ATTACHMENT, ..TextureSpec::target("light depth", size, DEPTH) };
         let which = |light| {
             let block: Tracked<Buffer> = gpu.uniform("which light", &Which { light, pad: [0; 3] });
             let group = pass.bind(gpu, 1, &[block.as_entire_binding()])?;
@@ -50,7 +48,7 @@ impl LightViews {
         Ok(Self {
             all: [0, 1, 2].map(|k| layers_of(&surfaces[k])),
             targets: (0..plan.lights.min(layers)).map(of_light).collect(),
-            depth: gpu.texture(&depth)?,
+            depth: gpu.texture(&TextureSpec::attachment("light depth", size, DEPTH))?,
             which: (0..plan.lights.min(layers)).map(which).collect::<Result<_>>()?,
             scene: pass.bind(gpu, 0, &[scene.as_entire_binding()])?,
             surfaces,

@@ -9,14 +9,15 @@ mod splat;
 use std::time::{Duration, Instant};
 
 use half::f16;
+use subsurf_shaders::source::Encoding;
 use subsurf_shaders::{Storage, uniform};
 use wgpu::{
     AddressMode, BindGroup, BindingResource, Buffer, Color, CommandEncoder, CommandEncoderDescriptor, FilterMode,
-    MipmapFilterMode, SamplerDescriptor, TextureFormat, TextureUsages, TextureView,
+    MipmapFilterMode, SamplerDescriptor, TextureFormat, TextureView,
 };
 
 use crate::context::Gpu;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::factors::{SeparableMaterial, SplatMaterial};
 use crate::ledger::Tracked;
 use crate::material::Material;
@@ -162,13 +163,16 @@ impl Renderer {
     /// Compiles the passes of a path.
     ///
     /// # Errors
-    /// [`crate::Error::Device`] if the driver refuses them; captures are not drawn on meshes.
+    /// [`Error::Device`] if the driver refuses them; captures are not drawn on meshes.
     pub fn new(gpu: &Gpu, path: Path, options: RuntimeOptions) -> Result<Self> {
         let RuntimeOptions { format, samples, light_texels, .. } = options;
         if !light_texels.is_power_of_two() || light_texels < LEAST_LIGHT_TEXELS {
-            return Err(crate::Error::Device(format!(
+            return Err(Error::Device(format!(
                 "light_texels is {light_texels}; it must be a power of two, at least {LEAST_LIGHT_TEXELS}"
             )));
+        }
+        if let Path::Gather(Storage::Capture) | Path::Splat(Storage::Capture) = path {
+            return Err(Error::Device("captures are drawn flat, not on meshes".to_owned()));
         }
         let passes = match path {
             Path::Gather(storage) => Passes::Gather(gather::Passes::new(gpu, storage, format, samples)?),
@@ -182,8 +186,8 @@ impl Renderer {
     /// until everything fits.
     ///
     /// # Errors
-    /// [`crate::Error::OverBudget`] if even the coarsest does not, before anything is allocated;
-    /// [`crate::Error::Device`] if the model is for another path.
+    /// [`Error::OverBudget`] if even the coarsest does not, before anything is allocated;
+    /// [`Error::Device`] if the model is for another path.
     pub fn prepare(&self, gpu: &Gpu, model: &Model<'_>, scene: &Scene, size: [u32; 2]) -> Result<Frame> {
         let lights = u32::try_from(scene.lights.len()).unwrap_or(u32::MAX);
         let plan = Plan {
@@ -220,7 +224,7 @@ impl Renderer {
                 let buffers = separable::Buffers::new(gpu, passes, material, &common, &lights, &plan)?;
                 (&passes.shade, Buffers::Separable(buffers))
             }
-            _ => return Err(crate::Error::Device("the model is for another path than the renderer".to_owned())),
+            _ => return Err(Error::Device("the model is for another path than the renderer".to_owned())),
         };
         let sampler = reflection_sampler(gpu);
         let of_scene = [
@@ -230,8 +234,7 @@ impl Renderer {
             BindingResource::Sampler(&sampler),
         ];
         let attachment = |label, format, samples| {
-            let usage = TextureUsages::RENDER_ATTACHMENT;
-            gpu.texture(&TextureSpec { usage, samples, ..TextureSpec::target(label, size, format) })
+            gpu.texture(&TextureSpec { samples, ..TextureSpec::attachment(label, size, format) })
         };
         Ok(Frame {
             scene: shade.bind(gpu, 0, &of_scene)?,
@@ -250,7 +253,7 @@ impl Renderer {
     /// Draws a scene to a view of the format and size that were agreed on.
     ///
     /// # Errors
-    /// [`crate::Error::Device`].
+    /// [`Error::Device`].
     pub fn draw(
         &self,
         gpu: &Gpu,
@@ -271,7 +274,7 @@ impl Renderer {
     /// for nothing overlaps.
     ///
     /// # Errors
-    /// [`crate::Error::Device`].
+    /// [`Error::Device`].
     pub fn draw_timed(
         &self,
         gpu: &Gpu,
@@ -317,9 +320,9 @@ impl Renderer {
             }
             (Buffers::Splat(buffers), Passes::Splat(_), _) => buffers.update(gpu, scene, &block, &plan),
             (Buffers::Separable(buffers), Passes::Separable(_), _) => {
-                buffers.update(gpu, scene, &mesh.outline, &plan);
+                buffers.update(gpu, scene, &block, &plan);
             }
-            _ => return Err(crate::Error::Device("the frame is for another path than the renderer".to_owned())),
+            _ => return Err(Error::Device("the frame is for another path than the renderer".to_owned())),
         }
         Ok(())
     }
@@ -363,11 +366,11 @@ impl Renderer {
     /// Draws a scene and reads the picture back: rows of 8-bit values from the top.
     ///
     /// # Errors
-    /// [`crate::Error::Device`], also if the format of the renderer has not four bytes.
+    /// [`Error::Device`], also if the format of the renderer has not four bytes.
     pub fn picture(&self, gpu: &Gpu, frame: &mut Frame, model: &Model<'_>, scene: &Scene) -> Result<Vec<[u8; 3]>> {
         let target = gpu.target(frame.plan.size, self.options.format)?;
         self.draw(gpu, frame, model, scene, target.view())?;
-        let texels: Vec<[u8; 4]> = gpu.read(&target.0.texture)?;
+        let texels = gpu.read_picture(&target)?;
         Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect())
     }
 }
@@ -378,6 +381,10 @@ impl Frame {
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
+}
+
+fn encoding_of(format: TextureFormat) -> Encoding {
+    if format.is_srgb() { Encoding::There } else { Encoding::Here }
 }
 
 /// Texels of the narrowest Gaussian, σ, at the middle of the scene: maps are made as coarse as that.

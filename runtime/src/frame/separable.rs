@@ -1,13 +1,13 @@
 //! The separable path on the screen: weighted irradiance where the eye sees the mesh, blurred by distances in space.
 
 use subsurf_shaders::separable::MAX_TERMS;
-use subsurf_shaders::source::{self, Domain, Encoding};
-use subsurf_shaders::uniform::{ScreenDomain, Upsampling};
-use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoder, TextureFormat, TextureUsages};
+use subsurf_shaders::source::{self, Domain};
+use subsurf_shaders::uniform::{self, ScreenDomain, Upsampling};
+use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoder, TextureFormat};
 
 use super::light_views::{FAR, LightViews};
 use super::plan::Plan;
-use super::{COMMON, Common, Lap};
+use super::{COMMON, Common, Lap, encoding_of};
 use crate::cascade::{BlurPasses, Cascade, MAP};
 use crate::context::Gpu;
 use crate::error::{Error, Result};
@@ -15,7 +15,7 @@ use crate::factors::SeparableMaterial;
 use crate::ledger::Tracked;
 use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
 use crate::resource::{Slot, Surface2d, TextureSpec};
-use crate::scene::{Outline, Scene};
+use crate::scene::Scene;
 
 /// Its pipelines.
 #[derive(Debug)]
@@ -42,11 +42,10 @@ impl Passes {
         if !(1..=MAX_TERMS).contains(&terms) {
             return Err(Error::Device(format!("L = {terms}; factors have 1 to {MAX_TERMS} terms")));
         }
-        let encoding = if format.is_srgb() { Encoding::There } else { Encoding::Here };
         let through = [Slot::FilteredLayers, Slot::Sampler, Slot::Uniform, Slot::FloatLayers, Slot::FloatLayers];
         let of_weigh: [&[Slot]; 2] = [&COMMON[..2], &through];
         let of_shade = [Slot::FilteredLayers, Slot::Sampler, Slot::Uniform, Slot::FloatLayers];
-        let shader = source::shade_sums(encoding, terms);
+        let shader = source::shade_sums(encoding_of(format), terms);
         Ok(Self {
             terms,
             weigh: MeshPass::new(gpu, source::weigh_mesh(terms), "weigh", &of_weigh, &vec![MAP; 2 * terms], 1)?,
@@ -71,15 +70,10 @@ impl Buffers {
         lights: &LightViews,
         plan: &Plan,
     ) -> Result<Self> {
-        if material.terms() != passes.terms {
-            let (have, want) = (material.terms(), passes.terms);
-            return Err(Error::Device(format!("this renderer draws L = {want}, the material has L = {have}")));
-        }
+        material.expect(passes.terms)?;
         let size = plan.map_size();
         let domain = gpu.uniform("screen", &ScreenDomain::default());
-        let cascade = Cascade::new(gpu, &passes.blur, material, &domain, size)?;
-        let depth =
-            TextureSpec { usage: TextureUsages::RENDER_ATTACHMENT, ..TextureSpec::target("map depth", size, DEPTH) };
+        let cascade = Cascade::new(gpu, &passes.blur, material, &domain.as_entire_binding(), size)?;
         let upsampling = gpu.uniform("upsampling", &Upsampling::default());
         let texture = BindingResource::TextureView;
         let factors = [texture(&material.layers.all), BindingResource::Sampler(&material.layers.sampler)];
@@ -96,7 +90,7 @@ impl Buffers {
         Ok(Self {
             weigh: [passes.weigh.bind(gpu, 0, &of_scene)?, passes.weigh.bind(gpu, 1, &of_weigh)?],
             shade: passes.shade.bind(gpu, 1, &of_shade)?,
-            depth: gpu.texture(&depth)?,
+            depth: gpu.texture(&TextureSpec::attachment("map depth", size, DEPTH))?,
             cascade,
             domain,
             upsampling,
@@ -104,30 +98,16 @@ impl Buffers {
     }
 
     /// Tells the passes how large things are on the screen.
-    pub(crate) fn update(&mut self, gpu: &Gpu, scene: &Scene, outline: &Outline, plan: &Plan) {
-        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-        let [width, height] = plan.map_size().map(|side| side as f32);
-        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-        let picture = plan.size.map(|side| side as f32);
-        let texels_per_tangent = 0.5 * height / (0.5 * scene.view.angle).tan();
-        let forward = (scene.view.target_mm - scene.view.eye_mm).normalize_or(glam::Vec3::NEG_Z);
-        let middle_mm = (outline.centre_mm - scene.view.eye_mm).dot(forward);
-        let pitch_mm = outline.header.pitch_mm;
+    pub(crate) fn update(&mut self, gpu: &Gpu, scene: &Scene, block: &uniform::Scene, plan: &Plan) {
         let domain = ScreenDomain {
             size: plan.map_size(),
-            focal_texels: texels_per_tangent * pitch_mm,
-            middle_mm,
-            pitch_mm,
+            focal_texels: plan.texels_per_tangent(&scene.view) * block.pitch_mm,
+            middle_mm: block.middle_mm,
+            pitch_mm: block.pitch_mm,
             pad: [0; 3],
         };
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
-        let upsampling = Upsampling {
-            texels_per_pixel: [width / picture[0], height / picture[1]],
-            // Surfaces that are not seen at too flat an angle are the same two texels away.
-            near_mm: 2.0 * middle_mm.max(1e-3) / texels_per_tangent,
-            pad: 0,
-        };
-        gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&upsampling));
+        gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&plan.upsampling(&scene.view, block.middle_mm)));
     }
 
     pub(crate) fn record(
@@ -142,7 +122,7 @@ impl Buffers {
         let [scene, factors] = &self.weigh;
         passes.weigh.record(&mut encoder, &targets, &self.depth.view, &[scene, factors], mesh);
         encoder = lap("weigh", encoder);
-        self.cascade.record(&mut encoder, &passes.blur);
+        self.cascade.record(&mut encoder, &passes.blur, None);
         lap("blur", encoder)
     }
 }

@@ -6,20 +6,20 @@
 
 use glam::{Mat4, Vec3};
 use subsurf_shaders::Storage;
-use subsurf_shaders::source::{self, Encoding};
+use subsurf_shaders::source;
 use subsurf_shaders::uniform::{self, MAX_RINGS, Rings, Splat, Upsampling, Which};
-use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureFormat, TextureUsages, TextureView};
+use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureFormat, TextureView};
 
 use super::light_views::{FAR, LightViews};
 use super::plan::Plan;
-use super::{COMMON, Common, Lap};
+use super::{COMMON, Common, Lap, encoding_of};
 use crate::context::Gpu;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::factors::SplatMaterial;
 use crate::ledger::Tracked;
 use crate::material::{layers_of_level, slots};
 use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
-use crate::pass::{CoverPass, Rows};
+use crate::pass::{CoverPass, Rows, SquarePass};
 use crate::resource::{Slot, Surface2d, TextureSpec, level_of};
 use crate::scene::{Outline, Scene};
 
@@ -38,7 +38,7 @@ pub(crate) struct Passes {
     storage: Storage,
     view: MeshPass,
     reduce: CoverPass,
-    splat: CoverPass,
+    splat: SquarePass,
     collapse: CoverPass,
     pub(crate) shade: MeshPass,
 }
@@ -131,10 +131,6 @@ struct Draw {
 
 impl Passes {
     pub(crate) fn new(gpu: &Gpu, storage: Storage, format: TextureFormat, samples: u32) -> Result<Self> {
-        if storage == Storage::Capture {
-            return Err(Error::Device("captures are drawn flat, not on meshes".to_owned()));
-        }
-        let encoding = if format.is_srgb() { Encoding::There } else { Encoding::Here };
         let of_view: [&[Slot]; 2] = [&[Slot::Uniform], &[Slot::FilteredLayers, Slot::Sampler]];
         let of_reduce = [Slot::Uniform, Slot::FloatLayers, Slot::FloatLayers, Slot::FloatLayers];
         let of_splat =
@@ -143,12 +139,12 @@ impl Passes {
         of_collapse.extend([Slot::Float; 2 + MAX_RINGS]);
         let of_shade = [Slot::FilteredLayers, Slot::Sampler, Slot::Uniform, Slot::Float];
         let splat = source::splat(storage);
-        let shade = source::shade_splats(encoding);
+        let shade = source::shade_splats(encoding_of(format));
         Ok(Self {
             storage,
             view: MeshPass::new(gpu, source::SURFACE_VIEW, "view", &of_view, &[HALF; 3], 1)?,
             reduce: CoverPass::new(gpu, source::REDUCE, "reduce", &[&of_reduce], &[HALF; 3])?,
-            splat: CoverPass::adding_squares(gpu, splat, "splat", &[slots(storage), &of_splat], &[HALF])?,
+            splat: SquarePass::new(gpu, splat, "splat", &[slots(storage), &of_splat], HALF)?,
             collapse: CoverPass::new(gpu, source::COLLAPSE, "collapse", &[&of_collapse], &[HALF])?,
             shade: MeshPass::new(gpu, shade, "shade", &[&COMMON, &of_shade], &[format], samples)?,
         })
@@ -184,8 +180,6 @@ impl Buffers {
         let size = plan.map_size();
         let target = |label, size| gpu.texture(&TextureSpec::target(label, size, HALF));
         let visible = [target("positions", size)?, target("places", size)?, target("albedos", size)?];
-        let depth =
-            TextureSpec { usage: TextureUsages::RENDER_ATTACHMENT, ..TextureSpec::target("map depth", size, DEPTH) };
         let rings = (0..levels.rings).map(|ring| target("ring", ring_size(size, ring)));
         let rings: Vec<Surface2d> = rings.collect::<Result<_>>()?;
         let collapsed = target("rings together", size)?;
@@ -243,7 +237,7 @@ impl Buffers {
             material: passes.splat.bind(gpu, 0, &material.planes.resources())?,
             collapse: passes.collapse.bind(gpu, 0, &of_collapse)?,
             shade: passes.shade.bind(gpu, 1, &of_shade)?,
-            depth: gpu.texture(&depth)?,
+            depth: gpu.texture(&TextureSpec::attachment("map depth", size, DEPTH))?,
             levels,
             visible,
             rings,
@@ -261,17 +255,14 @@ impl Buffers {
 
     /// Tells the passes where lights and eye are.
     pub(crate) fn update(&mut self, gpu: &Gpu, scene: &Scene, block: &uniform::Scene, plan: &Plan) {
-        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-        let ([width, height], picture) = (plan.map_size().map(|side| side as f32), plan.size.map(|side| side as f32));
-        let cotangent = 1.0 / (0.5 * scene.view.angle).tan();
-        let texel_mm = block.middle_mm.max(1e-3) / (0.5 * height * cotangent);
-        let near_mm = 2.0 * texel_mm;
-        let rings = Rings { count: self.levels.rings, near_mm, pad: [0; 2] };
-        gpu.queue.write_buffer(&self.rings_block, 0, bytemuck::bytes_of(&rings));
-        let texels_per_pixel = [width / picture[0], height / picture[1]];
-        let upsampling = Upsampling { texels_per_pixel, near_mm, pad: 0 };
+        let upsampling = plan.upsampling(&scene.view, block.middle_mm);
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&upsampling));
+        let rings = Rings { count: self.levels.rings, near_mm: upsampling.near_mm, pad: [0; 2] };
+        gpu.queue.write_buffer(&self.rings_block, 0, bytemuck::bytes_of(&rings));
 
+        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
+        let [width, height] = plan.size.map(|side| side as f32);
+        let cotangent = 1.0 / (0.5 * scene.view.angle).tan();
         let clip_from_world = Mat4::from_cols_array_2d(&block.clip_from_world);
         let clip_from_centre = clip_from_world * Mat4::from_translation(Vec3::from(block.centre_mm));
         for draw in &self.draws {
@@ -287,7 +278,7 @@ impl Buffers {
                 clip_from_centre: clip_from_centre.to_cols_array_2d(),
                 fade_in: if draw.ring == 0 { [0.0; 2] } else { fade(draw.ring - 1) },
                 fade_out: if draw.ring + 1 == self.levels.rings { beyond } else { fade(draw.ring) },
-                focal: [cotangent * picture[1] / picture[0], cotangent],
+                focal: [cotangent * height / width, cotangent],
                 middle_mm: light.middle_mm,
                 texel_mm: texel_at(draw.level),
                 light: draw.light,
@@ -326,7 +317,7 @@ impl Buffers {
             let draws = self.draws.iter().filter(|draw| draw.ring == number && lit(draw.light));
             let squares = |draw: &Draw| (plan.light_texels >> draw.level).max(1).pow(2);
             let draws: Vec<_> = draws.map(|draw| (&draw.group, squares(draw))).collect();
-            passes.splat.record_squares(&mut encoder, &ring.view, &self.material, &draws);
+            passes.splat.record(&mut encoder, &ring.view, &self.material, &draws);
         }
         encoder = lap("splat", encoder);
         passes.collapse.record(&mut encoder, &[&self.collapsed.view], &[&self.collapse], Rows::all(self.size));

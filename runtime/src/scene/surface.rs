@@ -106,6 +106,12 @@ impl Surface {
         &self.point_of
     }
 
+    /// How much of each light reaches every point.
+    #[must_use]
+    pub fn visibilities(&self) -> &[[f32; MAX_LIGHTS]] {
+        &self.visibilities
+    }
+
     /// The points as the CPU twin of the pass takes them.
     #[must_use]
     pub fn points(&self) -> Points<'_> {

@@ -24,7 +24,7 @@ pub use scene::{entering, incident, sky_irradiance};
 pub use separable::separable;
 pub use shade::{Triangles, shade};
 pub use surface_gather::{Points, surface_gather};
-pub use tone::{display, neutral, srgb};
+pub use tone::{display, linear, neutral, srgb};
 
 /// Linear red, green and blue.
 pub type Rgb = [f32; 3];

@@ -31,6 +31,12 @@ pub fn srgb(linear: Rgb) -> Rgb {
     })
 }
 
+/// Inverse of [`srgb`].
+#[must_use]
+pub fn linear(encoded: Rgb) -> Rgb {
+    encoded.map(|c| if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) })
+}
+
 /// The byte that a display gets for a tone-mapped, encoded value.
 #[must_use]
 pub fn display(encoded: Rgb) -> [u8; 3] {

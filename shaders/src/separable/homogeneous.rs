@@ -2,13 +2,8 @@
 
 use subsurf_decoder::Bssrdf;
 
-use super::radial::mean_reflectance;
+use super::radial::mean_profile;
 use crate::cpu::Rgb;
-
-/// Mean over all pixels of Rd between two pixels alike, in mm⁻², as a function of their distance in mm; 0 beyond r_max.
-pub fn mean_profile(material: &Bssrdf<'_>) -> impl Fn(f32) -> Rgb + Sync + use<> {
-    mean_reflectance(material)
-}
 
 /// Share of the light of the mean profile that is left when distances are √(r² + s²), inverted, for s = k / 2 pixels:
 /// ∫ R(r) r dr from 0 and from s. At least 0.1 is taken to be left.
@@ -16,7 +11,7 @@ pub fn mean_profile(material: &Bssrdf<'_>) -> impl Fn(f32) -> Rgb + Sync + use<>
 pub fn softened(material: &Bssrdf<'_>) -> [Rgb; 8] {
     const STEPS: u16 = 4_096;
     let header = material.header();
-    let profile = mean_reflectance(material);
+    let profile = mean_profile(material);
     let step = header.r_max_mm / f32::from(STEPS);
     let rest = |k: u8| {
         let begin = 0.5 * f32::from(k) * header.pitch_mm;
@@ -39,7 +34,7 @@ pub fn softened(material: &Bssrdf<'_>) -> [Rgb; 8] {
 pub fn mean_kernel(material: &Bssrdf<'_>) -> Vec<Rgb> {
     let header = material.header();
     let radius = i32::from(header.window_radius);
-    let profile = mean_reflectance(material);
+    let profile = mean_profile(material);
     let area = header.pitch_mm * header.pitch_mm;
     let line = |x: i32| {
         (-radius..=radius).fold([0.0; 3], |sum: Rgb, y| {

@@ -15,7 +15,8 @@ mod homogeneous;
 mod radial;
 
 pub use cascade::Stage;
-pub use homogeneous::{mean_kernel, mean_profile, softened};
+pub use homogeneous::{mean_kernel, softened};
+pub use radial::mean_profile;
 
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Header;

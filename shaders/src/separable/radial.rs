@@ -63,7 +63,7 @@ impl Radial {
     /// The same function for all pixels: the root of the mean reflectance.
     pub(super) fn mean_of(material: &Bssrdf<'_>) -> Self {
         let header = material.header();
-        let mean = mean_reflectance(material);
+        let mean = mean_profile(material);
         let radius = |k: usize| header.r_max_mm * k as f32 / (RADII - 1) as f32;
         Self {
             coefficients: vec![[1.0; 3]; header.width as usize * header.height as usize],
@@ -90,8 +90,8 @@ impl Radial {
     }
 }
 
-/// Mean over all pixels of Rd between two pixels alike, in mm⁻², as a function of their distance in mm.
-pub(super) fn mean_reflectance(material: &Bssrdf<'_>) -> impl Fn(f32) -> Rgb + Sync + use<> {
+/// Mean over all pixels of Rd between two pixels alike, in mm⁻², as a function of their distance in mm; 0 beyond r_max.
+pub fn mean_profile(material: &Bssrdf<'_>) -> impl Fn(f32) -> Rgb + Sync + use<> {
     let r_max_mm = material.header().r_max_mm;
     let samples = samples(material);
     let mean = |k: usize| {
