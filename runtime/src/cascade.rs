@@ -26,9 +26,9 @@ pub(crate) struct Maps {
 impl Maps {
     pub(crate) fn new(gpu: &Gpu, label: &'static str, size: [u32; 2], terms: usize) -> Result<Self> {
         let count = u32::try_from(terms).unwrap_or(u32::MAX);
-        let target = TextureSpec::target(label, size, MAP);
-        let surface =
-            gpu.texture(&TextureSpec { usage: target.usage, ..TextureSpec::layered(label, size, count, MAP) })?;
+        let target = TextureSpec::target(label, size, gpu.kept());
+        let surface = gpu
+            .texture(&TextureSpec { usage: target.usage, ..TextureSpec::layered(label, size, count, target.format) })?;
         let layers = (0..count).map(|layer| layer_of(&surface, layer)).collect();
         Ok(Self { all: layers_of(&surface), layers, surface })
     }
@@ -54,13 +54,14 @@ pub(crate) struct BlurPasses {
 
 impl BlurPasses {
     pub(crate) fn new(gpu: &Gpu, domain: Domain, terms: usize) -> Result<Self> {
-        let of_domain = match domain {
-            Domain::Patch => Slot::Nearest,
-            Domain::Screen => Slot::Uniform,
+        // Maps of a patch are sampled.
+        let (of_domain, of_maps) = match domain {
+            Domain::Patch => (Slot::Nearest, Slot::FloatLayers),
+            Domain::Screen => (Slot::Uniform, Slot::KeptLayers),
         };
-        let of_rows = [Slot::Uniform, of_domain, Slot::FloatLayers];
-        let of_columns = [Slot::Uniform, of_domain, Slot::FloatLayers, Slot::FloatLayers];
-        let targets = vec![MAP; 2 * terms];
+        let of_rows = [Slot::Uniform, of_domain, of_maps];
+        let of_columns = [Slot::Uniform, of_domain, of_maps, Slot::KeptLayers];
+        let targets = vec![gpu.kept(); 2 * terms];
         Ok(Self {
             terms,
             rows: CoverPass::new(gpu, source::blur_rows(domain, terms), "blur", &[&of_rows], &targets[..terms])?,

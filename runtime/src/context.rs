@@ -2,12 +2,14 @@
 
 use std::fmt;
 
+use half::f16;
 use pollster::block_on;
+use subsurf_shaders::source::Keeping;
 use wgpu::rwh::HasDisplayHandle;
 use wgpu::{
-    Adapter, AdapterInfo, Backends, Device, DeviceDescriptor, DeviceType, ErrorFilter, ExperimentalFeatures, Features,
-    GlDebugFns, Instance, InstanceDescriptor, InstanceFlags, Limits, MemoryHints, Queue, Surface, SurfaceTarget,
-    TextureFormat, TextureUsages, Trace,
+    Adapter, AdapterInfo, Backends, Color, Device, DeviceDescriptor, DeviceType, ErrorFilter, ExperimentalFeatures,
+    Extent3d, Features, GlDebugFns, Instance, InstanceDescriptor, InstanceFlags, Limits, MemoryHints, Queue, Surface,
+    SurfaceTarget, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages, Trace,
 };
 
 use crate::error::{Error, Result};
@@ -49,6 +51,7 @@ impl Backend {
 pub struct Gpu {
     pub(crate) device: Device,
     pub(crate) queue: Queue,
+    keeping: Keeping,
     info: AdapterInfo,
     ledger: Ledger,
 }
@@ -112,15 +115,20 @@ pub fn devices(backend: Backend) -> Vec<AdapterInfo> {
     adapters(&Instance::new(instance(backend)), backend).iter().map(Adapter::get_info).collect()
 }
 
-/// Refuses a device that cannot draw to half floats: everything between light and picture is kept in them.
-fn draws_half_floats(adapter: &Adapter, backend: Backend) -> Result<()> {
-    let features = adapter.get_texture_format_features(TextureFormat::Rgba16Float);
-    if features.allowed_usages.contains(TextureUsages::RENDER_ATTACHMENT) {
-        return Ok(());
-    }
-    let reason = "the driver cannot draw to half floats: it lacks GL_EXT_color_buffer_half_float and \
-                  GL_EXT_color_buffer_float";
-    Err(Error::NoDevice { backend, reason: reason.to_owned() })
+/// Half floats where they can be drawn to: it takes GL_EXT_color_buffer_half_float or GL_EXT_color_buffer_float.
+fn keeping_of(device: &Device) -> Keeping {
+    let scope = device.push_error_scope(ErrorFilter::Validation);
+    let _ = device.create_texture(&TextureDescriptor {
+        label: Some("probe"),
+        size: Extent3d::default(),
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: TextureDimension::D2,
+        format: TextureFormat::Rgba16Float,
+        usage: TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    });
+    if block_on(scope.pop()).is_some() { Keeping::Packed } else { Keeping::Halves }
 }
 
 impl Gpu {
@@ -153,7 +161,6 @@ impl Gpu {
     }
 
     fn of(adapter: &Adapter, backend: Backend) -> Result<Self> {
-        draws_half_floats(adapter, backend)?;
         let request = adapter.request_device(&DeviceDescriptor {
             label: Some("subsurf"),
             required_features: Features::empty(),
@@ -164,14 +171,56 @@ impl Gpu {
         });
         let none = |reason: String| Error::NoDevice { backend, reason };
         let (device, queue) = block_on(request).map_err(|error| none(error.to_string()))?;
-        Ok(Self { device, queue, info: adapter.get_info(), ledger: Ledger::default() })
+        Ok(Self::from_device(device, queue, adapter.get_info()))
     }
 
     /// Draws with a device that the caller owns; `info` is what its adapter says. Within
     /// `Limits::downlevel_webgl2_defaults()` everything works.
     #[must_use]
     pub fn from_device(device: Device, queue: Queue, info: AdapterInfo) -> Self {
-        Self { device, queue, info, ledger: Ledger::default() }
+        Self { keeping: keeping_of(&device), device, queue, info, ledger: Ledger::default() }
+    }
+
+    /// How passes keep values for later ones.
+    #[must_use]
+    pub fn keeping(&self) -> Keeping {
+        self.keeping
+    }
+
+    /// The same device, with values kept in another way: for drivers that claim to draw to half floats and fail.
+    #[must_use]
+    pub fn keep(self, keeping: Keeping) -> Self {
+        Self { keeping, ..self }
+    }
+
+    /// Format of what passes keep.
+    pub(crate) fn kept(&self) -> TextureFormat {
+        match self.keeping {
+            Keeping::Halves => TextureFormat::Rgba16Float,
+            Keeping::Packed => TextureFormat::Rgba16Uint,
+        }
+    }
+
+    /// What to clear a target of that format with.
+    pub(crate) fn kept_colour(&self, colour: Color) -> Color {
+        match self.keeping {
+            Keeping::Halves => colour,
+            Keeping::Packed => {
+                let bits = |value: f64| f16::from_f64(value).to_bits().into();
+                Color { r: bits(colour.r), g: bits(colour.g), b: bits(colour.b), a: bits(colour.a) }
+            }
+        }
+    }
+
+    /// Refuses to do what takes half floats that can be drawn to.
+    pub(crate) fn expect_halves(&self, what: &str) -> Result<()> {
+        match self.keeping {
+            Keeping::Halves => Ok(()),
+            Keeping::Packed => Err(Error::Device(format!(
+                "{what} need half floats to draw to, and this device has none (it lacks GL_EXT_color_buffer_half_float); \
+                 the separable path draws meshes without"
+            ))),
+        }
     }
 
     /// The device, to share it.

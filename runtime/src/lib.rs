@@ -27,4 +27,5 @@ pub use mesh::{GpuMesh, Known};
 pub use patch::{Exitance, PatchLight, PatchRenderer, Region};
 pub use separable::{HomogeneousPatch, HomogeneousRenderer, SeparablePatch, SeparableRenderer};
 pub use subsurf_shaders::Storage;
+pub use subsurf_shaders::source::Keeping;
 pub use wgpu;

@@ -44,16 +44,10 @@ impl PatchRenderer {
     /// [`crate::Error::Device`] if the driver refuses them.
     pub fn new(gpu: &Gpu, storage: Storage) -> Result<Self> {
         let gather_groups = [slots(storage), &[Slot::Uniform, Slot::Float]];
-        let present_groups: [&[Slot]; 1] = [&[Slot::Uniform, Slot::Float]];
+        let present_groups: [&[Slot]; 1] = [&[Slot::Uniform, Slot::Kept]];
         Ok(Self {
             storage,
-            gather: CoverPass::new(
-                gpu,
-                source::gather(storage),
-                "gather",
-                &gather_groups,
-                &[TextureFormat::Rgba16Float],
-            )?,
+            gather: CoverPass::new(gpu, source::gather(storage), "gather", &gather_groups, &[gpu.kept()])?,
             present: CoverPass::new(gpu, source::PRESENT, "present", &present_groups, &[TextureFormat::Rgba8Unorm])?,
         })
     }
@@ -65,7 +59,7 @@ impl PatchRenderer {
     pub fn gather(&self, gpu: &Gpu, material: &Material, light: &PatchLight, region: Region) -> Result<Exitance> {
         material.expect(self.storage)?;
         light.expect([material.header().width, material.header().height])?;
-        let spec = TextureSpec::target("exitance", region.size, TextureFormat::Rgba16Float);
+        let spec = TextureSpec::target("exitance", region.size, gpu.kept());
         let surface = gpu.texture(&spec)?;
         let view = gpu.uniform("view", &uniform::View { origin: region.origin, pad: [0; 2] });
         let of_material = self.gather.bind(gpu, 0, &material.resources())?;

@@ -49,7 +49,7 @@ impl Pipeline {
                 program.groups.iter().map(|slots| bind_group_layout(gpu, slots)).collect();
             let module = gpu.device.create_shader_module(ShaderModuleDescriptor {
                 label,
-                source: ShaderSource::Wgsl(program.shader.into()),
+                source: ShaderSource::Wgsl(gpu.keeping().complete(program.shader).into()),
             });
             let bind_group_layouts: Vec<Option<&BindGroupLayout>> = groups.iter().map(Some).collect();
             let target = |format: &TextureFormat| {
@@ -135,6 +135,6 @@ pub(crate) fn attachment<'a>(view: &'a TextureView, load: LoadOp<Color>) -> Rend
 }
 
 fn bind_group_layout(gpu: &Gpu, slots: &[Slot]) -> BindGroupLayout {
-    let entries = layout_entries(slots);
+    let entries = layout_entries(slots, gpu.keeping());
     gpu.device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: None, entries: &entries })
 }

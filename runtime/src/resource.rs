@@ -2,6 +2,7 @@
 
 use bytemuck::Pod;
 use half::f16;
+use subsurf_shaders::source::Keeping;
 use wgpu::{
     BindGroupLayoutEntry, BindingType, Buffer, BufferBindingType, BufferUsages, CommandEncoderDescriptor, Extent3d,
     SamplerBindingType, ShaderStages, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture, TextureDescriptor,
@@ -255,7 +256,7 @@ impl Gpu {
         Ok(())
     }
 
-    /// The first three channels of a half-float texture.
+    /// The first three channels of what was kept: half floats, or their bits.
     pub(crate) fn read_rgb(&self, texture: &Texture) -> Result<Vec<[f32; 3]>> {
         let texels: Vec<[u16; 4]> = self.read(texture)?;
         Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b].map(|bits| f16::from_bits(bits).to_f32())).collect())
@@ -275,6 +276,10 @@ pub(crate) enum Slot {
     Float,
     /// Layers of one.
     FloatLayers,
+    /// What passes keep, [`Gpu::kept`].
+    Kept,
+    /// Layers of it.
+    KeptLayers,
     /// A float texture that is filtered.
     Filtered,
     /// Layers of one.
@@ -290,10 +295,14 @@ pub(crate) enum Slot {
 }
 
 /// Layout entries of a bind group whose bindings are `slots`, seen by both stages.
-pub(crate) fn layout_entries(slots: &[Slot]) -> Vec<BindGroupLayoutEntry> {
+pub(crate) fn layout_entries(slots: &[Slot], keeping: Keeping) -> Vec<BindGroupLayoutEntry> {
     let texture =
         |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };
     let unfiltered = TextureSampleType::Float { filterable: false };
+    let kept = match keeping {
+        Keeping::Halves => unfiltered,
+        Keeping::Packed => TextureSampleType::Uint,
+    };
     let filtered = TextureSampleType::Float { filterable: true };
     let bindings = slots.iter().zip(0..);
     bindings
@@ -308,6 +317,8 @@ pub(crate) fn layout_entries(slots: &[Slot]) -> Vec<BindGroupLayoutEntry> {
                 },
                 Slot::Float => texture(unfiltered, TextureViewDimension::D2),
                 Slot::FloatLayers => texture(unfiltered, TextureViewDimension::D2Array),
+                Slot::Kept => texture(kept, TextureViewDimension::D2),
+                Slot::KeptLayers => texture(kept, TextureViewDimension::D2Array),
                 Slot::Filtered => texture(filtered, TextureViewDimension::D2),
                 Slot::FilteredLayers => texture(filtered, TextureViewDimension::D2Array),
                 Slot::Sampler => BindingType::Sampler(SamplerBindingType::Filtering),

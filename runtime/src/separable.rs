@@ -4,8 +4,7 @@ use subsurf_decoder::bssrdf::{Addressing, Header};
 use subsurf_shaders::source::{self, Domain};
 use subsurf_shaders::uniform::Kernel;
 use wgpu::{
-    AddressMode, BindGroup, BindingResource, Buffer, CommandEncoderDescriptor, Sampler, SamplerDescriptor,
-    TextureFormat, TextureView,
+    AddressMode, BindGroup, BindingResource, Buffer, CommandEncoderDescriptor, Sampler, SamplerDescriptor, TextureView,
 };
 
 use crate::cascade::{BlurPasses, Cascade, Ends, MAP};
@@ -38,10 +37,11 @@ impl SeparableRenderer {
     /// Compiles the passes.
     ///
     /// # Errors
-    /// [`crate::Error::Device`] if the driver refuses them.
+    /// [`crate::Error::Device`] if the driver refuses them, or has no half floats to draw to.
     pub fn new(gpu: &Gpu, terms: usize) -> Result<Self> {
+        gpu.expect_halves("blurs on flat patches")?;
         let of_first = [Slot::Uniform, Slot::Nearest, Slot::FilteredLayers, Slot::Float];
-        let of_last = [Slot::Uniform, Slot::Nearest, Slot::FloatLayers, Slot::FloatLayers, Slot::FilteredLayers];
+        let of_last = [Slot::Uniform, Slot::Nearest, Slot::FloatLayers, Slot::KeptLayers, Slot::FilteredLayers];
         Ok(Self {
             terms,
             first: CoverPass::new(gpu, source::first_rows(terms), "blur", &[&of_first], &vec![MAP; terms])?,
@@ -74,7 +74,7 @@ impl SeparableRenderer {
             texture(&cascade.sums_before_last().all),
             factors,
         ];
-        let surface = gpu.texture(&TextureSpec::target("exitance", size, TextureFormat::Rgba16Float))?;
+        let surface = gpu.texture(&TextureSpec::target("exitance", size, MAP))?;
         Ok(SeparablePatch {
             first: self.first.bind(gpu, 0, &of_first)?,
             last: self.last.bind(gpu, 0, &of_last)?,
@@ -118,8 +118,9 @@ impl HomogeneousRenderer {
     /// Compiles the pass.
     ///
     /// # Errors
-    /// [`crate::Error::Device`] if the driver refuses it.
+    /// [`crate::Error::Device`] if the driver refuses it, or has no half floats to draw to.
     pub fn new(gpu: &Gpu) -> Result<Self> {
+        gpu.expect_halves("blurs on flat patches")?;
         let slots = [Slot::Uniform, Slot::Nearest, Slot::Float];
         Ok(Self { pass: CoverPass::new(gpu, source::HOMOGENEOUS, "homogeneous", &[&slots], &[MAP])? })
     }
@@ -145,7 +146,7 @@ impl HomogeneousRenderer {
             self.pass.bind(gpu, 0, &[block.as_entire_binding(), BindingResource::Sampler(&nearest), image])
         };
         let groups = [bind(&rows, light.view())?, bind(&columns, &between.view)?];
-        let surface = gpu.texture(&TextureSpec::target("exitance", size, TextureFormat::Rgba16Float))?;
+        let surface = gpu.texture(&TextureSpec::target("exitance", size, MAP))?;
         Ok(HomogeneousPatch { between, groups, exitance: Exitance::new(surface, size), size })
     }
 

@@ -1,4 +1,4 @@
-//! The passes, as WGSL text.
+//! The passes, as WGSL text, to be completed by [`Keeping::complete`].
 
 use crate::separable::MAX_TERMS;
 
@@ -26,6 +26,28 @@ impl Storage {
     /// All of them.
     pub const ALL: [Self; 7] =
         [Self::Single, Self::Bmpp, Self::Palette, Self::Three, Self::Five, Self::PerPixel, Self::Capture];
+}
+
+/// How passes keep four values for later ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Keeping {
+    /// As half floats.
+    Halves,
+    /// As the bits of half floats in integers, which every GLES 3.0 device draws to. They cannot be added up or sampled:
+    /// for splats and for blurs on flat patches it takes half floats.
+    Packed,
+}
+
+impl Keeping {
+    /// A pass of this module with what says how it keeps values: the text to compile.
+    #[must_use]
+    pub fn complete(self, pass: &str) -> String {
+        let prelude = match self {
+            Self::Halves => include_str!("../wgsl/kept_halves.wgsl"),
+            Self::Packed => include_str!("../wgsl/kept_packed.wgsl"),
+        };
+        format!("{prelude}{pass}")
+    }
 }
 
 /// Files one after another, what all materials share first.
@@ -266,9 +288,17 @@ pub const PRESENT: &str = concat!(
     include_str!("../wgsl/present.wgsl")
 );
 
-/// Every pass in every variant, by name.
+/// Every pass in every variant, by name, complete.
 #[must_use]
-pub fn all() -> Vec<(String, &'static str)> {
+pub fn all() -> Vec<(String, String)> {
+    let both = |(name, pass): (String, &'static str)| {
+        let packed = format!("{name}, packed");
+        [(name, Keeping::Halves.complete(pass)), (packed, Keeping::Packed.complete(pass))]
+    };
+    passes().into_iter().flat_map(both).collect()
+}
+
+fn passes() -> Vec<(String, &'static str)> {
     let gathers = Storage::ALL.into_iter().map(|storage| (format!("gather, {storage:?}"), gather(storage)));
     let fitted = Storage::ALL.into_iter().filter(|storage| *storage != Storage::Capture);
     let on_surfaces = fitted.flat_map(|storage| {

@@ -311,8 +311,10 @@ pub struct ScreenDomain {
     pub middle_mm: f32,
     /// Pixel of the material.
     pub pitch_mm: f32,
+    /// 1 if taps are shifted from texel to texel.
+    pub jitters: u32,
     #[doc(hidden)]
-    pub pad: [u32; 3],
+    pub pad: [u32; 2],
 }
 
 /// Most taps to one side of `homogeneous.wgsl`, the middle one counted.

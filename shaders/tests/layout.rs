@@ -56,7 +56,7 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(Frame: size, texels, exposure);
     assert_layout_of!(Stage as Stage in "blur": weights, axis, sigma, stride, taps, step, sparse, begun);
     assert_layout_of!(Kernel as Stage in "homogeneous": kernel, axis, taps);
-    assert_layout_of!(ScreenDomain as Domain in "Screen": size, focal_texels, middle_mm, pitch_mm);
+    assert_layout_of!(ScreenDomain as Domain in "Screen": size, focal_texels, middle_mm, pitch_mm, jitters);
 }
 
 #[test]

@@ -115,7 +115,8 @@ fn selects_by_vector_are_of_floats() {
 #[test]
 fn texture_loads_are_accounted_for() {
     let loads = |text: &str| text.matches("textureLoad(").count();
-    let all = source::all();
+    // How values are kept loads nothing.
+    let all: Vec<_> = source::all().into_iter().filter(|(name, _)| !name.ends_with(", packed")).collect();
     let counts: Vec<(&str, usize)> = all.iter().map(|(name, text)| (&name[..], loads(text))).collect();
     assert_eq!(
         counts,

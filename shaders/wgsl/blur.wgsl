@@ -19,7 +19,7 @@ struct Stage {
 
 @group(0) @binding(0) var<uniform> stage: Stage;
 
-// Taps at k stride texels, |k| <= count.
+// Taps at k stride texels, |k| <= count, all of them shifted as the domain says.
 struct Taps {
     stride: i32,
     count: i32,
@@ -36,10 +36,12 @@ fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
         return sums;
     }
     let taps = taps_at(centre);
+    let shift = shift_at(x, taps.stride);
     var weights = 0.0;
     for (var k = -taps.count; k <= taps.count; k++) {
-        var light = maps_at(x + k * taps.stride * stage.axis);
-        let distance = f32(k * taps.stride) / taps.sigma;
+        let step = k * taps.stride + shift;
+        var light = maps_at(x + step * stage.axis);
+        let distance = f32(step) / taps.sigma;
         let weight = exp(-0.5 * distance * distance) * nearness(centre, light[0]);
         weights += weight;
         for (var l = 0u; l < TERMS; l++) {

@@ -1,12 +1,12 @@
 // Exitance that was gathered at every vertex.
 
 // Of every point; linear rgb.
-@group(1) @binding(0) var exitances: texture_2d<f32>;
+@group(1) @binding(0) var exitances: KeptImage;
 // How much of each light reaches the point.
 @group(1) @binding(1) var visibilities: texture_2d<f32>;
 
 fn vertex_exitance(point: u32) -> vec3<f32> {
-    return textureLoad(exitances, vec2<u32>(point % scene.row, point / scene.row), 0).xyz;
+    return told(textureLoad(exitances, vec2<u32>(point % scene.row, point / scene.row), 0)).xyz;
 }
 
 fn vertex_visibility(point: u32) -> vec4<f32> {

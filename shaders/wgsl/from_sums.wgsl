@@ -1,7 +1,7 @@
 // Exitance from blurred maps on the screen: M = sum over m of c_m S_m, and the environment's.
 
 // S_m, and depth in the fourth place.
-@group(1) @binding(3) var sums: texture_2d_array<f32>;
+@group(1) @binding(3) var sums: KeptLayers;
 
 // S_m at a pixel.
 fn sums_at(pixel: vec2<f32>, depth: f32) -> array<vec3<f32>, TERMS> {
@@ -14,12 +14,12 @@ fn sums_at(pixel: vec2<f32>, depth: f32) -> array<vec3<f32>, TERMS> {
             break;
         }
         let texel = clamp(place.first + neighbour(k), vec2<i32>(0), last);
-        let value = textureLoad(sums, texel, 0u, 0);
+        let value = told(textureLoad(sums, texel, 0u, 0));
         let weight = near_weight(linear_weight(k, place.part), (value.w - depth) / upsampling.near_mm);
         weights += weight;
         total[0] += weight * value.xyz;
         for (var m = 1u; m < TERMS; m++) {
-            total[m] += weight * textureLoad(sums, texel, m, 0).xyz;
+            total[m] += weight * told(textureLoad(sums, texel, m, 0)).xyz;
         }
     }
     for (var m = 0u; m < TERMS; m++) {

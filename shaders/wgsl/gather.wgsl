@@ -17,7 +17,7 @@ fn mirrored(a: i32, b: i32, k: u32) -> vec2<i32> {
 }
 
 @fragment
-fn gather(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
+fn gather(@builtin(position) at: vec4<f32>) -> @location(0) Kept {
     let x_o = vec2<i32>(at.xy) + vec2<i32>(view.origin);
     let o = load_pixel(address(x_o));
     let radius = i32(material.window_radius);
@@ -42,5 +42,5 @@ fn gather(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
             }
         }
     }
-    return vec4<f32>(sum * material.pitch_mm * material.pitch_mm, 1.0);
+    return kept(vec4<f32>(sum * material.pitch_mm * material.pitch_mm, 1.0));
 }

@@ -8,7 +8,7 @@
 @group(1) @binding(2) var visibilities: texture_2d<f32>;
 
 @fragment
-fn irradiance(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
+fn irradiance(@builtin(position) at: vec4<f32>) -> @location(0) Kept {
     let texel = vec2<u32>(at.xy);
     let position = textureLoad(positions, texel, 0).xyz;
     let normal = textureLoad(normals, texel, 0).xyz;
@@ -18,5 +18,5 @@ fn irradiance(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
         let from_light = incident(i, position);
         sum += from_light.irradiance * entering(normal, from_light.towards) * seen[min(i, 3u)];
     }
-    return vec4<f32>(sum, 1.0);
+    return kept(vec4<f32>(sum, 1.0));
 }

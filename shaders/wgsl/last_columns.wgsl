@@ -4,12 +4,12 @@
 @group(0) @binding(4) var factors: texture_2d_array<f32>;
 
 @fragment
-fn blur(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
+fn blur(@builtin(position) at: vec4<f32>) -> @location(0) Kept {
     let texel = vec2<u32>(at.xy);
     var total = summed(texel, blurred(vec2<i32>(at.xy)));
     var exitance = vec3<f32>(0.0);
     for (var m = 0u; m < TERMS; m++) {
         exitance += textureLoad(factors, texel, m, 0).xyz * total[m].xyz;
     }
-    return vec4<f32>(exitance, 1.0);
+    return kept(vec4<f32>(exitance, 1.0));
 }

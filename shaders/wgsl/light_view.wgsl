@@ -30,8 +30,8 @@ fn see(in: FromLight) -> Seen {
     let depth = light_depth(which.light, in.position_mm);
     let place = fract(place_of(in.position_mm, normal, in.uv) * 0.5) * 2.0;
     return Seen(
-        vec4<f32>(in.position_mm - scene.centre_mm, depth),
-        vec4<f32>(min(from_light.irradiance * entered, BRIGHTEST), 1.0),
-        vec4<f32>(place, depth, depth),
+        kept(vec4<f32>(in.position_mm - scene.centre_mm, depth)),
+        kept(vec4<f32>(min(from_light.irradiance * entered, BRIGHTEST), 1.0)),
+        kept(vec4<f32>(place, depth, depth)),
     );
 }

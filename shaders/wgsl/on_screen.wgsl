@@ -9,15 +9,15 @@ struct Domain {
     middle_mm: f32,
     // Pixel of the material in mm.
     pitch_mm: f32,
-
+    // 1 if taps are shifted from texel to texel.
+    jitters: u32,
     pad_0: u32,
     pad_1: u32,
-    pad_2: u32,
 }
 
 @group(0) @binding(1) var<uniform> domain: Domain;
 // c_l E, blurred by the stages before; depth in the fourth place.
-@group(0) @binding(2) var maps: texture_2d_array<f32>;
+@group(0) @binding(2) var maps: KeptLayers;
 
 // Most taps to one side, close to the eye.
 const MOST_TAPS: f32 = 16.0;
@@ -31,6 +31,13 @@ fn taps_at(centre: vec4<f32>) -> Taps {
     let taps = clamp(ceil(3.2 * sigma / sparse), 1.0, MOST_TAPS);
     let stride = max(sparse, floor(3.2 * sigma / taps));
     return Taps(i32(stride), i32(taps), max(sigma, 1e-3));
+}
+
+// Where taps are far apart, edges of what they see are seen several times: shifted by interleaved gradient noise (Jimenez
+// 2014), the copies become grain (Jimenez et al. 2015, fig. S.6).
+fn shift_at(x: vec2<i32>, stride: i32) -> i32 {
+    let noise = fract(52.9829189 * fract(dot(vec2<f32>(x), vec2<f32>(0.06711056, 0.00583715))));
+    return select(0, i32(floor(noise * f32(stride))) - stride / 2, domain.jitters != 0u);
 }
 
 // The part of exp(-r^2 / 2 sigma^2) that lies in the difference of depth (Jimenez et al. 2015, supplement, section E).
@@ -48,7 +55,7 @@ fn maps_at(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
     let texel = clamp(x, vec2<i32>(0), vec2<i32>(domain.size) - 1);
     var all: array<vec4<f32>, TERMS>;
     for (var l = 0u; l < TERMS; l++) {
-        all[l] = textureLoad(maps, texel, l, 0);
+        all[l] = told(textureLoad(maps, texel, l, 0));
     }
     return all;
 }

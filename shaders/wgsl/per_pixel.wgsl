@@ -11,6 +11,16 @@ fn load_pixel(texel: vec2<u32>) -> Pixel {
     return Pixel(texel);
 }
 
+// What a vertex hands to its fragments of the pixel at a texel.
+fn carried(texel: vec2<u32>) -> vec4<u32> {
+    return vec4<u32>(texel, 0u, 0u);
+}
+
+// And what they make of it.
+fn handed_over(carried: vec4<u32>) -> Pixel {
+    return Pixel(carried.xy);
+}
+
 fn node(texel: vec2<u32>, h: u32) -> vec3<f32> {
     let layer = 3u * h;
     return vec3<f32>(

@@ -12,11 +12,11 @@ struct Frame {
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
-@group(0) @binding(1) var exitance: texture_2d<f32>;
+@group(0) @binding(1) var exitance: KeptImage;
 
 @fragment
 fn present(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     let texel = vec2<u32>(at.xy) * frame.texels / frame.size;
-    let light = textureLoad(exitance, min(texel, frame.texels - 1u), 0).xyz;
+    let light = told(textureLoad(exitance, min(texel, frame.texels - 1u), 0)).xyz;
     return vec4<f32>(srgb(neutral(light * frame.exposure)), 1.0);
 }

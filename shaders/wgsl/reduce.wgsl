@@ -1,9 +1,9 @@
 // The next level of what a light sees: four texels become one.
 
 @group(0) @binding(0) var<uniform> which: Which;
-@group(0) @binding(1) var positions: texture_2d_array<f32>;
-@group(0) @binding(2) var fluxes: texture_2d_array<f32>;
-@group(0) @binding(3) var places: texture_2d_array<f32>;
+@group(0) @binding(1) var positions: KeptLayers;
+@group(0) @binding(2) var fluxes: KeptLayers;
+@group(0) @binding(3) var places: KeptLayers;
 
 @fragment
 fn reduce(@builtin(position) at: vec4<f32>) -> Seen {
@@ -18,10 +18,10 @@ fn reduce(@builtin(position) at: vec4<f32>) -> Seen {
     for (var k = 0u; k < 4u; k++) {
         let turn = (k + chosen) & 3u;
         let child = min(2u * texel + vec2<u32>(turn & 1u, turn >> 1u), last);
-        let child_flux = textureLoad(fluxes, child, which.light, 0);
+        let child_flux = told(textureLoad(fluxes, child, which.light, 0));
         if child_flux.w > 0.0 {
-            let child_place = textureLoad(places, child, which.light, 0);
-            position += child_flux.w * textureLoad(positions, child, which.light, 0);
+            let child_place = told(textureLoad(places, child, which.light, 0));
+            position += child_flux.w * told(textureLoad(positions, child, which.light, 0));
             range = vec2<f32>(min(range.x, child_place.z), max(range.y, child_place.w));
             if flux.w == 0.0 {
                 place = child_place.xy;
@@ -30,7 +30,7 @@ fn reduce(@builtin(position) at: vec4<f32>) -> Seen {
         }
     }
     if flux.w == 0.0 {
-        return Seen(vec4<f32>(0.0, 0.0, 0.0, 60000.0), vec4<f32>(0.0), vec4<f32>(0.0));
+        return Seen(kept(vec4<f32>(0.0, 0.0, 0.0, 60000.0)), kept(vec4<f32>(0.0)), kept(vec4<f32>(0.0)));
     }
-    return Seen(0.25 * position / flux.w, flux, vec4<f32>(place, range));
+    return Seen(kept(0.25 * position / flux.w), kept(flux), kept(vec4<f32>(place, range)));
 }

@@ -19,6 +19,16 @@ fn load_pixel(texel: vec2<u32>) -> Pixel {
     return pixel;
 }
 
+// What a vertex hands to its fragments of the pixel at a texel: too much for all of it.
+fn carried(texel: vec2<u32>) -> vec4<u32> {
+    return vec4<u32>(texel, 0u, 0u);
+}
+
+// And what they make of it.
+fn handed_over(carried: vec4<u32>) -> Pixel {
+    return load_pixel(carried.xy);
+}
+
 // P_x = sum of t_k P_bk, all in log scale.
 fn log_profile(pixel: Pixel, knot: Knot) -> vec3<f32> {
     // Only variables can be indexed by what is not constant.

@@ -1,7 +1,7 @@
 // How much of a light reaches a point, from what the light sees.
 
 // Positions relative to the middle, and depth along the axis in mm; a layer for each light.
-@group(0) @binding(1) var seen_positions: texture_2d_array<f32>;
+@group(0) @binding(1) var seen_positions: KeptLayers;
 
 // Texel of a light's view, not rounded, and the edge of a texel there in mm.
 struct Sight {
@@ -39,7 +39,7 @@ fn visibility(i: u32, position_mm: vec3<f32>, normal: vec3<f32>) -> f32 {
     var sum = 0.0;
     for (var y = -1; y <= 2; y++) {
         for (var x = -1; x <= 2; x++) {
-            let stored = textureLoad(seen_positions, seen_texel(first + vec2<i32>(x, y)), i, 0).w;
+            let stored = told(textureLoad(seen_positions, seen_texel(first + vec2<i32>(x, y)), i, 0)).w;
             let weight = clamp(vec2<f32>(2.0) - abs(vec2<f32>(f32(x), f32(y)) - part), vec2<f32>(0.0), vec2<f32>(1.0));
             sum += weight.x * weight.y * select(0.0, 1.0, stored >= depth);
         }

@@ -45,7 +45,8 @@ struct Sample {
     @location(0) @interpolate(flat) position: vec3<f32>,
     // Flux in irradiance times mm^2.
     @location(1) @interpolate(flat) flux: vec3<f32>,
-    @location(2) @interpolate(flat) place: vec2<f32>,
+    // Of the material.
+    @location(2) @interpolate(flat) pixel: vec4<u32>,
     // Distances are no less than this, in mm.
     @location(3) @interpolate(flat) softening_mm: f32,
 }
@@ -101,7 +102,7 @@ fn spread(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance:
     let radius = min(splat_of.fade_out.y, material.r_max_mm);
     // Nothing that is behind the eye can be seen.
     if !wanted || centre.w < -radius {
-        return Sample(vec4<f32>(2.0, 2.0, 2.0, 1.0), vec3<f32>(0.0), vec3<f32>(0.0), vec2<f32>(0.0), 0.0);
+        return Sample(vec4<f32>(2.0, 2.0, 2.0, 1.0), vec3<f32>(0.0), vec3<f32>(0.0), vec4<u32>(0u), 0.0);
     }
     // A sphere of that radius, seen in perspective; close to the eye it may be everywhere.
     let distance = max(centre.w - radius, 0.02 * radius);
@@ -117,7 +118,7 @@ fn spread(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance:
         softening_mm = SOFTENING * texel_mm * sqrt(1.0 + slope * slope);
         light *= given_back(softening_mm);
     }
-    return Sample(vec4<f32>(clip, 0.5, 1.0), position.xyz, light, place.xy, softening_mm);
+    return Sample(vec4<f32>(clip, 0.5, 1.0), position.xyz, light, carried(patch_texel(place.xy)), softening_mm);
 }
 
 fn ring(r_mm: f32) -> f32 {
@@ -139,7 +140,7 @@ fn splat(in: Sample) -> @location(0) vec4<f32> {
     }
     // Rd of the pixels at both points (eq. 2 to 4), r their distance in space.
     let o = load_pixel(patch_texel(textureLoad(places, texel, 0).xy));
-    let i = load_pixel(patch_texel(in.place));
+    let i = handed_over(in.pixel);
     let rd = reflectance(i, partner_at(o, softened_mm), vec2<i32>(0));
     // Half floats hold little more.
     return vec4<f32>(min(rd * in.flux * share, vec3<f32>(60000.0)), 0.0);

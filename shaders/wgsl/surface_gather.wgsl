@@ -20,7 +20,7 @@ struct Surface {
 // Pixel of the material at each point.
 @group(1) @binding(3) var pixels: texture_2d<u32>;
 // Irradiance that has entered at each point.
-@group(1) @binding(4) var irradiances: texture_2d<f32>;
+@group(1) @binding(4) var irradiances: KeptImage;
 
 fn cell_of(position_mm: vec3<f32>) -> vec3<u32> {
     let cell = floor((position_mm - surface.origin_mm) / surface.cell_mm);
@@ -32,7 +32,7 @@ fn cell_start(cell: u32) -> u32 {
 }
 
 @fragment
-fn surface_gather(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
+fn surface_gather(@builtin(position) at: vec4<f32>) -> @location(0) Kept {
     let texel = vec2<u32>(at.xy);
     let x_o = textureLoad(positions, texel, 0).xyz;
     let o = load_pixel(min(textureLoad(pixels, texel, 0).xy, material.size - 1u));
@@ -50,12 +50,12 @@ fn surface_gather(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
                 let r_mm = distance(x_i.xyz, x_o);
                 if r_mm <= material.r_max_mm {
                     let pixel = min(textureLoad(pixels, texel_i, 0).xy, material.size - 1u);
-                    let e = textureLoad(irradiances, texel_i, 0).xyz;
+                    let e = told(textureLoad(irradiances, texel_i, 0)).xyz;
                     let partner = partner_at(o, r_mm);
                     sum += reflectance(load_pixel(pixel), partner, vec2<i32>(0)) * e * x_i.w;
                 }
             }
         }
     }
-    return vec4<f32>(sum, 1.0);
+    return kept(vec4<f32>(sum, 1.0));
 }

@@ -12,9 +12,9 @@ struct Through {
 
 @group(1) @binding(2) var<uniform> through: Through;
 // What lights see: irradiance that enters, on a plane across the axis.
-@group(1) @binding(3) var seen_fluxes: texture_2d_array<f32>;
+@group(1) @binding(3) var seen_fluxes: KeptLayers;
 // Place on the patch.
-@group(1) @binding(4) var seen_places: texture_2d_array<f32>;
+@group(1) @binding(4) var seen_places: KeptLayers;
 
 // What is left of c_l E of a plane that the light crosses, after d mm: sum over l and a of w_lma exp(-d^2 / 2 sigma_a^2) c_l E.
 fn passed(light: array<vec3<f32>, TERMS>, d: f32) -> array<vec3<f32>, TERMS> {
@@ -41,13 +41,13 @@ fn come_through(i: u32, position_mm: vec3<f32>) -> array<vec3<f32>, TERMS> {
     var total: array<vec3<f32>, TERMS>;
     // Light spreads on its way: nine places around it, as far apart as the widest Gaussian reaches from one to the next.
     let widest_mm = through.weights[min(4u * (through.gaussians - 1u), 31u)].w;
-    let spread = clamp(0.8 * widest_mm / sight.texel_mm, 1.0, 32.0);
+    let spread = clamp(0.8 * widest_mm / sight.texel_mm, 1.0, 128.0);
     for (var k = 0; k < 9; k++) {
         let step = vec2<i32>(k % 3 - 1, k / 3 - 1);
         let texel = seen_texel(vec2<i32>(floor(sight.texel + vec2<f32>(step) * spread)));
-        let flux = textureLoad(seen_fluxes, texel, i, 0);
-        let d = abs(depth - textureLoad(seen_positions, texel, i, 0).w);
-        let place = textureLoad(seen_places, texel, i, 0).xy;
+        let flux = told(textureLoad(seen_fluxes, texel, i, 0));
+        let d = abs(depth - told(textureLoad(seen_positions, texel, i, 0)).w);
+        let place = told(textureLoad(seen_places, texel, i, 0)).xy;
         // Binomial weights. Nothing was seen there if the fourth value is 0.
         let e = flux.xyz * flux.w * f32((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
         var light: array<vec3<f32>, TERMS>;

@@ -1,5 +1,7 @@
 //! What the tests of several crates share.
 
+pub mod frames;
+
 use std::path::{Path, PathBuf};
 
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;

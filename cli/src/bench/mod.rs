@@ -1,5 +1,6 @@
 //! `subsurf bench`: how long things take on this machine.
 
+mod course;
 mod frames;
 mod load;
 mod load_one;

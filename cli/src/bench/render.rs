@@ -10,9 +10,10 @@ use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::{psnr_db, ssim};
 use subsurf_encoder::write_bytes;
 use subsurf_runtime::scene::{Mesh, Scene};
-use subsurf_runtime::{BACKGROUND, Backend, Gpu};
+use subsurf_runtime::{BACKGROUND, Backend, Gpu, RuntimeOptions};
 
-use super::frames::{devices, measure, named};
+use super::course::{self, Course};
+use super::frames::{devices, named};
 use super::timing::{median, quantile};
 use crate::failure::bad_request;
 use crate::info::{parse, read_file};
@@ -100,21 +101,28 @@ fn compare(
     let paths = [("splat", &splat), ("separable", &separable), ("homogeneous", &homogeneous)];
     let (first, gpu) = &gpus[0];
     let ready = |gpu, ingredients: &Ingredients, scene: &Scene| {
-        Ready::new(gpu, ingredients.upload(gpu, material, mesh)?, scene, size)
+        Ready::new(gpu, ingredients.upload(gpu, material, mesh)?, scene, size, RuntimeOptions::default())
     };
     let exposure = ready(gpu, &separable, &scene)?.exposure(gpu, &scene)?;
     scene.view.exposure = exposure;
     let reference = ready(gpu, &gather, &scene)?.picture(gpu, &scene)?;
     let mut shown = vec![image(&reference, size[0])];
     for (backend, gpu) in gpus {
-        let times = |ingredients, frames| measure(gpu, ingredients, material, mesh, size, frames);
+        let course = |ingredients| Course::new(gpu, ingredients, material, mesh, size);
         let gather_ms = match args.frames {
             0 => None,
-            _ => Some(median(&times(&gather, 1)?.frames)),
+            _ => {
+                let mut courses = [course(&gather)?];
+                course::run(gpu, &mut courses, mesh, size, 0)?;
+                Some(median(&courses[0].times.frames))
+            }
         };
-        for (path, ingredients) in paths {
+        let mut courses = paths.iter().map(|(_, path)| course(path)).collect::<anyhow::Result<Vec<_>>>()?;
+        if args.frames > 0 {
+            course::run(gpu, &mut courses, mesh, size, args.frames)?;
+        }
+        for ((path, ingredients), Course { times, .. }) in paths.into_iter().zip(courses) {
             let found = ready(gpu, ingredients, &scene)?.picture(gpu, &scene)?;
-            let times = times(ingredients, args.frames.max(1))?;
             let (psnr_db, ssim) = similarity(&reference, &found, size[0]);
             let row = Row {
                 material: material_name.to_owned(),
@@ -126,7 +134,7 @@ fn compare(
                 frame_ms: (args.frames > 0).then(|| [0.5, 0.95].map(|share| quantile(&times.frames, share))),
                 gather_ms,
                 material_bytes: times.material_bytes,
-                buffer_bytes: times.device_bytes - times.material_bytes - times.mesh_bytes,
+                buffer_bytes: times.buffer_bytes,
             };
             say!("{}", row.line());
             page.rows.push(row);

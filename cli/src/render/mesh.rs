@@ -25,6 +25,7 @@ pub(crate) struct Shot {
     pub(crate) angles: Angles,
     pub(crate) size: [u32; 2],
     pub(crate) exposure: Option<f32>,
+    pub(crate) options: RuntimeOptions,
 }
 
 impl Shot {
@@ -37,6 +38,7 @@ impl Shot {
             angles: Angles { around: 30.0, up: 15.0 },
             size,
             exposure: None,
+            options: RuntimeOptions::default(),
         }
     }
 
@@ -78,7 +80,7 @@ pub(crate) fn draw_mesh(
             let prepared =
                 Ingredients::compute(material, mesh, mapping, &scene, path, None)?.upload(gpu, material, mesh)?;
             facts.insert("gpu_bytes".to_owned(), json!(prepared.material_bytes()));
-            let mut ready = Ready::new(gpu, prepared, &scene, large)?;
+            let mut ready = Ready::new(gpu, prepared, &scene, large, shot.options)?;
             scene.view.exposure = match shot.exposure {
                 Some(exposure) => exposure,
                 None => ready.exposure(gpu, &scene)?,
@@ -91,7 +93,7 @@ pub(crate) fn draw_mesh(
         None => {
             let (fine, surface) = points(mesh, mapping, material, &scene)?;
             let outline = Outline::new(mesh, mapping, material.header());
-            let mut block = scene.block(&outline, large, RuntimeOptions::default().light_texels);
+            let mut block = scene.block(&outline, large, shot.options.light_texels);
             let exitance = cpu::surface_gather(material, &surface.points(), &surface.irradiance(&block));
             let brightest = scene.environment.irradiance(Vec3::Y).iter().copied().fold(0.0, f32::max);
             let chosen = || exposure_for(exitance.iter()).min(BRIGHT / brightest.max(1e-6)) * std::f32::consts::PI;

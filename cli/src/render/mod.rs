@@ -12,6 +12,7 @@ use glam::Vec3;
 use serde_json::{Value, json};
 use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::Light;
+use subsurf_runtime::RuntimeOptions;
 use subsurf_runtime::scene::Environment;
 use subsurf_shaders::cpu::{self, Rgb};
 
@@ -45,6 +46,9 @@ pub(crate) struct Args {
     /// How light scatters
     #[arg(long, value_enum, default_value = "gather")]
     path: PathArg,
+    /// Shift the taps of the separable path from pixel to pixel: grain instead of bands
+    #[arg(long, requires = "mesh")]
+    jitter: bool,
     /// Light from all around: an equirectangular picture, .hdr or .png; a dim studio if not given
     #[arg(long, value_name = "FILE", requires = "mesh")]
     environment: Option<PathBuf>,
@@ -190,6 +194,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 angles: args.view,
                 size: args.size.0,
                 exposure: args.exposure,
+                options: RuntimeOptions { jitters: args.jitter, ..RuntimeOptions::default() },
             };
             draw_mesh(gpu.as_ref(), &material, &mesh, args.mapping, args.path, &shot)?
         }

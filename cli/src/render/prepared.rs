@@ -154,7 +154,7 @@ impl Prepared {
     }
 }
 
-/// Everything to draw pictures of one size with, by the usual options.
+/// Everything to draw pictures of one size with.
 pub(crate) struct Ready {
     pub(crate) prepared: Prepared,
     pub(crate) renderer: Renderer,
@@ -162,8 +162,14 @@ pub(crate) struct Ready {
 }
 
 impl Ready {
-    pub(crate) fn new(gpu: &Gpu, prepared: Prepared, scene: &Scene, size: [u32; 2]) -> anyhow::Result<Self> {
-        let renderer = Renderer::new(gpu, prepared.path(), RuntimeOptions::default())?;
+    pub(crate) fn new(
+        gpu: &Gpu,
+        prepared: Prepared,
+        scene: &Scene,
+        size: [u32; 2],
+        options: RuntimeOptions,
+    ) -> anyhow::Result<Self> {
+        let renderer = Renderer::new(gpu, prepared.path(), options)?;
         let frame = renderer.prepare(gpu, &prepared.model(), scene, size)?;
         Ok(Self { prepared, renderer, frame })
     }

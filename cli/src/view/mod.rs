@@ -57,6 +57,9 @@ pub(crate) struct Args {
     /// Begin with ten times the difference to the gather
     #[arg(long)]
     error: bool,
+    /// Shift the taps of the separable path from pixel to pixel: grain instead of bands
+    #[arg(long)]
+    jitter: bool,
     /// Light from all around: an equirectangular picture, .hdr or .png
     #[arg(long, value_name = "FILE")]
     environment: Option<PathBuf>,
@@ -154,7 +157,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             Api::Vulkan => vec![Backend::Vulkan],
             Api::Gl => vec![Backend::Gl],
         },
-        options: RuntimeOptions { budget_bytes, samples: SAMPLES, ..RuntimeOptions::default() },
+        options: RuntimeOptions { budget_bytes, samples: SAMPLES, jitters: args.jitter, ..RuntimeOptions::default() },
         size: args.size.0,
         screenshot: args.screenshot.clone(),
         loses_device_after: args.lose_device_after,

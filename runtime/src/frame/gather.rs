@@ -14,7 +14,6 @@ use crate::pass::{CoverPass, Rows};
 use crate::resource::{ROW, Slot, Surface2d, TextureSpec, array_size};
 use crate::scene::Surface;
 
-const HALF: TextureFormat = TextureFormat::Rgba16Float;
 /// A point seldom has more than this many others within reach.
 const NEIGHBOURS: u64 = 4_096;
 
@@ -53,15 +52,15 @@ pub(crate) struct Buffers {
 
 impl Passes {
     pub(crate) fn new(gpu: &Gpu, storage: Storage, format: TextureFormat, samples: u32) -> Result<Self> {
-        let of_points = [Slot::Uniform, Slot::Float, Slot::Uint, Slot::Uint, Slot::Float];
+        let of_points = [Slot::Uniform, Slot::Float, Slot::Uint, Slot::Uint, Slot::Kept];
         let of_irradiance: [&[Slot]; 2] = [&[Slot::Uniform], &[Slot::Float, Slot::Float, Slot::Float]];
-        let of_shade = [Slot::Float, Slot::Float];
+        let of_shade = [Slot::Kept, Slot::Float];
         let gather = source::surface_gather(storage);
         let shade = source::shade_points(encoding_of(format));
         Ok(Self {
             storage,
-            irradiance: CoverPass::new(gpu, source::IRRADIANCE, "irradiance", &of_irradiance, &[HALF])?,
-            gather: CoverPass::new(gpu, gather, "surface_gather", &[slots(storage), &of_points], &[HALF])?,
+            irradiance: CoverPass::new(gpu, source::IRRADIANCE, "irradiance", &of_irradiance, &[gpu.kept()])?,
+            gather: CoverPass::new(gpu, gather, "surface_gather", &[slots(storage), &of_points], &[gpu.kept()])?,
             shade: MeshPass::new(gpu, shade, "shade", &[&COMMON, &of_shade], &[format], samples)?,
         })
     }
@@ -74,7 +73,7 @@ impl GpuPoints {
     /// [`crate::Error::Unsupported`] if the device takes no textures of that size.
     pub fn upload(gpu: &Gpu, surface: &Surface) -> Result<Self> {
         let table = |label, len, format, bytes: &[u8]| gpu.filled(&TextureSpec::array(label, len, format), bytes);
-        let target = |label| gpu.texture(&TextureSpec::target(label, array_size(surface.len()), HALF));
+        let target = |label| gpu.texture(&TextureSpec::target(label, array_size(surface.len()), gpu.kept()));
         let count = surface.len();
         let float = TextureFormat::Rgba32Float;
         Ok(Self {

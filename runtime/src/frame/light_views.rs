@@ -2,7 +2,7 @@
 
 use subsurf_shaders::source;
 use subsurf_shaders::uniform::Which;
-use wgpu::{BindGroup, Buffer, Color, CommandEncoder, TextureFormat, TextureView};
+use wgpu::{BindGroup, Buffer, Color, CommandEncoder, TextureView};
 
 use super::plan::{Plan, light_layers};
 use crate::context::Gpu;
@@ -12,7 +12,6 @@ use crate::material::layers_of;
 use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
 use crate::resource::{Slot, Surface2d, TextureSpec, level_of};
 
-const SEEN: TextureFormat = TextureFormat::Rgba16Float;
 /// Where nothing is seen, it is this far away, in mm: the largest that half floats hold, or nearly.
 pub(crate) const FAR: Color = Color { r: 0.0, g: 0.0, b: 0.0, a: 60_000.0 };
 
@@ -27,17 +26,20 @@ pub(crate) struct LightViews {
     depth: Surface2d,
     which: Vec<(Tracked<Buffer>, BindGroup)>,
     scene: BindGroup,
+    /// Positions where nothing is seen.
+    far: Color,
 }
 
 pub(crate) fn pass(gpu: &Gpu) -> Result<MeshPass> {
-    MeshPass::new(gpu, source::LIGHT_VIEW, "see", &[&[Slot::Uniform], &[Slot::Uniform]], &[SEEN; 3], 1)
+    MeshPass::new(gpu, source::LIGHT_VIEW, "see", &[&[Slot::Uniform], &[Slot::Uniform]], &[gpu.kept(); 3], 1)
 }
 
 impl LightViews {
     pub(crate) fn new(gpu: &Gpu, pass: &MeshPass, scene: &Buffer, plan: &Plan, levels: u32) -> Result<Self> {
         let size = [plan.light_texels; 2];
         let layers = light_layers(plan.lights);
-        let surface = |label| gpu.texture(&TextureSpec { layers, levels, ..TextureSpec::target(label, size, SEEN) });
+        let surface =
+            |label| gpu.texture(&TextureSpec { layers, levels, ..TextureSpec::target(label, size, gpu.kept()) });
         let surfaces = [surface("positions seen")?, surface("fluxes seen")?, surface("places seen")?];
         let of_light = |layer| [0, 1, 2].map(|k| level_of(&surfaces[k], layer, 0));
         let which = |light| {
@@ -52,13 +54,14 @@ impl LightViews {
             which: (0..plan.lights.min(layers)).map(which).collect::<Result<_>>()?,
             scene: pass.bind(gpu, 0, &[scene.as_entire_binding()])?,
             surfaces,
+            far: gpu.kept_colour(FAR),
         })
     }
 
     /// Draws what the first `lights` lights see.
     pub(crate) fn record(&self, encoder: &mut CommandEncoder, pass: &MeshPass, mesh: &GpuMesh, lights: usize) {
         for (views, (_, which)) in self.targets.iter().zip(&self.which).take(lights) {
-            let clears = [FAR, Color::TRANSPARENT, Color::TRANSPARENT];
+            let clears = [self.far, Color::TRANSPARENT, Color::TRANSPARENT];
             let targets = [0, 1, 2].map(|k| Target { view: &views[k], clear: clears[k], resolved: None });
             pass.record(encoder, &targets, &self.depth.view, &[&self.scene, which], mesh);
         }

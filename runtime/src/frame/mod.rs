@@ -52,6 +52,9 @@ pub struct RuntimeOptions {
     pub samples: u32,
     /// Texels to a side of what each light sees: a power of two, at least 128.
     pub light_texels: u32,
+    /// Whether taps of [`Path::Separable`] are shifted from pixel to pixel: grain instead of bands, where light changes
+    /// much within the reach of scattering.
+    pub jitters: bool,
     /// Behind the mesh, as the target takes it.
     pub background: Color,
 }
@@ -64,6 +67,7 @@ impl Default for RuntimeOptions {
             format: TextureFormat::Rgba8Unorm,
             samples: 1,
             light_texels: 512,
+            jitters: false,
             background: Color { r: grey, g: grey, b: grey, a: 1.0 },
         }
     }
@@ -157,7 +161,7 @@ pub(crate) struct Common {
 }
 
 /// Bindings of group 0 of passes that shade: the scene, positions that lights see, reflections and their sampler.
-pub(crate) const COMMON: [Slot; 4] = [Slot::Uniform, Slot::FloatLayers, Slot::Filtered, Slot::Sampler];
+pub(crate) const COMMON: [Slot; 4] = [Slot::Uniform, Slot::KeptLayers, Slot::Filtered, Slot::Sampler];
 
 impl Renderer {
     /// Compiles the passes of a path.
@@ -320,7 +324,7 @@ impl Renderer {
             }
             (Buffers::Splat(buffers), Passes::Splat(_), _) => buffers.update(gpu, scene, &block, &plan),
             (Buffers::Separable(buffers), Passes::Separable(_), _) => {
-                buffers.update(gpu, scene, &block, &plan);
+                buffers.update(gpu, scene, &block, &plan, self.options.jitters);
             }
             _ => return Err(Error::Device("the frame is for another path than the renderer".to_owned())),
         }

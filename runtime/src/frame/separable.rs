@@ -3,12 +3,12 @@
 use subsurf_shaders::separable::MAX_TERMS;
 use subsurf_shaders::source::{self, Domain};
 use subsurf_shaders::uniform::{self, ScreenDomain, Upsampling};
-use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoder, TextureFormat};
+use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureFormat};
 
 use super::light_views::{FAR, LightViews};
 use super::plan::Plan;
 use super::{COMMON, Common, Lap, encoding_of};
-use crate::cascade::{BlurPasses, Cascade, MAP};
+use crate::cascade::{BlurPasses, Cascade};
 use crate::context::Gpu;
 use crate::error::{Error, Result};
 use crate::factors::SeparableMaterial;
@@ -35,6 +35,8 @@ pub(crate) struct Buffers {
     upsampling: Tracked<Buffer>,
     weigh: [BindGroup; 2],
     pub(crate) shade: BindGroup,
+    /// Maps where nothing is seen.
+    far: Color,
 }
 
 impl Passes {
@@ -42,13 +44,13 @@ impl Passes {
         if !(1..=MAX_TERMS).contains(&terms) {
             return Err(Error::Device(format!("L = {terms}; factors have 1 to {MAX_TERMS} terms")));
         }
-        let through = [Slot::FilteredLayers, Slot::Sampler, Slot::Uniform, Slot::FloatLayers, Slot::FloatLayers];
+        let through = [Slot::FilteredLayers, Slot::Sampler, Slot::Uniform, Slot::KeptLayers, Slot::KeptLayers];
         let of_weigh: [&[Slot]; 2] = [&COMMON[..2], &through];
-        let of_shade = [Slot::FilteredLayers, Slot::Sampler, Slot::Uniform, Slot::FloatLayers];
+        let of_shade = [Slot::FilteredLayers, Slot::Sampler, Slot::Uniform, Slot::KeptLayers];
         let shader = source::shade_sums(encoding_of(format), terms);
         Ok(Self {
             terms,
-            weigh: MeshPass::new(gpu, source::weigh_mesh(terms), "weigh", &of_weigh, &vec![MAP; 2 * terms], 1)?,
+            weigh: MeshPass::new(gpu, source::weigh_mesh(terms), "weigh", &of_weigh, &vec![gpu.kept(); 2 * terms], 1)?,
             blur: BlurPasses::new(gpu, Domain::Screen, terms)?,
             shade: MeshPass::new(gpu, shader, "shade", &[&COMMON, &of_shade], &[format], samples)?,
         })
@@ -91,6 +93,7 @@ impl Buffers {
             weigh: [passes.weigh.bind(gpu, 0, &of_scene)?, passes.weigh.bind(gpu, 1, &of_weigh)?],
             shade: passes.shade.bind(gpu, 1, &of_shade)?,
             depth: gpu.texture(&TextureSpec::attachment("map depth", size, DEPTH))?,
+            far: gpu.kept_colour(FAR),
             cascade,
             domain,
             upsampling,
@@ -98,13 +101,14 @@ impl Buffers {
     }
 
     /// Tells the passes how large things are on the screen.
-    pub(crate) fn update(&mut self, gpu: &Gpu, scene: &Scene, block: &uniform::Scene, plan: &Plan) {
+    pub(crate) fn update(&mut self, gpu: &Gpu, scene: &Scene, block: &uniform::Scene, plan: &Plan, jitters: bool) {
         let domain = ScreenDomain {
             size: plan.map_size(),
             focal_texels: plan.texels_per_tangent(&scene.view) * block.pitch_mm,
             middle_mm: block.middle_mm,
             pitch_mm: block.pitch_mm,
-            pad: [0; 3],
+            jitters: u32::from(jitters),
+            pad: [0; 2],
         };
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&plan.upsampling(&scene.view, block.middle_mm)));
@@ -118,7 +122,7 @@ impl Buffers {
         lap: Lap<'_>,
     ) -> CommandEncoder {
         let layers = self.cascade.maps[0].layers.iter().chain(&self.cascade.begun_sums().layers);
-        let targets: Vec<_> = layers.map(|view| Target { view, clear: FAR, resolved: None }).collect();
+        let targets: Vec<_> = layers.map(|view| Target { view, clear: self.far, resolved: None }).collect();
         let [scene, factors] = &self.weigh;
         passes.weigh.record(&mut encoder, &targets, &self.depth.view, &[scene, factors], mesh);
         encoder = lap("weigh", encoder);

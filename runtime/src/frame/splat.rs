@@ -131,8 +131,9 @@ struct Draw {
 
 impl Passes {
     pub(crate) fn new(gpu: &Gpu, storage: Storage, format: TextureFormat, samples: u32) -> Result<Self> {
+        gpu.expect_halves("splats")?;
         let of_view: [&[Slot]; 2] = [&[Slot::Uniform], &[Slot::FilteredLayers, Slot::Sampler]];
-        let of_reduce = [Slot::Uniform, Slot::FloatLayers, Slot::FloatLayers, Slot::FloatLayers];
+        let of_reduce = [Slot::Uniform, Slot::KeptLayers, Slot::KeptLayers, Slot::KeptLayers];
         let of_splat =
             [Slot::Uniform, Slot::FloatLayers, Slot::FloatLayers, Slot::FloatLayers, Slot::Float, Slot::Float];
         let mut of_collapse = vec![Slot::Uniform];

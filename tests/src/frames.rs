@@ -1,0 +1,206 @@
+//! A mesh made of a material, under a scene, drawn by any path on any device.
+
+use glam::Vec3;
+use rayon::prelude::*;
+use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::Addressing;
+use subsurf_encoder::bssrdf::{Options, encode};
+use subsurf_encoder::metrics::psnr_db;
+use subsurf_encoder::simulate::{Finish, Scene as Recipe};
+use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, SkyShare, Surface, View};
+use subsurf_runtime::{
+    BACKGROUND, Backend, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions,
+    SeparableMaterial, SplatMaterial,
+};
+use subsurf_shaders::separable::{Detail, Factors};
+
+use crate::simulated;
+
+/// Display values: steps of 255 between the two APIs. Their arithmetic is the same but for rounding; sums of splats are
+/// half floats that lose up to 2⁻¹¹ with each addition.
+pub const API_TOLERANCE: u8 = 2;
+/// Share of pixels that may differ more: edges of triangles and of shadows, where a sample goes to one side or the other.
+pub const EDGE_PIXELS: f64 = 0.01;
+/// Pixels of the pictures.
+pub const SIZE: [u32; 2] = [320, 240];
+
+/// Pictures whose pixels differ by more than [`API_TOLERANCE`]: the share of them that do.
+#[must_use]
+pub fn share_that_differs(a: &[[u8; 3]], b: &[[u8; 3]]) -> f64 {
+    let far = |(a, b): &(&[u8; 3], &[u8; 3])| (0..3).any(|c| a[c].abs_diff(b[c]) > API_TOLERANCE);
+    a.iter().zip(b).filter(far).count() as f64 / a.len() as f64
+}
+
+/// # Panics
+/// If there is none.
+#[must_use]
+pub fn device(backend: Backend) -> Gpu {
+    Gpu::open(backend).unwrap_or_else(|error| panic!("{error}: run `make test`, which installs one"))
+}
+
+/// One light from the side, with shadow, and a sky, seen from where a mesh fills the picture.
+#[must_use]
+pub fn scene(mesh: &Mesh) -> Scene {
+    let radius = mesh.positions.iter().map(|position| position.length()).fold(0.0, f32::max);
+    let towards = Vec3::new(0.5, 0.3, 0.8).normalize();
+    Scene {
+        lights: vec![Light {
+            shape: LightShape::Directional { towards: Vec3::new(0.9, 1.1, 0.35) },
+            irradiance: [3.0, 2.9, 2.7],
+        }],
+        environment: Environment::uniform([0.35, 0.4, 0.5]),
+        roughness: 0.25,
+        view: View { eye_mm: 4.2 * radius * towards, target_mm: Vec3::ZERO, angle: 0.5, exposure: 0.9 },
+    }
+}
+
+/// What paths draw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Way {
+    /// The reference.
+    Gather,
+    /// Splats.
+    Splat,
+    /// The separable path.
+    Separable,
+}
+
+/// A mesh and a material on a device, for one path.
+#[allow(clippy::large_enum_variant, reason = "one or two at a time, and they stay where they are")]
+pub enum Loaded {
+    /// For the reference.
+    Gather(GpuMesh, GpuPoints, Material),
+    /// For splats.
+    Splat(GpuMesh, SplatMaterial),
+    /// For the separable path.
+    Separable(GpuMesh, SeparableMaterial),
+}
+
+impl Loaded {
+    /// Under [`scene`], by texture coordinates.
+    ///
+    /// # Panics
+    /// If the device takes none of it.
+    #[must_use]
+    pub fn new(gpu: &Gpu, way: Way, file: &[u8], mesh: &Mesh) -> Self {
+        Self::under(gpu, way, file, mesh, Mapping::Uv([2.0, 1.0]), &scene(mesh))
+    }
+
+    /// # Panics
+    /// If the device takes none of it.
+    #[must_use]
+    pub fn under(gpu: &Gpu, way: Way, file: &[u8], mesh: &Mesh, mapping: Mapping, scene: &Scene) -> Self {
+        let material = Bssrdf::parse(file).unwrap();
+        let outline = Outline::new(mesh, mapping, material.header());
+        let factors = || Factors::of(&material, Detail::default());
+        let lit = || {
+            let shares = SkyShare::of(mesh, &material).unwrap();
+            GpuMesh::upload(gpu, mesh, &outline, Known::Sky(&shares)).unwrap()
+        };
+        match way {
+            Way::Gather => {
+                // Fine enough that the sum is close to its integral.
+                let fine = mesh.clone().subdivided(0.8 * material.header().pitch_mm).unwrap();
+                let visibilities = shadows(&fine, mesh, scene);
+                let surface = Surface::new(&fine, mapping, material.header(), &visibilities);
+                let on_gpu = GpuMesh::upload(gpu, &fine, &outline, Known::Points(surface.point_of())).unwrap();
+                let points = GpuPoints::upload(gpu, &surface).unwrap();
+                Self::Gather(on_gpu, points, Material::upload(gpu, &material).unwrap())
+            }
+            Way::Splat => Self::Splat(lit(), SplatMaterial::upload(gpu, &material, &factors()).unwrap()),
+            Way::Separable => Self::Separable(lit(), SeparableMaterial::upload(gpu, &factors()).unwrap()),
+        }
+    }
+
+    /// As a renderer takes it.
+    #[must_use]
+    pub fn model(&self) -> Model<'_> {
+        match self {
+            Self::Gather(mesh, points, material) => Model::Gather { mesh, points, material },
+            Self::Splat(mesh, material) => Model::Splat { mesh, material },
+            Self::Separable(mesh, material) => Model::Separable { mesh, material },
+        }
+    }
+
+    /// The renderer's name for the path.
+    #[must_use]
+    pub fn path(&self) -> Path {
+        match self {
+            Self::Gather(_, _, material) => Path::Gather(material.storage()),
+            Self::Splat(_, material) => Path::Splat(material.planes().storage()),
+            Self::Separable(_, material) => Path::Separable(material.terms()),
+        }
+    }
+
+    /// # Panics
+    /// If the device draws none.
+    #[must_use]
+    pub fn picture(&self, gpu: &Gpu, scene: &Scene, size: [u32; 2]) -> Vec<[u8; 3]> {
+        self.picture_with(gpu, scene, size, RuntimeOptions::default())
+    }
+
+    /// # Panics
+    /// If the device draws none.
+    #[must_use]
+    pub fn picture_with(&self, gpu: &Gpu, scene: &Scene, size: [u32; 2], options: RuntimeOptions) -> Vec<[u8; 3]> {
+        let renderer = Renderer::new(gpu, self.path(), options).unwrap();
+        let mut frame = renderer.prepare(gpu, &self.model(), scene, size).unwrap();
+        renderer.picture(gpu, &mut frame, &self.model(), scene).unwrap()
+    }
+}
+
+/// Which vertices of a mesh the first light reaches, by trying all triangles of what is in its way.
+fn shadows(mesh: &Mesh, opaque: &Mesh, scene: &Scene) -> Vec<[f32; 4]> {
+    let light = scene.lights[0];
+    let triangles: Vec<[Vec3; 3]> =
+        opaque.triangles.iter().map(|triangle| triangle.map(|k| opaque.positions[k as usize])).collect();
+    let [low, high] = mesh.bounds();
+    let offset = 2e-3 * (high - low).max_element();
+    let vertices = mesh.positions.par_iter().zip(&mesh.normals);
+    let seen = vertices.map(|(position, normal)| {
+        let (towards, _) = light.direction_from(*position);
+        let from = position + offset * normal;
+        let hidden = normal.dot(towards) > 0.0 && triangles.iter().any(|triangle| is_hit(triangle, from, towards));
+        [f32::from(u8::from(!hidden)); 4]
+    });
+    seen.collect()
+}
+
+/// Möller and Trumbore 1997.
+fn is_hit([a, b, c]: &[Vec3; 3], from: Vec3, towards: Vec3) -> bool {
+    let (ab, ac) = (b - a, c - a);
+    let p = towards.cross(ac);
+    let determinant = ab.dot(p);
+    if determinant.abs() < 1e-12 {
+        return false;
+    }
+    let t = from - a;
+    let u = t.dot(p) / determinant;
+    let q = t.cross(ab);
+    let v = towards.dot(q) / determinant;
+    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && ac.dot(q) / determinant > 0.0
+}
+
+/// A small simulated material, encoded.
+///
+/// # Panics
+/// If it cannot be.
+#[must_use]
+pub fn material_of(recipe: Recipe) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let capture = simulated(folder.path(), recipe, 32, 8, 0.8, Addressing::Repeat, &Finish::default());
+    encode(&capture, None, &Options { base_materials: 32, ..Options::default() }, &()).unwrap().bytes
+}
+
+/// PSNR of display values over the pixels that the mesh covers in either picture.
+///
+/// # Panics
+/// If it covers hardly any.
+#[must_use]
+pub fn psnr(reference: &[[u8; 3]], found: &[[u8; 3]]) -> f64 {
+    let covered = reference.iter().zip(found).filter(|(a, b)| **a != [BACKGROUND; 3] || **b != [BACKGROUND; 3]);
+    let value = |pixel: &[u8; 3]| pixel.map(|value| f64::from(value) / 255.0);
+    let (a, b): (Vec<_>, Vec<_>) = covered.map(|(a, b)| (value(a), value(b))).unzip();
+    assert!(10 * a.len() > reference.len(), "the mesh is in the picture");
+    psnr_db(&a, &b)
+}

@@ -1,0 +1,101 @@
+//! Bytes on the device: within budgets, counted rightly, and given back.
+
+use subsurf_decoder::bssrdf::Addressing;
+use subsurf_runtime::scene::{Scene, torus};
+use subsurf_runtime::{Backend, Error, Frame, Gpu, Renderer, RuntimeOptions};
+use subsurf_tests::frames::{Loaded, SIZE, Way, device, scene};
+use subsurf_tests::shape;
+
+fn prepared(gpu: &Gpu, loaded: &Loaded, scene: &Scene, budget_bytes: Option<u64>) -> Result<Frame, Error> {
+    let options = RuntimeOptions { budget_bytes, ..RuntimeOptions::default() };
+    Renderer::new(gpu, loaded.path(), options)?.prepare(gpu, &loaded.model(), scene, SIZE)
+}
+
+#[test]
+fn budgets_are_kept_or_refused() {
+    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let mesh = torus(9.0, 4.0, 24);
+    let scene = scene(&mesh);
+    for gpu in Backend::ALL.map(device) {
+        for way in [Way::Splat, Way::Separable, Way::Gather] {
+            let loaded = Loaded::new(&gpu, way, &file, &mesh);
+            let before = gpu.ledger().bytes();
+            let frame = prepared(&gpu, &loaded, &scene, None).unwrap();
+            let whole = gpu.ledger().bytes();
+            let best = *frame.plan();
+            drop(frame);
+            assert_eq!(gpu.ledger().bytes(), before, "{way:?}: all of a frame is gone");
+
+            let frame = prepared(&gpu, &loaded, &scene, Some(whole - 1)).unwrap();
+            assert!(gpu.ledger().bytes() < whole, "{way:?}: {} bytes of {whole}", gpu.ledger().bytes());
+            assert_ne!(*frame.plan(), best, "{way:?}: something had to become coarser");
+            drop(frame);
+
+            match prepared(&gpu, &loaded, &scene, Some(before + 1_000)) {
+                Err(Error::OverBudget { need_bytes, budget_bytes }) => {
+                    assert!(need_bytes > budget_bytes, "{need_bytes} {budget_bytes}");
+                }
+                other => panic!("{way:?}: {other:?}"),
+            }
+            assert_eq!(gpu.ledger().bytes(), before, "{way:?}: nothing was allocated");
+        }
+    }
+}
+
+/// Loading, resizing and dropping leaves nothing behind, by the ledger and by wgpu's allocator.
+#[test]
+fn a_thousand_loads_and_resizes_leave_nothing() {
+    let gpu = device(Backend::Vulkan);
+    let file = shape([16, 16], 3, Addressing::Mirror).bmpp();
+    let mesh = torus(9.0, 4.0, 8);
+    let scene = scene(&mesh);
+    let options = RuntimeOptions { light_texels: 128, ..RuntimeOptions::default() };
+    let allocated = || gpu.device().generate_allocator_report().map_or(0, |report| report.total_allocated_bytes);
+    for way in [Way::Splat, Way::Separable] {
+        let first = Loaded::new(&gpu, way, &file, &mesh);
+        let renderer = Renderer::new(&gpu, first.path(), options).unwrap();
+        drop(first);
+        let mut after_some = (0, 0);
+        for cycle in 0..1_000_u32 {
+            let loaded = Loaded::new(&gpu, way, &file, &mesh);
+            let size = [16 + cycle % 29, 16 + cycle % 31];
+            let mut frame = renderer.prepare(&gpu, &loaded.model(), &scene, size).unwrap();
+            if cycle % 50 == 0 {
+                renderer.picture(&gpu, &mut frame, &loaded.model(), &scene).unwrap();
+            }
+            drop((loaded, frame));
+            gpu.finish().unwrap();
+            if cycle == 100 {
+                after_some = (gpu.ledger().bytes(), allocated());
+            }
+        }
+        println!("{way:?}: {after_some:?} bytes after 100 cycles, {} after 1000", allocated());
+        assert_eq!(gpu.ledger().bytes(), after_some.0, "{way:?}: by the ledger");
+        assert_eq!(gpu.ledger().bytes(), 0, "{way:?}: by the ledger");
+        // The allocator keeps pages; it must not need more and more of them.
+        assert!(allocated() <= after_some.1 + (1 << 20), "{way:?}: {} after {after_some:?}", allocated());
+    }
+}
+
+/// The ledger counts what wgpu's allocator counts, but for its alignment and what it needs itself.
+#[test]
+fn the_ledger_agrees_with_the_allocator() {
+    let gpu = device(Backend::Vulkan);
+    let allocated = || gpu.device().generate_allocator_report().map_or(0, |report| report.total_allocated_bytes);
+    let before = allocated();
+    let mesh = torus(9.0, 4.0, 48);
+    let scene = scene(&mesh);
+    let file = shape([128, 128], 6, Addressing::Mirror).bmpp();
+    for way in [Way::Splat, Way::Separable] {
+        let loaded = Loaded::new(&gpu, way, &file, &mesh);
+        let options = RuntimeOptions::default();
+        let renderer = Renderer::new(&gpu, loaded.path(), options).unwrap();
+        let frame = renderer.prepare(&gpu, &loaded.model(), &scene, [640, 480]).unwrap();
+        gpu.finish().unwrap();
+        let (ours, theirs) = (gpu.ledger().bytes(), allocated() - before);
+        println!("{way:?}: {ours} bytes by the ledger, {theirs} by the allocator");
+        assert!(ours <= theirs && theirs <= ours + ours / 8 + (2 << 20), "{way:?}: {ours} {theirs}");
+        drop((frame, renderer, loaded));
+        gpu.finish().unwrap();
+    }
+}

@@ -1,0 +1,125 @@
+//! What paths also have to cope with: lights close by, boxes for texture coordinates, other targets, devices without half
+//! floats to draw to.
+
+use glam::Vec3;
+use subsurf_decoder::bssrdf::Addressing;
+use subsurf_encoder::simulate::Scene as Recipe;
+use subsurf_runtime::scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
+use subsurf_runtime::wgpu::TextureFormat;
+use subsurf_runtime::{BACKGROUND, Backend, Error, Gpu, Keeping, Path, Renderer, RuntimeOptions, Storage};
+use subsurf_tests::frames::{
+    API_TOLERANCE, EDGE_PIXELS, Loaded, SIZE, Way, device, material_of, psnr, scene, share_that_differs,
+};
+use subsurf_tests::shape;
+
+/// [`scene`] with another light, close by.
+fn close_light(mesh: &Mesh, shape: impl Fn(Vec3) -> LightShape) -> Scene {
+    let usual = scene(mesh);
+    let radius = mesh.positions.iter().map(|position| position.length()).fold(0.0, f32::max);
+    let position_mm = 3.0 * radius * Vec3::new(0.9, 1.1, 0.35).normalize();
+    Scene { lights: vec![Light { shape: shape(position_mm), ..usual.lights[0] }], ..usual }
+}
+
+/// Points and cones of light, on a patch that lies on the mesh as on a box.
+#[test]
+fn lights_close_by_and_boxes_come_close_to_the_gather() {
+    let file = material_of(Recipe::Jade);
+    let gpus = Backend::ALL.map(device);
+    let point = |position_mm| LightShape::Point { position_mm };
+    let spot = |position_mm| LightShape::Spot { position_mm, target_mm: Vec3::ZERO, half_angle: 0.3 };
+    let cases = [
+        ("point, box", bowl(12.0, 2.0, 32), Mapping::Box, close_light(&bowl(12.0, 2.0, 32), point)),
+        ("spot, uv", drapery(14.0, 1.0, 5, 40), Mapping::Uv([2.0, 1.0]), close_light(&drapery(14.0, 1.0, 5, 40), spot)),
+    ];
+    for (name, mesh, mapping, scene) in &cases {
+        let draw = |gpu: &Gpu, way| Loaded::under(gpu, way, &file, mesh, *mapping, scene).picture(gpu, scene, SIZE);
+        let reference = draw(&gpus[0], Way::Gather);
+        for (way, least_db) in [(Way::Splat, 32.0), (Way::Separable, 28.0)] {
+            let pictures = gpus.each_ref().map(|gpu| draw(gpu, way));
+            let db = pictures.each_ref().map(|picture| psnr(&reference, picture));
+            let share = share_that_differs(&pictures[0], &pictures[1]);
+            println!("{name}, {way:?}: {db:.1?} dB from the gather; {share} of pixels differ between the APIs");
+            assert!(db.iter().all(|db| *db >= least_db), "{name}, {way:?}: {db:?} dB");
+            assert!(share <= EDGE_PIXELS, "{name}, {way:?}: {share}");
+        }
+    }
+}
+
+/// A target that encodes by itself shows what the shader encodes for another; several samples change edges alone.
+#[test]
+fn targets_of_srgb_and_of_several_samples_show_the_same() {
+    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let mesh = torus(9.0, 4.0, 32);
+    let scene = scene(&mesh);
+    let usual = RuntimeOptions::default();
+    for gpu in Backend::ALL.map(device) {
+        for way in [Way::Gather, Way::Splat, Way::Separable] {
+            let loaded = Loaded::new(&gpu, way, &file, &mesh);
+            let draw = |options| loaded.picture_with(&gpu, &scene, SIZE, options);
+            let plain = draw(usual);
+            let is_covered = |k: &usize| plain[*k] != [BACKGROUND; 3];
+            // The background is given as the target takes it.
+            let there = draw(RuntimeOptions { format: TextureFormat::Rgba8UnormSrgb, ..usual });
+            let covered = (0..plain.len()).filter(is_covered);
+            let worst =
+                covered.flat_map(|k| (0..3).map(move |c| (k, c))).map(|(k, c)| plain[k][c].abs_diff(there[k][c]));
+            assert!(worst.max() <= Some(1), "{way:?}: encoded by the target");
+
+            let smooth = draw(RuntimeOptions { samples: 4, ..usual });
+            let width = SIZE[0] as usize;
+            let is_inside = |k: &usize| {
+                let rows = [k - width, *k, k + width];
+                rows.iter().flat_map(|k| [k - 1, *k, k + 1]).all(|k| is_covered(&k))
+            };
+            let inside = (width + 1..plain.len() - width - 1).filter(is_inside);
+            let (a, b): (Vec<_>, Vec<_>) = inside.map(|k| (plain[k], smooth[k])).unzip();
+            let db = psnr(&a, &b);
+            println!("{way:?}: {db:.1} dB between one sample and four");
+            assert!(db >= 35.0, "{way:?}: {db} dB");
+            assert!(plain != smooth, "{way:?}: edges are smooth");
+        }
+    }
+}
+
+/// Shifted taps are grain, and no other light.
+#[test]
+fn jitter_keeps_the_light() {
+    let file = material_of(Recipe::Jade);
+    let mesh = torus(9.0, 4.0, 32);
+    let scene = scene(&mesh);
+    let [a, b] = Backend::ALL.map(|backend| {
+        let gpu = device(backend);
+        let loaded = Loaded::new(&gpu, Way::Separable, &file, &mesh);
+        let draw = |jitters| loaded.picture_with(&gpu, &scene, SIZE, RuntimeOptions { jitters, ..Default::default() });
+        let (plain, jittered) = (draw(false), draw(true));
+        let mean = |picture: &[[u8; 3]]| picture.iter().flatten().map(|c| f64::from(*c)).sum::<f64>();
+        let db = psnr(&plain, &jittered);
+        println!("{backend}: {db:.1} dB between taps in place and shifted");
+        assert!(plain != jittered && db >= 35.0, "{backend}: {db} dB");
+        assert!((mean(&plain) / mean(&jittered) - 1.0).abs() < 5e-3, "{backend}: as bright");
+        jittered
+    });
+    assert!(share_that_differs(&a, &b) <= EDGE_PIXELS, "the same grain on both APIs");
+}
+
+/// Bits of half floats in integers give the pictures that half floats give; where they cannot, it is said.
+#[test]
+fn devices_without_half_floats_to_draw_to_draw_the_same() {
+    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let mesh = torus(9.0, 4.0, 32);
+    let scene = scene(&mesh);
+    for backend in Backend::ALL {
+        let gpu = device(backend);
+        assert_eq!(gpu.keeping(), Keeping::Halves, "{backend}");
+        let packed = device(backend).keep(Keeping::Packed);
+        for way in [Way::Gather, Way::Separable] {
+            let draw = |gpu: &Gpu| Loaded::new(gpu, way, &file, &mesh).picture(gpu, &scene, SIZE);
+            let share = share_that_differs(&draw(&gpu), &draw(&packed));
+            assert!(share <= EDGE_PIXELS, "{backend}, {way:?}: {share} of pixels differ by more than {API_TOLERANCE}");
+        }
+        match Renderer::new(&packed, Path::Splat(Storage::Bmpp), RuntimeOptions::default()) {
+            Err(Error::Device(reason)) => assert!(reason.contains("GL_EXT_color_buffer_half_float"), "{reason}"),
+            other => panic!("{other:?}"),
+        }
+    }
+}
