@@ -23,6 +23,8 @@ pub struct GpuMesh {
     vertices: Tracked<Buffer>,
     indices: Tracked<Buffer>,
     index_count: u32,
+    /// Points of the surface that vertices name; none if they name none.
+    pub(crate) points: usize,
     pub(crate) outline: Outline,
 }
 
@@ -94,6 +96,10 @@ impl GpuMesh {
             vertices: gpu.buffer("vertices", bytemuck::cast_slice(&vertices), BufferUsages::VERTEX),
             indices: gpu.buffer("indices", bytemuck::cast_slice(&mesh.triangles), BufferUsages::INDEX),
             index_count: index_count.map_err(|_| Error::Mesh("more than 2³² indices".to_owned()))?,
+            points: match known {
+                Known::Points(points) => points.len(),
+                Known::Sky(_) => 0,
+            },
             outline: *outline,
         })
     }

@@ -2,14 +2,14 @@
 
 use subsurf_decoder::bssrdf::{Addressing, Header};
 use subsurf_shaders::source::{self, Domain};
-use subsurf_shaders::uniform::Kernel;
+use subsurf_shaders::uniform::{Kernel, MAX_KERNEL};
 use wgpu::{
     AddressMode, BindGroup, BindingResource, Buffer, CommandEncoderDescriptor, Sampler, SamplerDescriptor, TextureView,
 };
 
 use crate::cascade::{BlurPasses, Cascade, Ends, MAP};
 use crate::context::Gpu;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::factors::SeparableMaterial;
 use crate::pass::{CoverPass, Rows};
 use crate::patch::{Exitance, PatchLight};
@@ -37,7 +37,7 @@ impl SeparableRenderer {
     /// Compiles the passes.
     ///
     /// # Errors
-    /// [`crate::Error::Device`] if the driver refuses them, or has no half floats to draw to.
+    /// [`Error::Device`] if the driver refuses them, or has no half floats to draw to.
     pub fn new(gpu: &Gpu, terms: usize) -> Result<Self> {
         gpu.expect_halves("blurs on flat patches")?;
         let of_first = [Slot::Uniform, Slot::Nearest, Slot::FilteredLayers, Slot::Float];
@@ -53,7 +53,7 @@ impl SeparableRenderer {
     /// Makes room for the maps of a patch.
     ///
     /// # Errors
-    /// [`crate::Error::Device`] if the material has another number of terms, [`crate::Error::Unsupported`] if it is too large.
+    /// [`Error::Device`] if the material has another number of terms, [`Error::Unsupported`] if it is too large.
     pub fn prepare(&self, gpu: &Gpu, material: &SeparableMaterial, light: &PatchLight) -> Result<SeparablePatch> {
         material.expect(self.terms)?;
         let header = material.header();
@@ -86,7 +86,7 @@ impl SeparableRenderer {
     /// Exitance of the whole patch.
     ///
     /// # Errors
-    /// [`crate::Error::Device`].
+    /// [`Error::Device`].
     pub fn draw<'a>(&self, gpu: &Gpu, patch: &'a SeparablePatch) -> Result<&'a Exitance> {
         let ends =
             Ends { first: (&self.first, &patch.first), last: (&self.last, &patch.last), target: patch.exitance.view() };
@@ -118,7 +118,7 @@ impl HomogeneousRenderer {
     /// Compiles the pass.
     ///
     /// # Errors
-    /// [`crate::Error::Device`] if the driver refuses it, or has no half floats to draw to.
+    /// [`Error::Device`] if the driver refuses it, or has no half floats to draw to.
     pub fn new(gpu: &Gpu) -> Result<Self> {
         gpu.expect_halves("blurs on flat patches")?;
         let slots = [Slot::Uniform, Slot::Nearest, Slot::Float];
@@ -128,7 +128,7 @@ impl HomogeneousRenderer {
     /// Makes room for a patch; `kernel` as [`subsurf_shaders::separable::mean_kernel`] has it.
     ///
     /// # Errors
-    /// [`crate::Error::Unsupported`] if it is too large.
+    /// [`Error::Unsupported`] if it is too large, or the kernel.
     pub fn prepare(
         &self,
         gpu: &Gpu,
@@ -139,6 +139,10 @@ impl HomogeneousRenderer {
         let size = [header.width, header.height];
         light.expect(size)?;
         let nearest = nearest(gpu, header.addressing);
+        if kernel.len() > MAX_KERNEL {
+            let (need, have) = (kernel.len() as u64, MAX_KERNEL as u64);
+            return Err(Error::Unsupported { what: "kernels", need, have });
+        }
         let [rows, columns] = Kernel::new(kernel).map(|block| gpu.uniform("kernel", &block));
         let between = gpu.texture(&TextureSpec::target("between rows and columns", size, MAP))?;
         let bind = |block: &Buffer, image: &TextureView| {
@@ -153,7 +157,7 @@ impl HomogeneousRenderer {
     /// Exitance of the whole patch.
     ///
     /// # Errors
-    /// [`crate::Error::Device`].
+    /// [`Error::Device`].
     pub fn draw<'a>(&self, gpu: &Gpu, patch: &'a HomogeneousPatch) -> Result<&'a Exitance> {
         let all = Rows::all(patch.size);
         gpu.checked(|| {

@@ -335,7 +335,7 @@ pub struct Kernel {
 }
 
 impl Kernel {
-    /// The blocks along rows and along columns for weights at 0, 1, 2 ... pixels.
+    /// The blocks along rows and along columns for weights at 0, 1, 2 ... pixels, at most [`MAX_KERNEL`] of them.
     #[must_use]
     pub fn new(weights: &[Rgb]) -> [Self; 2] {
         let mut kernel = [[0.0; 4]; MAX_KERNEL];

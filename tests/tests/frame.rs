@@ -7,7 +7,7 @@ use subsurf_encoder::metrics::psnr_db;
 use subsurf_encoder::simulate::Scene as Recipe;
 use subsurf_encoder::synthetic::per_pixel_of;
 use subsurf_runtime::scene::{bowl, drapery, knot, torus};
-use subsurf_runtime::{BACKGROUND, Backend, Gpu};
+use subsurf_runtime::{BACKGROUND, Backend, Error, Gpu, Model, Path, Renderer, RuntimeOptions};
 use subsurf_tests::frames::{
     API_TOLERANCE, EDGE_PIXELS, Loaded, SIZE, Way, device, material_of, psnr, scene, share_that_differs,
 };
@@ -104,4 +104,24 @@ fn a_device_of_the_callers_own_draws_the_same() {
     let kept = Loaded::new(&ours, Way::Separable, &file, &mesh);
     assert!(ours.ledger().bytes() > 0, "{:?} is there", kept.path());
     assert_eq!(theirs.ledger().bytes(), 0, "each has a ledger of its own");
+}
+
+/// Points belong to the mesh whose vertices name them.
+#[test]
+fn points_of_another_surface_are_refused() {
+    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let gpu = device(Backend::Vulkan);
+    let [large, small] = [torus(9.0, 4.0, 24), torus(9.0, 4.0, 8)];
+    let of = |mesh| match Loaded::new(&gpu, Way::Gather, &file, mesh) {
+        Loaded::Gather(mesh, points, material) => (mesh, points, material),
+        _ => panic!("another path"),
+    };
+    let (mesh, _, material) = of(&large);
+    let (_, points, _) = of(&small);
+    let model = Model::Gather { mesh: &mesh, points: &points, material: &material };
+    let renderer = Renderer::new(&gpu, Path::Gather(material.storage()), RuntimeOptions::default()).unwrap();
+    match renderer.prepare(&gpu, &model, &scene(&large), SIZE) {
+        Err(Error::Device(reason)) => assert!(reason.contains("another surface"), "{reason}"),
+        other => panic!("{other:?}"),
+    }
 }

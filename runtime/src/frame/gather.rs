@@ -6,10 +6,10 @@ use wgpu::{BindGroup, BindingResource, Buffer, TextureFormat};
 
 use super::{COMMON, Common, encoding_of};
 use crate::context::Gpu;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::ledger::Tracked;
 use crate::material::{Material, slots};
-use crate::mesh::MeshPass;
+use crate::mesh::{GpuMesh, MeshPass};
 use crate::pass::{CoverPass, Rows};
 use crate::resource::{ROW, Slot, Surface2d, TextureSpec, array_size};
 use crate::scene::Surface;
@@ -70,7 +70,7 @@ impl GpuPoints {
     /// Uploads the points of a mesh.
     ///
     /// # Errors
-    /// [`crate::Error::Unsupported`] if the device takes no textures of that size.
+    /// [`Error::Unsupported`] if the device takes no textures of that size.
     pub fn upload(gpu: &Gpu, surface: &Surface) -> Result<Self> {
         let table = |label, len, format, bytes: &[u8]| gpu.filled(&TextureSpec::array(label, len, format), bytes);
         let target = |label| gpu.texture(&TextureSpec::target(label, array_size(surface.len()), gpu.kept()));
@@ -97,7 +97,7 @@ impl GpuPoints {
     /// Exitance of every point as it was last gathered, linear rgb.
     ///
     /// # Errors
-    /// [`crate::Error::Device`].
+    /// [`Error::Device`].
     pub fn read(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>> {
         let mut texels = gpu.read_rgb(&self.exitance.texture)?;
         texels.truncate(self.count);
@@ -109,11 +109,16 @@ impl Buffers {
     pub(crate) fn new(
         gpu: &Gpu,
         passes: &Passes,
+        mesh: &GpuMesh,
         material: &Material,
         points: &GpuPoints,
         common: &Common,
     ) -> Result<Self> {
         material.expect(passes.storage)?;
+        if mesh.points != points.count {
+            let (have, want) = (points.count, mesh.points);
+            return Err(Error::Device(format!("{have} points for a mesh of {want}: they are of another surface")));
+        }
         let texture = BindingResource::TextureView;
         let of_irradiance =
             [texture(&points.positions.view), texture(&points.normals.view), texture(&points.visibilities.view)];

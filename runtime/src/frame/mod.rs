@@ -44,7 +44,8 @@ pub enum Path {
 /// What a renderer may use and what it draws to.
 #[derive(Clone, Copy, Debug)]
 pub struct RuntimeOptions {
-    /// Most bytes on the device, those of meshes and materials included; no limit if there is none.
+    /// Most bytes on the device, those of meshes and materials included; no limit if there is none. The target is the
+    /// caller's, and what [`Renderer::picture`] draws to and reads back is not counted.
     pub budget_bytes: Option<u64>,
     /// Format of the picture. Where it is one of sRGB, the device encodes; else the shader does.
     pub format: TextureFormat,
@@ -216,8 +217,8 @@ impl Renderer {
         };
         let lights = LightViews::new(gpu, &self.light_view, &common.block, &plan, levels)?;
         let (shade, buffers) = match (&self.passes, model) {
-            (Passes::Gather(passes), Model::Gather { points, material, .. }) => {
-                let buffers = gather::Buffers::new(gpu, passes, material, points, &common)?;
+            (Passes::Gather(passes), Model::Gather { mesh, points, material }) => {
+                let buffers = gather::Buffers::new(gpu, passes, mesh, material, points, &common)?;
                 (&passes.shade, Buffers::Gather(buffers))
             }
             (Passes::Splat(passes), Model::Splat { material, .. }) => {
