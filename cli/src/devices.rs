@@ -1,6 +1,6 @@
 //! `subsurf devices`: what there is to draw with.
 
-use subsurf_runtime::{Backend, Gpu, devices};
+use subsurf_runtime::{Backend, Gpu, Keeping, devices};
 
 use crate::failure::bad_request;
 use crate::say::say;
@@ -49,6 +49,27 @@ impl BackendArg {
             Self::Cpu => Ok(None),
         }
     }
+}
+
+/// The devices that draw by every path, and what they are.
+pub(crate) fn to_compare() -> Vec<(Backend, Gpu)> {
+    let mut gpus = Vec::new();
+    for backend in Backend::ALL {
+        match Gpu::open(backend) {
+            Ok(gpu) if gpu.keeping() == Keeping::Packed => {
+                say!(
+                    "{backend}: {} has no half floats to draw to, which splats and flat patches need",
+                    gpu.info().name
+                );
+            }
+            Ok(gpu) => {
+                say!("{backend}: {} ({})", gpu.info().name, gpu.info().driver_info);
+                gpus.push((backend, gpu));
+            }
+            Err(_) => say!("{backend}: no device"),
+        }
+    }
+    gpus
 }
 
 /// Name of a device for people.

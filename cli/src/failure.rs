@@ -63,10 +63,10 @@ fn code(error: &anyhow::Error) -> u8 {
             return if error.is_callers() { INPUT } else { MACHINE };
         }
         if let Some(error) = cause.downcast_ref::<subsurf_runtime::Error>() {
-            use subsurf_runtime::Error::{Mesh, NoDevice, Read, Unsupported};
+            use subsurf_runtime::Error::{Mesh, NoDevice, NoHalfFloats, Read, Unsupported};
             return match error {
                 Read(_) | Mesh(_) => INPUT,
-                NoDevice { .. } | Unsupported { .. } => NO_DEVICE,
+                NoDevice { .. } | NoHalfFloats { .. } | Unsupported { .. } => NO_DEVICE,
                 _ => MACHINE,
             };
         }

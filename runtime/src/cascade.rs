@@ -10,7 +10,7 @@ use crate::material::layers_of;
 use crate::pass::{CoverPass, Rows};
 use crate::resource::{Slot, Surface2d, TextureSpec, layer_of};
 
-/// Format of maps: depth in the fourth place needs its half floats too.
+/// Format of maps of flat patches, which are sampled.
 pub(crate) const MAP: TextureFormat = TextureFormat::Rgba16Float;
 
 /// L maps in one texture.

@@ -213,13 +213,10 @@ impl Gpu {
     }
 
     /// Refuses to do what takes half floats that can be drawn to.
-    pub(crate) fn expect_halves(&self, what: &str) -> Result<()> {
+    pub(crate) fn expect_halves(&self, what: &'static str) -> Result<()> {
         match self.keeping {
             Keeping::Halves => Ok(()),
-            Keeping::Packed => Err(Error::Device(format!(
-                "{what} need half floats to draw to, and this device has none (it lacks GL_EXT_color_buffer_half_float); \
-                 the separable path draws meshes without"
-            ))),
+            Keeping::Packed => Err(Error::NoHalfFloats { what }),
         }
     }
 

@@ -46,6 +46,15 @@ pub enum Error {
         /// What the device has.
         have: u64,
     },
+    /// Passes that keep values in half floats, on a device that cannot draw to them.
+    #[error(
+        "{what} need half floats to draw to, which this device does not offer (GL_EXT_color_buffer_half_float); meshes are \
+         drawn without them by the gather and by the separable path, flat patches by the gather"
+    )]
+    NoHalfFloats {
+        /// What it is about.
+        what: &'static str,
+    },
     /// The device or its driver failed.
     #[error("the device failed: {0}")]
     Device(String),

@@ -51,6 +51,13 @@ impl PatchLayers {
     }
 }
 
+/// Refuses factors that are not as many as they say.
+fn whole(factors: &Factors) -> Result<()> {
+    let detail = factors.detail;
+    let error = || Error::Device(format!("factors that are not as many as {detail:?} and the patch take"));
+    factors.is_whole().then_some(()).ok_or_else(error)
+}
+
 /// Albedo of every pixel under uniform light.
 fn albedo(factors: &Factors) -> Vec<Rgb> {
     cpu::separable(factors, &vec![[1.0; 3]; factors.coefficients_of(0).len()])
@@ -69,8 +76,9 @@ impl SplatMaterial {
     /// Uploads the planes of a file as they stand in it, and the albedo that its factors give.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if the device takes no texture of that size.
+    /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if some factors are missing.
     pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>, factors: &Factors) -> Result<Self> {
+        whole(factors)?;
         Ok(Self {
             planes: Material::upload(gpu, material)?,
             softened: softened(material),
@@ -108,14 +116,12 @@ impl SeparableMaterial {
     /// Uploads factors as half floats.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if there is no Gaussian.
+    /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if some are missing.
     pub fn upload(gpu: &Gpu, factors: &Factors) -> Result<Self> {
+        whole(factors)?;
         let terms = factors.detail.terms;
         let layers = (0..terms).map(|l| factors.coefficients_of(l).to_vec()).chain([albedo(factors)]);
         let stages = uniform::Stage::cascade(factors);
-        if stages.is_empty() {
-            return Err(Error::Device("factors without a Gaussian; a cascade has at least one".to_owned()));
-        }
         Ok(Self {
             header: factors.header,
             terms,

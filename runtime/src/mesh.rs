@@ -23,7 +23,7 @@ pub struct GpuMesh {
     vertices: Tracked<Buffer>,
     indices: Tracked<Buffer>,
     index_count: u32,
-    /// Points of the surface that vertices name; none if they name none.
+    /// As many points as a surface must have whose points the vertices name.
     pub(crate) points: usize,
     pub(crate) outline: Outline,
 }
@@ -97,7 +97,7 @@ impl GpuMesh {
             indices: gpu.buffer("indices", bytemuck::cast_slice(&mesh.triangles), BufferUsages::INDEX),
             index_count: index_count.map_err(|_| Error::Mesh("more than 2³² indices".to_owned()))?,
             points: match known {
-                Known::Points(points) => points.len(),
+                Known::Points(points) => points.iter().map(|point| *point as usize + 1).max().unwrap_or(0),
                 Known::Sky(_) => 0,
             },
             outline: *outline,

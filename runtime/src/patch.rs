@@ -21,7 +21,7 @@ pub struct PatchRenderer {
 #[derive(Debug)]
 pub struct PatchLight(Surface2d);
 
-/// Exitance of a region of the patch, on the device, as half floats.
+/// Exitance of a region of the patch, on the device, as half floats or their bits.
 #[derive(Debug)]
 pub struct Exitance {
     surface: Surface2d,

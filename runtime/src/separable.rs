@@ -37,7 +37,7 @@ impl SeparableRenderer {
     /// Compiles the passes.
     ///
     /// # Errors
-    /// [`Error::Device`] if the driver refuses them, or has no half floats to draw to.
+    /// [`Error::Device`] if the driver refuses them; [`Error::NoHalfFloats`].
     pub fn new(gpu: &Gpu, terms: usize) -> Result<Self> {
         gpu.expect_halves("blurs on flat patches")?;
         let of_first = [Slot::Uniform, Slot::Nearest, Slot::FilteredLayers, Slot::Float];
@@ -118,7 +118,7 @@ impl HomogeneousRenderer {
     /// Compiles the pass.
     ///
     /// # Errors
-    /// [`Error::Device`] if the driver refuses it, or has no half floats to draw to.
+    /// [`Error::Device`] if the driver refuses it; [`Error::NoHalfFloats`].
     pub fn new(gpu: &Gpu) -> Result<Self> {
         gpu.expect_halves("blurs on flat patches")?;
         let slots = [Slot::Uniform, Slot::Nearest, Slot::Float];

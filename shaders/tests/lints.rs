@@ -143,7 +143,7 @@ fn texture_loads_are_accounted_for() {
             ("splat, Five", 10),
             ("surface gather, PerPixel", 9),
             ("splat, PerPixel", 10),
-            // At the target's own texel; taps clamped or wrapped to the size of the maps; what lights see clamped to its size.
+            // At the target's own texel; taps clamped to the size of the maps, or wrapped by a sampler; what lights see clamped to its size.
             ("blur first rows, Patch, L = 1", 0),
             ("blur last columns, Patch, L = 1", 2),
             ("weigh mesh, L = 1", 4),

@@ -19,7 +19,7 @@ struct Stage {
 
 @group(0) @binding(0) var<uniform> stage: Stage;
 
-// Taps at k stride texels, |k| <= count, all of them shifted as the domain says.
+// Taps at k stride texels, |k| <= count, all but the middle one shifted as the domain says.
 struct Taps {
     stride: i32,
     count: i32,
@@ -39,7 +39,8 @@ fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
     let shift = shift_at(x, taps.stride);
     var weights = 0.0;
     for (var k = -taps.count; k <= taps.count; k++) {
-        let step = k * taps.stride + shift;
+        // The middle one stays: all others may lie on something else.
+        let step = k * taps.stride + select(shift, 0, k == 0);
         var light = maps_at(x + step * stage.axis);
         let distance = f32(step) / taps.sigma;
         let weight = exp(-0.5 * distance * distance) * nearness(centre, light[0]);

@@ -13,7 +13,8 @@ fn half_bits(value: f32) -> u32 {
         return sign | u32(magnitude * 16777216.0 + 0.5);
     }
     // From a bias of 127 and 23 bits to one of 15 and 10 bits.
-    return sign | ((bitcast<u32>(magnitude) + 0x1000u - 0x38000000u) >> 13u);
+    // What is no number becomes the largest, too.
+    return sign | min((bitcast<u32>(magnitude) + 0x1000u - 0x38000000u) >> 13u, 0x7bffu);
 }
 
 fn half_value(bits: u32) -> f32 {

@@ -28,7 +28,7 @@ pub(super) struct Times {
     /// In the order of the frame.
     pub(super) order: Vec<&'static str>,
     pub(super) material_bytes: u64,
-    /// Of everything that goes with the size of the picture.
+    /// Of everything but the material and the mesh.
     pub(super) buffer_bytes: u64,
 }
 
@@ -41,16 +41,17 @@ impl Course {
         size: [u32; 2],
     ) -> anyhow::Result<Self> {
         let options = RuntimeOptions::default();
-        let prepared = ingredients.upload(gpu, material, mesh)?;
         let before = gpu.ledger().bytes();
+        let prepared = ingredients.upload(gpu, material, mesh)?;
+        let [material_bytes, mesh_bytes] = [prepared.material_bytes(), prepared.mesh_bytes()];
         let ready = Ready::new(gpu, prepared, &Shot::usual(size).scene(mesh), size, options)?;
         let target = gpu.target(size, options.format)?;
         let times = Times {
             frames: Vec::new(),
             passes: BTreeMap::new(),
             order: Vec::new(),
-            material_bytes: ready.prepared.material_bytes(),
-            buffer_bytes: gpu.ledger().bytes() - before,
+            material_bytes,
+            buffer_bytes: gpu.ledger().bytes() - before - material_bytes - mesh_bytes,
         };
         Ok(Self { ready, target, times })
     }

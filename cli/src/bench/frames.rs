@@ -6,10 +6,11 @@ use serde_json::{Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::synthetic::per_pixel_of;
 use subsurf_runtime::scene::{Mesh, relief};
-use subsurf_runtime::{Backend, Gpu};
+use subsurf_runtime::Backend;
 
 use super::course::{self, Course, Times};
 use super::timing::{median, quantile};
+use crate::devices::to_compare;
 use crate::failure::bad_request;
 use crate::info::{parse, read_file};
 use crate::memory::human;
@@ -62,7 +63,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         ("separable", &material, PathArg::Separable),
         ("homogeneous", &material, PathArg::Homogeneous),
     ];
-    let gpus = devices();
+    let gpus = to_compare();
     let mut all = Vec::new();
     for (name, mesh) in &meshes {
         say!("{name}, {} triangles, {}x{} pixels", mesh.triangles.len(), args.size.0[0], args.size.0[1]);
@@ -100,21 +101,6 @@ fn bumpy_sphere(rings: u16) -> anyhow::Result<(String, Mesh)> {
 /// A mesh and what to call it.
 pub(super) fn named(path: &Path) -> anyhow::Result<(String, Mesh)> {
     Ok((stem(path), load(path, EXTENT_MM, Up::Y)?))
-}
-
-/// All devices, and what they are.
-pub(super) fn devices() -> Vec<(Backend, Gpu)> {
-    let mut gpus = Vec::new();
-    for backend in Backend::ALL {
-        match Gpu::open(backend) {
-            Ok(gpu) => {
-                say!("{backend}: {} ({})", gpu.info().name, gpu.info().driver_info);
-                gpus.push((backend, gpu));
-            }
-            Err(_) => say!("{backend}: no device"),
-        }
-    }
-    gpus
 }
 
 fn line(times: &Times) -> String {

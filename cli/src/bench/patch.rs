@@ -12,8 +12,8 @@ use subsurf_runtime::{
 };
 use subsurf_shaders::separable::{Detail, Factors, Stage, mean_kernel};
 
-use super::frames::devices;
 use super::timing::median;
+use crate::devices::to_compare;
 use crate::failure::bad_request;
 use crate::say::say;
 
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         return Err(bad_request("--side must be between 8 and 2048"));
     }
     let mut all = Vec::new();
-    for (backend, gpu) in devices() {
+    for (backend, gpu) in to_compare() {
         say!("{backend}");
         for &side in &args.sides {
             all.push(measure(&gpu, backend, side, args)?);

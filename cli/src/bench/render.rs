@@ -13,8 +13,9 @@ use subsurf_runtime::scene::{Mesh, Scene};
 use subsurf_runtime::{BACKGROUND, Backend, Gpu, RuntimeOptions};
 
 use super::course::{self, Course};
-use super::frames::{devices, named};
+use super::frames::named;
 use super::timing::{median, quantile};
+use crate::devices::to_compare;
 use crate::failure::bad_request;
 use crate::info::{parse, read_file};
 use crate::memory::human;
@@ -65,7 +66,7 @@ struct Row {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     std::fs::create_dir_all(&args.output)?;
-    let gpus = devices();
+    let gpus = to_compare();
     if gpus.is_empty() {
         return Err(bad_request("there is no device; this compares what devices draw"));
     }

@@ -12,8 +12,8 @@ use glam::Vec3;
 use serde_json::{Value, json};
 use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::Light;
-use subsurf_runtime::RuntimeOptions;
 use subsurf_runtime::scene::Environment;
+use subsurf_runtime::{Keeping, RuntimeOptions};
 use subsurf_shaders::cpu::{self, Rgb};
 
 use crate::devices::{self, BackendArg, check_picture};
@@ -162,7 +162,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let bytes = read_file(&args.file)?;
     let material = parse(&args.file, &bytes)?;
-    let gpu = args.backend.open()?;
+    let is_separable = matches!(args.path, PathArg::Separable | PathArg::Homogeneous);
+    if args.jitter && !is_separable {
+        return Err(bad_request("--jitter is for --path separable and homogeneous; the others have no taps"));
+    }
+    let mut gpu = args.backend.open()?;
+    let is_short_of_halves = gpu.as_ref().is_some_and(|gpu| gpu.keeping() == Keeping::Packed);
+    if is_short_of_halves && is_separable && args.mesh.is_none() && args.backend == BackendArg::Auto {
+        // The CPU does what the device cannot.
+        gpu = None;
+    }
     let start = Instant::now();
     let (picture, facts) = match (&args.mesh, args.light) {
         (None, None) => draw_patch(gpu.as_ref(), &material, args.path, Light::Disc, args.size.0, args.exposure)?,

@@ -46,6 +46,8 @@ pub(crate) struct Buffers {
     irradiance: [BindGroup; 2],
     gather: [BindGroup; 2],
     pub(crate) shade: BindGroup,
+    /// How many are bound.
+    points: usize,
     /// Lights and environment that the exitance is of.
     lit_by: Option<uniform::Scene>,
 }
@@ -94,6 +96,15 @@ impl GpuPoints {
         })
     }
 
+    /// Refuses points that are not those of a mesh, or not those of which there are `bound`.
+    fn expect(&self, mesh: &GpuMesh, bound: usize) -> Result<()> {
+        if mesh.points <= self.count && self.count == bound {
+            return Ok(());
+        }
+        let (have, want) = (self.count, mesh.points.max(bound));
+        Err(Error::Device(format!("{have} points for a mesh that names {want}: they are of another surface")))
+    }
+
     /// Exitance of every point as it was last gathered, linear rgb.
     ///
     /// # Errors
@@ -115,10 +126,7 @@ impl Buffers {
         common: &Common,
     ) -> Result<Self> {
         material.expect(passes.storage)?;
-        if mesh.points != points.count {
-            let (have, want) = (points.count, mesh.points);
-            return Err(Error::Device(format!("{have} points for a mesh of {want}: they are of another surface")));
-        }
+        points.expect(mesh, points.count)?;
         let texture = BindingResource::TextureView;
         let of_irradiance =
             [texture(&points.positions.view), texture(&points.normals.view), texture(&points.visibilities.view)];
@@ -137,6 +145,7 @@ impl Buffers {
             ],
             gather: [passes.gather.bind(gpu, 0, &material.resources())?, passes.gather.bind(gpu, 1, &of_points)?],
             shade: passes.shade.bind(gpu, 1, &of_shade)?,
+            points: points.count,
             lit_by: None,
         })
     }
@@ -147,9 +156,11 @@ impl Buffers {
         &mut self,
         gpu: &Gpu,
         passes: &Passes,
+        mesh: &GpuMesh,
         points: &GpuPoints,
         block: &uniform::Scene,
     ) -> Result<()> {
+        points.expect(mesh, self.points)?;
         let lit_by = lighting(block);
         if self.lit_by.is_some_and(|before| bytemuck::bytes_of(&before) == bytemuck::bytes_of(&lit_by)) {
             return Ok(());

@@ -168,7 +168,8 @@ impl Renderer {
     /// Compiles the passes of a path.
     ///
     /// # Errors
-    /// [`Error::Device`] if the driver refuses them; captures are not drawn on meshes.
+    /// [`Error::Device`] if the driver refuses them; captures are not drawn on meshes. [`Error::NoHalfFloats`] for splats
+    /// where there is nothing to add them up in.
     pub fn new(gpu: &Gpu, path: Path, options: RuntimeOptions) -> Result<Self> {
         let RuntimeOptions { format, samples, light_texels, .. } = options;
         if !light_texels.is_power_of_two() || light_texels < LEAST_LIGHT_TEXELS {
@@ -321,7 +322,7 @@ impl Renderer {
         frame.common.show(gpu, scene)?;
         match (&mut frame.buffers, &self.passes, model) {
             (Buffers::Gather(buffers), Passes::Gather(passes), Model::Gather { points, .. }) => {
-                buffers.gather(gpu, passes, points, &block)?;
+                buffers.gather(gpu, passes, mesh, points, &block)?;
             }
             (Buffers::Splat(buffers), Passes::Splat(_), _) => buffers.update(gpu, scene, &block, &plan),
             (Buffers::Separable(buffers), Passes::Separable(_), _) => {

@@ -60,8 +60,6 @@ pub struct Outline {
     pub header: Header,
     /// Where the material lies on the mesh.
     pub mapping: Mapping,
-    /// 1 − F_dr from outside.
-    sky_transmittance: f32,
 }
 
 impl Outline {
@@ -71,7 +69,7 @@ impl Outline {
         let [low, high] = mesh.bounds();
         let centre_mm = 0.5 * (low + high);
         let radius_mm = mesh.positions.iter().map(|position| position.distance(centre_mm)).fold(1e-3, f32::max);
-        Self { centre_mm, radius_mm, header: *header, mapping, sky_transmittance: diffuse_transmittance(header.eta) }
+        Self { centre_mm, radius_mm, header: *header, mapping }
     }
 }
 
@@ -100,7 +98,7 @@ impl Scene {
             middle_mm,
             centre_mm: outline.centre_mm.into(),
             eta: outline.header.eta,
-            sky_transmittance: outline.sky_transmittance,
+            sky_transmittance: diffuse_transmittance(outline.header.eta),
             roughness: self.roughness.clamp(0.0, 1.0),
             lights: u32::try_from(self.lights.len().min(MAX_LIGHTS)).unwrap_or(0),
             row: ROW,

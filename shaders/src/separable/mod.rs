@@ -88,6 +88,18 @@ impl Factors {
         Self::from_radial(*material.header(), radial::Radial::mean_of(material), detail)
     }
 
+    /// Whether there are as many numbers as L, A and the size of the patch say, and not too many.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        let Detail { terms, gaussians } = self.detail;
+        let pixels = self.header.width as usize * self.header.height as usize;
+        (1..=MAX_TERMS).contains(&terms)
+            && (1..=MAX_GAUSSIANS).contains(&gaussians)
+            && self.sigmas.len() == gaussians
+            && self.weights.len() == terms * terms * gaussians
+            && self.coefficients.len() == terms * pixels
+    }
+
     /// w_lma of all Gaussians.
     #[must_use]
     pub fn weights_of(&self, l: usize, m: usize) -> &[Rgb] {
