@@ -101,6 +101,30 @@ fn images_drive_simulations() {
     assert!(!folder.join("no.npy").exists(), "nothing is written");
 }
 
+/// A folder with an image for each pair of directions, which says that it is synthetic, or nothing at all.
+#[test]
+fn simulates_btfs() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    succeed(folder, "simulate btf leather --size 8 -o leather");
+    let facts: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.join("leather/btf.json")).unwrap()).unwrap();
+    assert_eq!(facts["simulated"]["sample"], "leather");
+    assert_eq!(std::fs::read_dir(folder.join("leather")).unwrap().count(), 81 * 81 + 1);
+    let picture = image::open(folder.join("leather/tl060 pl090 tv045 pv100.png")).unwrap().into_rgb8();
+    assert_eq!(picture.dimensions(), (8, 8));
+    assert!(picture.pixels().any(|pixel| pixel[0] > 20), "there is light");
+
+    succeed(folder, "simulate btf wood --size 8 --hdr -o wood");
+    let picture = image::open(folder.join("wood/tl000 pl000 tv000 pv000.exr")).unwrap();
+    assert_eq!(picture.color(), image::ColorType::Rgb32F);
+
+    assert_refused(&run(folder, "simulate btf wood --size 8 -o wood"), &["wood", "is there already"]);
+    assert_refused(&run(folder, "simulate btf wood --size 4 -o small"), &["--size is 4", "8 to 1024"]);
+    assert_refused(&run(folder, "simulate btf wood --exposure 0 -o dark"), &["--exposure is 0", "positive"]);
+    assert_eq!(files(folder), ["leather", "wood"], "nothing is left of what was refused");
+}
+
 /// A driver that does not draw to half floats: the paths that can do without draw the same, the other says why not.
 #[test]
 fn draws_without_half_floats_to_draw_to() {

@@ -4,6 +4,7 @@
 //! profiles and K-BMPP, [`rate`] looks for the best fit of a size, [`metrics`] judges the result.
 
 pub mod bssrdf;
+pub mod btf;
 pub mod capture;
 mod error;
 pub mod metrics;

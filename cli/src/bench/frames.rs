@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::synthetic::per_pixel_of;
-use subsurf_runtime::scene::{Mesh, relief};
 use subsurf_runtime::Backend;
+use subsurf_runtime::scene::{Mesh, relief};
 
 use super::course::{self, Course, Times};
 use super::timing::{median, quantile};

@@ -1,6 +1,7 @@
 //! Captures where nothing was measured: heterogeneous diffusion in a slab.
 
 pub mod analytic;
+pub mod btf;
 pub mod fresnel;
 mod grid;
 pub mod maps;

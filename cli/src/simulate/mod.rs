@@ -1,5 +1,7 @@
 //! `subsurf simulate`: a capture where nothing was measured.
 
+mod btf;
+
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -24,8 +26,22 @@ use crate::say::say;
 /// Solves −∇·(D∇φ) + σ_a φ = Q below every pixel in turn, lit by a beam as wide as the pixel, and writes what leaves
 /// the surface within the window: NAME.npy, floats of shape (height, width, D, D, 3) in mm⁻², and NAME.json beside it.
 #[derive(clap::Args)]
-#[command(after_help = MAPS_HELP)]
+#[command(after_help = MAPS_HELP, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(crate) struct Args {
+    #[command(subcommand)]
+    other: Option<Other>,
+    #[command(flatten)]
+    capture: Option<CaptureArgs>,
+}
+
+/// What is simulated but captures.
+#[derive(clap::Subcommand)]
+enum Other {
+    Btf(btf::Args),
+}
+
+#[derive(clap::Args)]
+struct CaptureArgs {
     /// A built-in material
     #[arg(long, value_enum, conflicts_with = "maps", required_unless_present = "maps")]
     scene: Option<SceneArg>,
@@ -107,6 +123,14 @@ impl ValueEnum for SceneArg {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    match (&args.other, &args.capture) {
+        (Some(Other::Btf(args)), _) => btf::run(args),
+        (None, Some(args)) => simulate_capture(args),
+        (None, None) => Err(bad_request("what is to be simulated? Give --scene or --maps, or `btf`")),
+    }
+}
+
+fn simulate_capture(args: &CaptureArgs) -> anyhow::Result<()> {
     let size = args.size.0.map(|side| side as usize);
     let (map, source) = match args.scene {
         Some(SceneArg(scene)) => (scene.map(size, args.addressing.into(), args.seed), json!({ "scene": scene.name() })),
@@ -250,7 +274,7 @@ impl Request<'_> {
 }
 
 /// Makes sense of `--maps`.
-fn read_maps(args: &Args, size: [usize; 2]) -> anyhow::Result<MediumMap> {
+fn read_maps(args: &CaptureArgs, size: [usize; 2]) -> anyhow::Result<MediumMap> {
     let mut weights = Vec::new();
     let mut albedo = None;
     let mut mean_free_path = None;

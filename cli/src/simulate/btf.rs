@@ -1,0 +1,95 @@
+//! `subsurf simulate btf`: images of a rough surface from all sides, where nothing was measured.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::ValueEnum;
+use serde_json::json;
+use subsurf_encoder::btf::{FolderWriter, Pixels, bonn};
+use subsurf_encoder::simulate::btf::{Sample, simulate};
+
+use crate::failure::bad_request;
+use crate::memory::human;
+use crate::progress::Bars;
+use crate::say::say;
+
+/// Simulate a BTF: images of a rough surface under light from 81 directions, seen from 81 directions.
+///
+/// Rays on a relief with masking, shadows and two bounces of light between its parts. Writes a folder of 6,561 images in
+/// the naming of the database of Bonn ("tl030 pl060 tv045 pv120.png": light and view, degrees from the normal and around
+/// it), and btf.json, which says that they are synthetic. Values are π times the radiance under a light that gives
+/// irradiance 1 to a plane that faces it: white paper has the cosine of the light. All images lie on each other, by the
+/// plane at half height or below the highest parts.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The material
+    #[arg(value_enum)]
+    sample: SampleArg,
+    /// The folder to write
+    #[arg(long, short, value_name = "DIR")]
+    output: PathBuf,
+    /// Pixels of the images in x and in y
+    #[arg(long, default_value_t = 128, value_name = "PIXELS")]
+    size: u32,
+    /// Multiplies values before they become 8-bit sRGB
+    #[arg(long, default_value_t = 1.0, conflicts_with = "hdr")]
+    exposure: f32,
+    /// Write linear floats (.exr) instead of 8-bit sRGB (.png): nothing is cut off, four times the size
+    #[arg(long)]
+    hdr: bool,
+    /// Seed of the pattern
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct SampleArg(Sample);
+
+impl ValueEnum for SampleArg {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [SampleArg; 5] = [
+            SampleArg(Sample::Foil),
+            SampleArg(Sample::Leather),
+            SampleArg(Sample::Corduroy),
+            SampleArg(Sample::Knit),
+            SampleArg(Sample::Wood),
+        ];
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
+        Some(clap::builder::PossibleValue::new(self.0.name()).help(self.0.description()))
+    }
+}
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    if !(8..=1_024).contains(&args.size) {
+        return Err(bad_request(format!("--size is {}; it may be 8 to 1024", args.size)));
+    }
+    if !(args.exposure.is_finite() && args.exposure > 0.0) {
+        return Err(bad_request(format!("--exposure is {}; it must be positive", args.exposure)));
+    }
+    let sample = args.sample.0;
+    let pixels = if args.hdr { Pixels::Linear } else { Pixels::Display { exposure: args.exposure } };
+    let start = Instant::now();
+    let writer = FolderWriter::new(&args.output, args.size, pixels)?;
+    let write = |light, view, image: &[[f32; 3]]| writer.write(light, view, image);
+    simulate(sample, args.size as usize, args.seed, write, &Bars::new())?;
+    writer.finish(&json!({
+        "simulated": {
+            "by": concat!("subsurf ", env!("CARGO_PKG_VERSION")), "sample": sample.name(), "seed": args.seed,
+            "exposure": if args.hdr { 1.0 } else { args.exposure },
+        },
+    }))?;
+    let images = bonn().len() * bonn().len();
+    let raw = 3 * images as u64 * u64::from(args.size) * u64::from(args.size) * if args.hdr { 4 } else { 1 };
+    say!(
+        "{}: synthetic BTF, {images} images of {} × {} pixels, {} uncompressed, in {:.1} s",
+        args.output.display(),
+        args.size,
+        args.size,
+        human(raw),
+        start.elapsed().as_secs_f64(),
+    );
+    Ok(())
+}
