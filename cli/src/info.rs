@@ -7,21 +7,53 @@ use serde_json::json;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{Coding, Model, Profiles};
 use subsurf_decoder::container::{Container, Crc};
+use subsurf_encoder::btf::Folder;
 
 use crate::memory::human;
 use crate::say::say;
 
-/// Show what a .subsurf file holds, and check all of it.
+/// Show what a .subsurf file holds, or a folder of BTF images, and check all of it.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The file
+    /// The file, or the folder
     file: PathBuf,
     /// As JSON
     #[arg(long)]
     json: bool,
 }
 
+/// What is known of a BTF from the names and sizes of its images.
+fn folder_info(args: &Args) -> anyhow::Result<()> {
+    let folder = Folder::open(&args.file)?;
+    let [width, height] = folder.size();
+    let facts = folder.facts();
+    let simulated = facts.as_ref().and_then(|facts| facts.get("simulated"));
+    if args.json {
+        let value = json!({
+            "lights": folder.lights().len(), "views": folder.views().len(), "width": width, "height": height,
+            "linear": folder.is_linear(), "raw_bytes": folder.raw_bytes(), "simulated": simulated,
+        });
+        say!("{value:#}");
+        return Ok(());
+    }
+    let pixels = if folder.is_linear() { "linear floats" } else { "8-bit sRGB" };
+    say!(
+        "{}: images of a BTF, {} lights × {} views, {width} × {height} pixels, {pixels}, {} uncompressed",
+        args.file.display(),
+        folder.lights().len(),
+        folder.views().len(),
+        human(folder.raw_bytes()),
+    );
+    if let Some(facts) = simulated {
+        say!("  synthetic: {facts}");
+    }
+    Ok(())
+}
+
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    if args.file.is_dir() {
+        return folder_info(args);
+    }
     let bytes = read_file(&args.file)?;
     let material = parse(&args.file, &bytes)?;
     let container = Container::parse(&bytes).map_err(|error| read_error(&args.file, error))?;

@@ -115,6 +115,15 @@ fn simulates_btfs() {
     assert_eq!(picture.dimensions(), (8, 8));
     assert!(picture.pixels().any(|pixel| pixel[0] > 20), "there is light");
 
+    let info = json(folder, "info leather --json");
+    assert_eq!(
+        (&info["lights"], &info["views"], &info["raw_bytes"]),
+        (&81.into(), &81.into(), &(3 * 64 * 6_561).into())
+    );
+    assert!(succeed(folder, "info leather").out.contains("synthetic"));
+    std::fs::remove_file(folder.join("leather/tl060 pl090 tv045 pv100.png")).unwrap();
+    assert_refused(&run(folder, "info leather"), &["1 of 81 × 81 images are missing", "tl060 pl090 tv045 pv100"]);
+
     succeed(folder, "simulate btf wood --size 8 --hdr -o wood");
     let picture = image::open(folder.join("wood/tl000 pl000 tv000 pv000.exr")).unwrap();
     assert_eq!(picture.color(), image::ColorType::Rgb32F);

@@ -31,9 +31,22 @@ pub fn bonn() -> Vec<Direction> {
 }
 
 /// What the image of a pair of directions is called there, without an extension.
-#[must_use]
-pub fn image_name(light: Direction, view: Direction) -> String {
+pub(super) fn image_name(light: Direction, view: Direction) -> String {
     format!("tl{:03} pl{:03} tv{:03} pv{:03}", light.theta_deg, light.phi_deg, view.theta_deg, view.phi_deg)
+}
+
+/// Light and view that the name of an image tells: numbers behind `tl`, `pl`, `tv` and `pv`, whatever stands between.
+pub(super) fn directions_of(name: &str) -> Option<[Direction; 2]> {
+    let number = |tag: &str| {
+        let (_, rest) = name.split_once(tag)?;
+        let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
+        rest[..digits].parse::<u16>().ok()
+    };
+    let direction = |theta: &str, phi: &str| {
+        let direction = Direction { theta_deg: number(theta)?, phi_deg: number(phi)? };
+        (direction.theta_deg <= 90 && direction.phi_deg < 360).then_some(direction)
+    };
+    Some([direction("tl", "pl")?, direction("tv", "pv")?])
 }
 
 #[cfg(test)]
@@ -49,5 +62,19 @@ mod tests {
         assert_eq!(all[80], Direction { theta_deg: 75, phi_deg: 345 });
         assert_eq!(image_name(all[0], all[12]), "tl000 pl000 tv030 pv150");
         assert!(all.iter().all(|direction| (direction.unit().length() - 1.0).abs() < 1e-6));
+    }
+
+    #[test]
+    fn names_tell_directions() {
+        let [light, view] = [Direction { theta_deg: 60, phi_deg: 345 }, Direction { theta_deg: 15, phi_deg: 0 }];
+        for name in
+            [image_name(light, view), "00815 tl060 pl345 tv015 pv000".to_owned(), "tl60_pl345_tv15_pv0.exr".to_owned()]
+        {
+            assert_eq!(directions_of(&name), Some([light, view]), "{name}");
+        }
+        for name in ["tl000 pl000 tv000", "tl095 pl000 tv000 pv000", "tl000 pl360 tv000 pv000", "tl pl tv pv", "readme"]
+        {
+            assert_eq!(directions_of(name), None, "{name}");
+        }
     }
 }

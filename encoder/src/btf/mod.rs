@@ -3,5 +3,6 @@
 mod directions;
 mod folder;
 
-pub use directions::{Direction, bonn, image_name};
-pub use folder::{FolderWriter, Pixels};
+pub use directions::{Direction, bonn};
+use directions::{directions_of, image_name};
+pub use folder::{Folder, FolderWriter, Pixels};

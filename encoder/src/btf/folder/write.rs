@@ -1,11 +1,11 @@
-//! A BTF as a folder of images, one for each pair of directions.
+//! Writes the images of a BTF.
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageFormat, Rgb32FImage, RgbImage};
 
-use super::directions::{Direction, image_name};
+use crate::btf::{Direction, image_name};
 use crate::error::{Error, Result};
 use crate::output::{Unfinished, write_bytes};
 
