@@ -204,3 +204,19 @@ pub fn psnr(reference: &[[u8; 3]], found: &[[u8; 3]]) -> f64 {
     assert!(10 * a.len() > reference.len(), "the mesh is in the picture");
     psnr_db(&a, &b)
 }
+
+/// Draws by every path on every device, and holds them to the gather of the first one, in dB, and to each other.
+///
+/// # Panics
+/// If they are further apart than [`EDGE_PIXELS`] or the limits say.
+pub fn assert_close(name: &str, gpus: &[Gpu; 2], limits: [(Way, f64); 2], draw: impl Fn(&Gpu, Way) -> Vec<[u8; 3]>) {
+    let reference = draw(&gpus[0], Way::Gather);
+    for (way, least_db) in limits {
+        let pictures = gpus.each_ref().map(|gpu| draw(gpu, way));
+        let db = pictures.each_ref().map(|picture| psnr(&reference, picture));
+        let share = share_that_differs(&pictures[0], &pictures[1]);
+        println!("{name}, {way:?}: {db:.1?} dB from the gather; {share} of pixels differ between the APIs");
+        assert!(db.iter().all(|db| *db >= least_db), "{name}, {way:?}: {db:?} dB");
+        assert!(share <= EDGE_PIXELS, "{name}, {way:?}: {share}");
+    }
+}

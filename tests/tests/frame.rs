@@ -8,9 +8,7 @@ use subsurf_encoder::simulate::Scene as Recipe;
 use subsurf_encoder::synthetic::per_pixel_of;
 use subsurf_runtime::scene::{bowl, drapery, knot, torus};
 use subsurf_runtime::{BACKGROUND, Backend, Error, Gpu, Model, Path, Renderer, RuntimeOptions};
-use subsurf_tests::frames::{
-    API_TOLERANCE, EDGE_PIXELS, Loaded, SIZE, Way, device, material_of, psnr, scene, share_that_differs,
-};
+use subsurf_tests::frames::{API_TOLERANCE, Loaded, SIZE, Way, assert_close, device, material_of, scene};
 use subsurf_tests::shape;
 
 /// Every path against the gather, on meshes thick and thin; and both APIs against each other.
@@ -22,15 +20,7 @@ fn paths_come_close_to_the_gather_and_apis_to_each_other() {
     for (name, mesh) in &meshes {
         let scene = scene(mesh);
         let draw = |gpu: &Gpu, way| Loaded::new(gpu, way, &file, mesh).picture(gpu, &scene, SIZE);
-        let reference = draw(&gpus[0], Way::Gather);
-        for (way, least_db) in [(Way::Splat, 36.0), (Way::Separable, 28.0)] {
-            let pictures = gpus.each_ref().map(|gpu| draw(gpu, way));
-            let db = pictures.each_ref().map(|picture| psnr(&reference, picture));
-            let share = share_that_differs(&pictures[0], &pictures[1]);
-            println!("{name}, {way:?}: {db:.1?} dB from the gather; {share} of pixels differ between the APIs");
-            assert!(db.iter().all(|db| *db >= least_db), "{name}, {way:?}: {db:?} dB");
-            assert!(share <= EDGE_PIXELS, "{name}, {way:?}: {share}");
-        }
+        assert_close(name, &gpus, [(Way::Splat, 36.0), (Way::Separable, 28.0)], draw);
     }
 }
 

@@ -12,7 +12,7 @@ use subsurf_runtime::{
     RuntimeOptions, Storage,
 };
 use subsurf_tests::frames::{
-    API_TOLERANCE, EDGE_PIXELS, Loaded, SIZE, Way, device, material_of, psnr, scene, share_that_differs,
+    API_TOLERANCE, EDGE_PIXELS, Loaded, SIZE, Way, assert_close, device, material_of, psnr, scene, share_that_differs,
 };
 use subsurf_tests::shape;
 
@@ -37,15 +37,7 @@ fn lights_close_by_and_boxes_come_close_to_the_gather() {
     ];
     for (name, mesh, mapping, scene) in &cases {
         let draw = |gpu: &Gpu, way| Loaded::under(gpu, way, &file, mesh, *mapping, scene).picture(gpu, scene, SIZE);
-        let reference = draw(&gpus[0], Way::Gather);
-        for (way, least_db) in [(Way::Splat, 32.0), (Way::Separable, 28.0)] {
-            let pictures = gpus.each_ref().map(|gpu| draw(gpu, way));
-            let db = pictures.each_ref().map(|picture| psnr(&reference, picture));
-            let share = share_that_differs(&pictures[0], &pictures[1]);
-            println!("{name}, {way:?}: {db:.1?} dB from the gather; {share} of pixels differ between the APIs");
-            assert!(db.iter().all(|db| *db >= least_db), "{name}, {way:?}: {db:?} dB");
-            assert!(share <= EDGE_PIXELS, "{name}, {way:?}: {share}");
-        }
+        assert_close(name, &gpus, [(Way::Splat, 32.0), (Way::Separable, 28.0)], draw);
     }
 }
 

@@ -56,6 +56,11 @@ impl Course {
         Ok(Self { ready, target, times })
     }
 
+    /// Its picture of a scene of the size that it was made for.
+    pub(super) fn picture(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<Vec<[u8; 3]>> {
+        self.ready.picture(gpu, scene)
+    }
+
     fn draw(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<f64> {
         let Ready { prepared, renderer, frame } = &mut self.ready;
         let begin = Instant::now();

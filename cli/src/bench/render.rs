@@ -122,8 +122,9 @@ fn compare(
         if args.frames > 0 {
             course::run(gpu, &mut courses, mesh, size, args.frames)?;
         }
-        for ((path, ingredients), Course { times, .. }) in paths.into_iter().zip(courses) {
-            let found = ready(gpu, ingredients, &scene)?.picture(gpu, &scene)?;
+        for ((path, _), mut course) in paths.into_iter().zip(courses) {
+            let found = course.picture(gpu, &scene)?;
+            let times = course.times;
             let (psnr_db, ssim) = similarity(&reference, &found, size[0]);
             let row = Row {
                 material: material_name.to_owned(),

@@ -13,7 +13,7 @@ use crate::error::Result;
 use crate::progress::Progress;
 use light::LightOn;
 pub use recipe::Sample;
-use relief::{Hit, Relief};
+use relief::Relief;
 
 /// Rays to a pixel in x and in y.
 const RAYS: usize = 2;
@@ -57,7 +57,7 @@ fn draw(
     progress.begin("images", (directions.len() * directions.len()) as u64);
     for view in directions {
         let towards_eye = view.unit();
-        let hits: Vec<Hit> = relief.seen_from(towards_eye);
+        let hits = relief.seen_from(towards_eye);
         let image = |light: &LightOn| picture(relief, &hits, light, towards_eye, side);
         let images: Vec<Vec<[f32; 3]>> = lights.par_iter().map(image).collect();
         for (light, image) in directions.iter().zip(&images) {
@@ -69,12 +69,12 @@ fn draw(
 }
 
 /// Means over the rays of every pixel.
-fn picture(relief: &Relief, hits: &[Hit], light: &LightOn, towards_eye: Vec3, side: usize) -> Vec<[f32; 3]> {
+fn picture(relief: &Relief, hits: &[u32], light: &LightOn, towards_eye: Vec3, side: usize) -> Vec<[f32; 3]> {
     let row = RAYS * side;
     let share = 1.0 / (RAYS * RAYS) as f32;
     let pixel = |k: usize| {
         let (x, y) = (RAYS * (k % side), RAYS * (k / side));
-        let rays = (0..RAYS * RAYS).map(|n| &hits[(y + n / RAYS) * row + x + n % RAYS]);
+        let rays = (0..RAYS * RAYS).map(|n| hits[(y + n / RAYS) * row + x + n % RAYS]);
         let sum: Vec3 = rays.map(|hit| relief.radiance(hit, light, towards_eye)).sum();
         (sum * share).to_array()
     };

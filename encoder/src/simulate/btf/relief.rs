@@ -18,13 +18,6 @@ pub(super) struct Relief {
     normals: Vec<Vec3>,
 }
 
-/// Where a ray ends.
-#[derive(Clone, Copy)]
-pub(super) struct Hit {
-    /// The texel there.
-    pub(super) texel: u32,
-}
-
 /// Which texels lie in a texel's cosine-distributed directions; those that lead to the sky are none.
 pub(super) type Exchange = Vec<[u32; DIRECTIONS]>;
 
@@ -95,15 +88,15 @@ impl Relief {
     }
 
     /// What is seen of the relief from far away, through the middle of every texel of the plane at height 0: images from all
-    /// sides lie on each other.
-    pub(super) fn seen_from(&self, towards_eye: Vec3) -> Vec<Hit> {
+    /// sides lie on each other. The texel in which each ray ends.
+    pub(super) fn seen_from(&self, towards_eye: Vec3) -> Vec<u32> {
         let hit = |texel: usize| {
             let plane = self.middle(texel).with_z(0.0);
             let begin = plane + towards_eye * (self.highest / towards_eye.z);
             let depth = (self.highest - self.lowest) / towards_eye.z;
             let end = self.first_below(begin, -towards_eye, depth).unwrap_or(depth);
             let place = begin - end * towards_eye;
-            Hit { texel: self.texel_at(place.x, place.y) }
+            self.texel_at(place.x, place.y)
         };
         (0..self.len()).into_par_iter().map(hit).collect()
     }
@@ -167,12 +160,11 @@ impl Relief {
         (0..self.len()).into_par_iter().map(look).collect()
     }
 
-    /// π times the radiance that leaves a place towards the eye.
-    pub(super) fn radiance(&self, hit: &Hit, light: &LightOn, towards_eye: Vec3) -> Vec3 {
-        let finish = self.finish(hit.texel);
-        let shading = Shading { normal: self.normal(hit.texel), light: light.towards, eye: towards_eye };
-        let texel = hit.texel as usize;
-        let direct = finish.reflect(&shading) * (std::f32::consts::PI * light.direct[texel]);
-        direct + finish.diffuse * light.indirect[texel]
+    /// π times the radiance that leaves a texel towards the eye.
+    pub(super) fn radiance(&self, texel: u32, light: &LightOn, towards_eye: Vec3) -> Vec3 {
+        let finish = self.finish(texel);
+        let shading = Shading { normal: self.normal(texel), light: light.towards, eye: towards_eye };
+        let direct = finish.reflect(&shading) * (std::f32::consts::PI * light.direct[texel as usize]);
+        direct + finish.diffuse * light.indirect[texel as usize]
     }
 }
