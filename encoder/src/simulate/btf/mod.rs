@@ -1,5 +1,6 @@
 //! BTFs where nothing was measured: rays on relief, with masking, shadows and light between its parts.
 
+mod camera;
 mod light;
 mod recipe;
 mod reflectance;
@@ -11,6 +12,7 @@ use rayon::prelude::*;
 use crate::btf::{Direction, bonn};
 use crate::error::Result;
 use crate::progress::Progress;
+use camera::Camera;
 use light::LightOn;
 pub use recipe::Sample;
 use relief::Relief;
@@ -23,7 +25,8 @@ const RAYS: usize = 2;
 /// The surface repeats at its borders. Of white paper all pixels are cos θ of the light.
 ///
 /// Primary rays find what is seen of the relief; shadows and two bounces of diffuse light are known for every texel of
-/// it, four to a pixel.
+/// it, four to a pixel. The camera's point spread function has a standard deviation of half a pixel, and of 1 / cos θ_v of
+/// that along the view's azimuth, as with photographs that were laid on the surface.
 ///
 /// # Errors
 /// What `sink` fails with.
@@ -34,13 +37,14 @@ pub fn simulate(
     sink: impl FnMut(Direction, Direction, &[[f32; 3]]) -> Result<()>,
     progress: &impl Progress,
 ) -> Result<()> {
-    draw(&sample.relief(RAYS * side, seed), &bonn(), side, sink, progress)
+    draw(&sample.relief(RAYS * side, seed), &bonn(), side, Camera::LENS, sink, progress)
 }
 
 fn draw(
     relief: &Relief,
     directions: &[Direction],
     side: usize,
+    camera: Camera,
     mut sink: impl FnMut(Direction, Direction, &[[f32; 3]]) -> Result<()>,
     progress: &impl Progress,
 ) -> Result<()> {
@@ -58,7 +62,8 @@ fn draw(
     for view in directions {
         let towards_eye = view.unit();
         let hits = relief.seen_from(towards_eye);
-        let image = |light: &LightOn| picture(relief, &hits, light, towards_eye, side);
+        let footprint = camera.footprint(towards_eye);
+        let image = |light: &LightOn| footprint.blur(&picture(relief, &hits, light, towards_eye, side), side);
         let images: Vec<Vec<[f32; 3]>> = lights.par_iter().map(image).collect();
         for (light, image) in directions.iter().zip(&images) {
             sink(*light, *view, image)?;
@@ -69,14 +74,14 @@ fn draw(
 }
 
 /// Means over the rays of every pixel.
-fn picture(relief: &Relief, hits: &[u32], light: &LightOn, towards_eye: Vec3, side: usize) -> Vec<[f32; 3]> {
+fn picture(relief: &Relief, hits: &[u32], light: &LightOn, towards_eye: Vec3, side: usize) -> Vec<Vec3> {
     let row = RAYS * side;
     let share = 1.0 / (RAYS * RAYS) as f32;
     let pixel = |k: usize| {
         let (x, y) = (RAYS * (k % side), RAYS * (k / side));
         let rays = (0..RAYS * RAYS).map(|n| hits[(y + n / RAYS) * row + x + n % RAYS]);
         let sum: Vec3 = rays.map(|hit| relief.radiance(hit, light, towards_eye)).sum();
-        (sum * share).to_array()
+        sum * share
     };
     (0..side * side).map(pixel).collect()
 }
@@ -101,7 +106,7 @@ mod tests {
             all[place(light)][place(view)] = image.to_vec();
             Ok(())
         };
-        draw(&relief, &directions, SIDE, sink, &()).unwrap();
+        draw(&relief, &directions, SIDE, Camera { spread_px: 0.0 }, sink, &()).unwrap();
         all
     }
 

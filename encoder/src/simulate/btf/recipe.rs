@@ -106,7 +106,8 @@ fn leather(noise: &Noise, at: Vec2) -> Point {
         roughness: [0.48 - 0.1 * cushion, 0.48 - 0.1 * cushion],
         ..Finish::matte(diffuse)
     };
-    Point { height: 0.022 * cushion + 0.002 * fine, finish }
+    // Eleven cells are some 25 mm; grain is about 0.2 mm deep.
+    Point { height: 0.008 * cushion + 0.001 * fine, finish }
 }
 
 fn corduroy(noise: &Noise, at: Vec2) -> Point {
