@@ -26,6 +26,29 @@ pub enum Section {
     Codes,
     /// `LSPP`: per-pixel local scattering profiles.
     LocalProfiles,
+    /// `BTFH`: model, tone and grid of a BTF.
+    BtfHeader,
+    /// `MATS`: its materials.
+    Materials,
+    /// `BOOK`: sizes of its codebooks.
+    Books,
+    /// `P1S0` to `P6S3`: a codebook of luma.
+    Codebook {
+        /// 1, 2, 3, 4 or 6.
+        book: u8,
+        /// Additive stage, 0 to 3.
+        stage: u8,
+    },
+    /// `MERG`: M, which joins P2 and I2.
+    Merged,
+    /// `CHR2`: I2.
+    ChromaSlices2,
+    /// `CHR1`: I1.
+    ChromaSlices1,
+    /// `CHRC`: C.
+    Colours,
+    /// `TINT`: tints of texels.
+    Tints,
     /// A kind that this version does not know.
     Other([u8; 4]),
 }
@@ -44,6 +67,17 @@ impl Section {
             b"PAIR" => Self::Pairs,
             b"CODE" => Self::Codes,
             b"LSPP" => Self::LocalProfiles,
+            b"BTFH" => Self::BtfHeader,
+            b"MATS" => Self::Materials,
+            b"BOOK" => Self::Books,
+            b"MERG" => Self::Merged,
+            b"CHR2" => Self::ChromaSlices2,
+            b"CHR1" => Self::ChromaSlices1,
+            b"CHRC" => Self::Colours,
+            b"TINT" => Self::Tints,
+            [b'P', book @ (b'1'..=b'4' | b'6'), b'S', stage @ b'0'..=b'3'] => {
+                Self::Codebook { book: book.wrapping_sub(b'0'), stage: stage.wrapping_sub(b'0') }
+            }
             _ => Self::Other(kind),
         }
     }
@@ -62,6 +96,15 @@ impl Section {
             Self::Pairs => *b"PAIR",
             Self::Codes => *b"CODE",
             Self::LocalProfiles => *b"LSPP",
+            Self::BtfHeader => *b"BTFH",
+            Self::Materials => *b"MATS",
+            Self::Books => *b"BOOK",
+            Self::Codebook { book, stage } => [b'P', b'0'.wrapping_add(book), b'S', b'0'.wrapping_add(stage)],
+            Self::Merged => *b"MERG",
+            Self::ChromaSlices2 => *b"CHR2",
+            Self::ChromaSlices1 => *b"CHR1",
+            Self::Colours => *b"CHRC",
+            Self::Tints => *b"TINT",
             Self::Other(kind) => kind,
         }
     }
@@ -80,6 +123,15 @@ impl fmt::Display for Section {
             Self::Pairs => f.write_str("PAIR (palette of pairs)"),
             Self::Codes => f.write_str("CODE (palette codes)"),
             Self::LocalProfiles => f.write_str("LSPP (local scattering profiles)"),
+            Self::BtfHeader => f.write_str("BTFH (BTF header)"),
+            Self::Materials => f.write_str("MATS (materials)"),
+            Self::Books => f.write_str("BOOK (sizes of codebooks)"),
+            Self::Codebook { book, stage } => write!(f, "P{book}S{stage} (codebook P{book}, stage {stage})"),
+            Self::Merged => f.write_str("MERG (codebook M)"),
+            Self::ChromaSlices2 => f.write_str("CHR2 (codebook I2)"),
+            Self::ChromaSlices1 => f.write_str("CHR1 (codebook I1)"),
+            Self::Colours => f.write_str("CHRC (codebook C)"),
+            Self::Tints => f.write_str("TINT (tints of texels)"),
             Self::Other(kind) => write!(f, "{}", kind.escape_ascii()),
         }
     }

@@ -24,11 +24,14 @@
     clippy::panic
 )]
 
+pub mod bits;
 pub mod bssrdf;
+pub mod btf;
 pub mod bytes;
 pub mod container;
 mod crc;
 mod error;
 
 pub use bssrdf::Bssrdf;
+pub use btf::Btf;
 pub use error::{ReadError, Section};

@@ -6,6 +6,7 @@
 pub mod bssrdf;
 pub mod btf;
 pub mod capture;
+mod container;
 mod error;
 pub mod metrics;
 mod output;

@@ -1,11 +1,14 @@
 //! Materials without any meaning, made at once: for timing, and for tests that need no physics.
 
+mod nested;
+
 use rayon::prelude::*;
 use subsurf_decoder::bssrdf::layout::{MODEL_2BMPP, MODEL_PER_PIXEL};
 use subsurf_decoder::bssrdf::{Addressing, Coding, Header, LocalProfile, Mixture};
 use subsurf_decoder::{Bssrdf, Section};
 
 use crate::bssrdf::{mixtures, profiles, write_file};
+pub use nested::NestedShape;
 
 /// Size of a synthetic material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

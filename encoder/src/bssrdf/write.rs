@@ -4,7 +4,8 @@ use half::f16;
 use subsurf_decoder::Section;
 use subsurf_decoder::bssrdf::layout::{HEADER_BYTES, MAX_CODED_RATIO, MAX_LOG, MAX_PAIRS, MODEL_2BMPP};
 use subsurf_decoder::bssrdf::{Coding, Header, Mixture};
-use subsurf_decoder::container::{ENTRY_BYTES, Entry, FILE_HEADER_BYTES, crc32, file_header};
+
+use crate::container;
 
 /// A file of one material: container, header, and the sections of its model in file order.
 ///
@@ -12,29 +13,9 @@ use subsurf_decoder::container::{ENTRY_BYTES, Entry, FILE_HEADER_BYTES, crc32, f
 /// Never for the handful of sections that there are.
 #[must_use]
 pub fn write_file(header: &Header, sections: &[(Section, Vec<u8>)]) -> Vec<u8> {
-    let header_section = (Section::BssrdfHeader, header.to_bytes().to_vec());
-    let all: Vec<&(Section, Vec<u8>)> = std::iter::once(&header_section).chain(sections).collect();
-
-    let mut offset = FILE_HEADER_BYTES + all.len() * ENTRY_BYTES + 4;
-    let mut table = Vec::new();
-    let mut body = Vec::new();
-    for (section, bytes) in &all {
-        let entry = Entry { section: *section, crc: crc32(bytes), offset: offset as u64, length: bytes.len() as u64 };
-        table.extend(entry.to_bytes());
-        body.extend_from_slice(bytes);
-        body.resize(body.len().next_multiple_of(4), 0);
-        offset += bytes.len().next_multiple_of(4);
-    }
-    // Nothing follows the last section: it needs no fill.
-    let fill = all.last().map_or(0, |(_, bytes)| bytes.len().next_multiple_of(4) - bytes.len());
-    body.truncate(body.len() - fill);
-
-    let sections = u32::try_from(all.len()).expect("a handful of sections");
-    let mut out = file_header(sections, (offset - fill) as u64).to_vec();
-    out.extend(table);
-    out.extend(crc32(&out).to_le_bytes());
-    out.extend(body);
-    out
+    let header = header.to_bytes();
+    let sections = sections.iter().map(|(section, bytes)| (*section, &bytes[..]));
+    container::write(std::iter::once((Section::BssrdfHeader, &header[..])).chain(sections))
 }
 
 /// Length of a K-BMPP file, with the largest palette there can be.
@@ -52,9 +33,7 @@ pub(super) fn file_bytes(header: &Header, half_profiles: bool) -> u64 {
         let pairs = u64::from(header.base_materials) * u64::from(header.base_materials + 1) / 2;
         lengths.push(2 * pairs.min(MAX_PAIRS.into()).min(header.pixels()));
     }
-    let table = FILE_HEADER_BYTES + lengths.len() * ENTRY_BYTES + 4;
-    let (last, before) = lengths.split_last().expect("at least the header");
-    table as u64 + before.iter().map(|length| length.next_multiple_of(4)).sum::<u64>() + last
+    container::file_bytes(&lengths)
 }
 
 /// Little-endian bytes of log-scale profile values, clamped to what the format allows.

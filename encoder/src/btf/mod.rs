@@ -2,11 +2,19 @@
 
 mod directions;
 mod folder;
+mod images;
 mod merl;
+mod mipmaps;
+pub mod nested;
+mod resample;
+mod survey;
 mod ubo;
 
 pub use directions::{Direction, bonn};
 use directions::{directions_of, image_name};
 pub use folder::{Folder, FolderWriter, Pixels};
+pub use images::{Images, Source};
 pub use merl::Merl;
+pub use resample::{Measured, Resampler};
+pub use survey::{Detail, Factors, Survey};
 pub use ubo::Ubo;

@@ -20,32 +20,36 @@ const C2: f64 = 0.03 * 0.03;
 /// σ = 1.5 pixels, L = 1, windows that lie wholly inside. `None` for images smaller than the window.
 #[must_use]
 pub fn ssim(reference: &[[f64; 3]], image: &[[f64; 3]], width: usize) -> Option<f64> {
+    let plane = |pixels: &[[f64; 3]], c: usize| -> Vec<f64> { pixels.iter().map(|rgb| rgb[c]).collect() };
+    let channels = [0, 1, 2].map(|c| ssim_of_planes(&plane(reference, c), &plane(image, c), width));
+    let [red, green, blue] = channels;
+    Some((red? + green? + blue?) / 3.0)
+}
+
+/// [`ssim`] of one channel.
+#[must_use]
+pub(super) fn ssim_of_planes(reference: &[f64], image: &[f64], width: usize) -> Option<f64> {
     let height = reference.len() / width;
     if width < SIDE || height < SIDE {
         return None;
     }
     let kernel = kernel();
+    // Local means of x, y, x², y², xy.
+    let blurred = |f: &dyn Fn(f64, f64) -> f64| {
+        let plane: Vec<f64> = reference.iter().zip(image).map(|(x, y)| f(*x, *y)).collect();
+        blur(&plane, width, &kernel)
+    };
+    let (x, y) = (blurred(&|x, _| x), blurred(&|_, y| y));
+    let (xx, yy, xy) = (blurred(&|x, _| x * x), blurred(&|_, y| y * y), blurred(&|x, y| x * y));
+    let windows = x.len();
     let mut sum = 0.0;
-    for c in 0..3 {
-        // Local means of x, y, x², y², xy.
-        let blurred = |f: &dyn Fn(f64, f64) -> f64| {
-            let plane: Vec<f64> = reference.iter().zip(image).map(|(x, y)| f(x[c], y[c])).collect();
-            blur(&plane, width, &kernel)
-        };
-        let (x, y) = (blurred(&|x, _| x), blurred(&|_, y| y));
-        let (xx, yy, xy) = (blurred(&|x, _| x * x), blurred(&|_, y| y * y), blurred(&|x, y| x * y));
-        let windows = x.len();
-        let mut channel = 0.0;
-        for k in 0..windows {
-            let (vx, vy, cov) = (xx[k] - x[k] * x[k], yy[k] - y[k] * y[k], xy[k] - x[k] * y[k]);
-            channel +=
-                (2.0 * x[k] * y[k] + C1) * (2.0 * cov + C2) / ((x[k] * x[k] + y[k] * y[k] + C1) * (vx + vy + C2));
-        }
-        #[allow(clippy::cast_precision_loss, reason = "pixels fit in 2⁵³")]
-        let mean = channel / windows as f64;
-        sum += mean;
+    for k in 0..windows {
+        let (vx, vy, cov) = (xx[k] - x[k] * x[k], yy[k] - y[k] * y[k], xy[k] - x[k] * y[k]);
+        sum += (2.0 * x[k] * y[k] + C1) * (2.0 * cov + C2) / ((x[k] * x[k] + y[k] * y[k] + C1) * (vx + vy + C2));
     }
-    Some(sum / 3.0)
+    #[allow(clippy::cast_precision_loss, reason = "pixels fit in 2⁵³")]
+    let mean = sum / windows as f64;
+    Some(mean)
 }
 
 fn kernel() -> [f64; SIDE] {
@@ -61,11 +65,20 @@ fn kernel() -> [f64; SIDE] {
 /// Separable convolution, windows that lie wholly inside.
 fn blur(plane: &[f64], width: usize, kernel: &[f64; SIDE]) -> Vec<f64> {
     let inner = width - SIDE + 1;
-    let dot = |taps: &mut dyn Iterator<Item = &f64>| -> f64 { taps.zip(kernel).map(|(v, k)| v * k).sum() };
-    let rows: Vec<f64> =
-        plane.chunks(width).flat_map(|row| row.windows(SIDE).map(|taps| dot(&mut taps.iter()))).collect();
+    let row = |row: &[f64]| -> Vec<f64> {
+        let mut sums = vec![0.0; inner];
+        for (k, weight) in kernel.iter().enumerate() {
+            sums.iter_mut().zip(&row[k..]).for_each(|(sum, value)| *sum += weight * value);
+        }
+        sums
+    };
+    let rows: Vec<f64> = plane.chunks_exact(width).flat_map(row).collect();
     let height = plane.len() / width - SIDE + 1;
-    (0..height * inner).map(|at| dot(&mut rows[at..].iter().step_by(inner))).collect()
+    let mut sums = vec![0.0; height * inner];
+    for (k, weight) in kernel.iter().enumerate() {
+        sums.iter_mut().zip(&rows[k * inner..]).for_each(|(sum, value)| *sum += weight * value);
+    }
+    sums
 }
 
 #[cfg(test)]

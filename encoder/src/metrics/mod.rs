@@ -1,5 +1,6 @@
 //! How far a fitted material is from its capture.
 
+pub mod btf;
 mod image;
 mod relight;
 

@@ -1,0 +1,15 @@
+//! Bidirectional texture functions: what a rough surface looks like from every side, under light from every side.
+
+mod angle;
+mod grid;
+pub mod layout;
+mod nested;
+mod reader;
+mod sections;
+mod tone;
+
+pub use grid::{Cell, Grid, Place, View};
+pub use layout::{Header, Material, Model};
+pub use nested::{Nested, Sample, Sampler};
+pub use reader::{Btf, Texel};
+pub use tone::{CHROMA, LUMA, Tone};

@@ -1,0 +1,10 @@
+//! Nested codebooks of luma and chroma (Havran, Filip and Myszkowski 2010, sections 4.2-4.5).
+
+mod chain;
+mod line;
+mod reader;
+mod sampler;
+mod stage;
+
+pub use reader::Nested;
+pub use sampler::{Sample, Sampler};

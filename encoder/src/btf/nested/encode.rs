@@ -1,0 +1,127 @@
+//! From what is known of materials to nested codebooks.
+
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+use subsurf_decoder::btf::layout::{MAX_STAGES, NAME_BYTES};
+use subsurf_decoder::btf::{Grid, Header, Material, Model, Tone};
+
+use super::chroma::{ChromaSizes, Hues};
+use super::luma::{STEPS, Sizes, Space};
+use super::write::Database;
+use crate::btf::mipmaps::Mipmaps;
+use crate::btf::resample::{Measured, Resampler};
+use crate::btf::{Images, Survey};
+use crate::error::{Error, Result};
+use crate::progress::Progress;
+
+/// What a file of nested codebooks is to be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Nodes of directions.
+    pub grid: Grid,
+    /// Most entries of the codebooks of each stage.
+    pub stages: Vec<Sizes>,
+    /// Most entries of the codebooks of chroma.
+    pub chroma: ChromaSizes,
+    /// Names of the materials.
+    pub names: Vec<String>,
+    /// Whether to make mipmaps.
+    pub has_mipmaps: bool,
+    /// Seed of the first codewords.
+    pub seed: u64,
+}
+
+/// Builds the codebooks of materials that were surveyed together.
+///
+/// # Errors
+/// [`Error::Request`] for no stage or more than four, or too many materials.
+pub fn encode(materials: &[Images], survey: &Survey, options: &Options, progress: &impl Progress) -> Result<Database> {
+    if options.stages.is_empty() || options.stages.len() > MAX_STAGES {
+        return Err(Error::Request(format!("{} stages of codebooks; 1 to 4 are possible", options.stages.len())));
+    }
+    let count = u8::try_from(materials.len()).ok().filter(|count| *count > 0);
+    let count = count.ok_or_else(|| Error::Request(format!("{} materials in one file", materials.len())))?;
+    progress.begin("codebooks", STEPS * options.stages.len() as u64);
+    let (lights, views) = (materials[0].lights(), materials[0].views());
+    let resampler = Resampler::new(&options.grid, lights, views);
+    let measured = Measured::new(&options.grid, lights, views);
+    let mipmaps = Mipmaps::new(&survey.sizes, options.has_mipmaps);
+    let [luma, chroma] = [&survey.luma.texels, &survey.chroma.texels].map(|texels| mipmaps.of(texels));
+    let energies: Vec<f32> = luma.column_iter().map(|texel| texel.norm_squared()).collect();
+
+    let tables = fitted(&resampler, survey, &survey.luma.basis);
+    let space = Space {
+        grid: options.grid,
+        measured: &measured,
+        weights: &survey.weights,
+        basis: &survey.luma.basis,
+        tables: &tables,
+    };
+    let mut left = luma.clone();
+    let mut built = Vec::new();
+    for (number, sizes) in options.stages.iter().enumerate() {
+        let stage = space.build(&left, *sizes, number > 0, options.seed, progress);
+        left = stage.remainder(&left);
+        built.push(stage);
+    }
+
+    let channel = |channel: usize| {
+        let rows = (0..survey.weights.len()).map(|pair| 2 * pair + channel).collect::<Vec<_>>();
+        fitted(&resampler, survey, &survey.chroma.basis.select_rows(&rows))
+    };
+    let channels = [channel(0), channel(1)];
+    let ratios = mipmaps.of_ratios(&survey.ratios, &luma);
+    let squares: Vec<f32> = survey.weights.iter().map(|weight| weight * weight).collect();
+    let node_weights = mean_over_views(&measured.spread(&squares), options.grid.light_nodes());
+    let hues = Hues {
+        grid: options.grid,
+        ratios: &ratios,
+        texels: &chroma,
+        tables: [&channels[0], &channels[1]],
+        node_weights: &node_weights,
+        energies: &energies,
+        is_relative: matches!(survey.tone, Tone::Display { .. }),
+    };
+    let chroma = hues.build(&mut built[0], options.chroma);
+    let named = |(size, name): (&[u32; 2], &String)| material(*size, name, options.has_mipmaps);
+    Ok(Database {
+        header: Header { model: Model::Nested, tone: survey.tone, materials: count, grid: options.grid },
+        materials: survey.sizes.iter().zip(&options.names).map(named).collect::<Result<_>>()?,
+        stages: built.into_iter().map(|stage| stage.chain).collect(),
+        chroma,
+    })
+}
+
+/// Tables of components at nodes, without the weights of pairs.
+fn fitted(resampler: &Resampler, survey: &Survey, basis: &DMatrix<f32>) -> DMatrix<f32> {
+    let columns: Vec<Vec<f32>> = (0..basis.ncols())
+        .into_par_iter()
+        .map(|component| {
+            let plain: Vec<f32> =
+                basis.column(component).iter().zip(&survey.weights).map(|(value, weight)| value / weight).collect();
+            resampler.fit(&plain)
+        })
+        .collect();
+    DMatrix::from_vec(columns.first().map_or(0, Vec::len), columns.len(), columns.concat())
+}
+
+fn mean_over_views(values: &[f32], light: usize) -> Vec<f32> {
+    let count = (values.len() / light) as f32;
+    (0..light).map(|k| values[k..].iter().step_by(light).sum::<f32>() / count).collect()
+}
+
+fn material([width, height]: [u32; 2], name: &str, has_mipmaps: bool) -> Result<Material> {
+    let side =
+        |side: u32| u16::try_from(side).map_err(|_| Error::Request(format!("{name}: {side} texels wide or high")));
+    let levels = if has_mipmaps { 1 + width.max(height).ilog2() } else { 1 };
+    let mut bytes = [0; NAME_BYTES];
+    // Cut between characters.
+    let end = (0..=name.len().min(NAME_BYTES)).rev().find(|end| name.is_char_boundary(*end)).unwrap_or(0);
+    bytes[..end].copy_from_slice(&name.as_bytes()[..end]);
+    Ok(Material {
+        name: bytes,
+        width: side(width)?,
+        height: side(height)?,
+        levels: u8::try_from(levels).expect("at most 16"),
+    })
+}

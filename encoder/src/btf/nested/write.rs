@@ -1,0 +1,222 @@
+//! Nested codebooks as they are made, and their file, through the decoder's own layout.
+
+use subsurf_decoder::Section;
+use subsurf_decoder::bits::{PADDING_BYTES, index_bits};
+use subsurf_decoder::btf::layout::{Book, Books, ChromaBooks, MAX_STAGES, MEANS_PER_OCTAVE, Scales, StageBooks};
+use subsurf_decoder::btf::{Header, Material};
+
+use crate::container;
+
+/// A file of nested codebooks before it is packed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Database {
+    /// Grid, tone and number of materials.
+    pub header: Header,
+    /// The materials; texels of all levels of the first stand first.
+    pub materials: Vec<Material>,
+    /// One to four additive stages of luma.
+    pub stages: Vec<Chain>,
+    /// Chroma, which comes with the first stage.
+    pub chroma: Chroma,
+}
+
+/// An index into the codebook below, and the code of a scale; its highest bit is the sign where the stage is signed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Item {
+    /// Entry of the codebook below.
+    pub index: u32,
+    /// Code of the scale, see [`Scales`].
+    pub code: u32,
+}
+
+/// One additive stage of luma.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Chain {
+    /// P6, an item for every texel, row by row, level by level, material by material.
+    pub texels: Vec<Item>,
+    /// P4, rows of n_φ items that lead to P3.
+    pub p4: Vec<Item>,
+    /// P3, rows of n_θ items that lead to M, or to P2 in later stages.
+    pub p3: Vec<Item>,
+    /// P2, rows of n_α items that lead to P1.
+    pub p2: Vec<Item>,
+    /// P1, rows of n_β values, 255 standing for 1, or 127 where signed, and the code of their mean ([`slice_mean`]).
+    pub p1: Vec<u8>,
+    /// Of P6, P4, P3 and P2.
+    pub scales: [Scales; 4],
+    /// Whether values of P1 and scales have signs; not in the first stage.
+    pub is_signed: bool,
+}
+
+/// Codebooks of chroma.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Chroma {
+    /// M: entries of P2 of the first stage and of I2.
+    pub merged: Vec<[u32; 2]>,
+    /// I2, rows of n_α entries of I1.
+    pub i2: Vec<u32>,
+    /// I1, rows of n_β entries of C.
+    pub i1: Vec<u32>,
+    /// C, two codes each.
+    pub colours: Vec<[u8; 2]>,
+    /// What is added to the chroma of whole texels, two codes around 128 each; empty for none.
+    pub tints: Vec<[u8; 2]>,
+    /// The tint of every texel; empty where there are none.
+    pub texel_tints: Vec<u32>,
+    /// Chroma of code 0.
+    pub first: [f32; 2],
+    /// Chroma of one step of a code.
+    pub step: [f32; 2],
+    /// Whether chroma is divided by luma.
+    pub is_relative: bool,
+}
+
+/// What stands after a row of P1: λ, where 2^(−λ/32) is the mean of its piecewise linear function between the outermost
+/// nodes, of 255. Samplers choose slices by it; of signed rows it is not used.
+#[must_use]
+pub fn slice_mean(values: &[u8]) -> u8 {
+    let ends = [values.first(), values.last()].map(|end| f32::from(end.copied().unwrap_or(0)));
+    let sum = values.iter().map(|value| f32::from(*value)).sum::<f32>() - 0.5 * (ends[0] + ends[1]);
+    #[allow(clippy::cast_precision_loss, reason = "at most 64 nodes")]
+    let mean = sum / (values.len().max(2) - 1) as f32 / 255.0;
+    #[allow(clippy::cast_precision_loss, reason = "32")]
+    let per_octave = MEANS_PER_OCTAVE as f32;
+    // Nothing has the least mean there is.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+    let code = (-per_octave * mean.log2()).round().clamp(0.0, 255.0) as u8;
+    code
+}
+
+impl Database {
+    /// What `BOOK` says.
+    ///
+    /// # Panics
+    /// If there are 2³² entries or more than four stages.
+    #[must_use]
+    pub fn books(&self) -> Books {
+        let grid = &self.header.grid;
+        let entries = |length: usize, row: usize| u32::try_from(length / row).expect("fewer than 2³² entries");
+        let [n_phi, n_theta, n_alpha, n_beta] = [grid.n_phi, grid.n_theta, grid.n_alpha, grid.n_beta].map(usize::from);
+        let mut stages = [StageBooks::default(); MAX_STAGES];
+        for (books, chain) in stages[..self.stages.len()].iter_mut().zip(&self.stages) {
+            let rows = [(&chain.texels, 1), (&chain.p4, n_phi), (&chain.p3, n_theta), (&chain.p2, n_alpha)];
+            *books = StageBooks {
+                books: [0, 1, 2, 3]
+                    .map(|k| Book { entries: entries(rows[k].0.len(), rows[k].1), scales: chain.scales[k] }),
+                slices: entries(chain.p1.len(), n_beta + 1),
+                is_signed: chain.is_signed,
+            };
+        }
+        let chroma = &self.chroma;
+        let chroma = ChromaBooks {
+            merged: entries(chroma.merged.len(), 1),
+            i2: entries(chroma.i2.len(), n_alpha),
+            i1: entries(chroma.i1.len(), n_beta),
+            colours: entries(chroma.colours.len(), 1),
+            tints: entries(chroma.tints.len(), 1),
+            first: chroma.first,
+            step: chroma.step,
+            is_relative: chroma.is_relative,
+        };
+        Books { chroma, stages, count: self.stages.len() }
+    }
+
+    /// The file.
+    ///
+    /// # Panics
+    /// If an index or a code needs more bits than there are entries or bits of scales, if the header counts other
+    /// materials, or if texels and their tints are not equally many.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let books = self.books();
+        assert_eq!(usize::from(self.header.materials), self.materials.len(), "the header counts the materials");
+        let mut of_books = books.chroma.to_bytes().to_vec();
+        of_books.extend(books.stages[..books.count].iter().flat_map(StageBooks::to_bytes));
+        let mut sections = vec![
+            (Section::BtfHeader, self.header.to_bytes().to_vec()),
+            (Section::Materials, self.materials.iter().flat_map(Material::to_bytes).collect()),
+            (Section::Books, of_books),
+        ];
+        for ((number, chain), of_chain) in (0_u8..).zip(&self.stages).zip(&books.stages) {
+            sections.extend(self.stage(number, chain, of_chain, &books.chroma));
+        }
+        sections.extend(self.chroma_sections(&books));
+        container::write(sections.iter().map(|(section, bytes)| (*section, &bytes[..])))
+    }
+
+    fn stage(&self, number: u8, chain: &Chain, books: &StageBooks, chroma: &ChromaBooks) -> [(Section, Vec<u8>); 5] {
+        let section = |book| Section::Codebook { book, stage: number };
+        let widths = books.index_bits(number == 0, chroma);
+        let fields =
+            |which: usize, item: &Item| [(item.index, widths[which]), (item.code, chain.scales[which].bits.into())];
+        let packed = |which: usize, items: &[Item]| pack(items.iter().map(|item| fields(which, item)));
+        let texels = if number == 0 && chroma.tints > 0 {
+            let tints = &self.chroma.texel_tints;
+            assert_eq!(chain.texels.len(), tints.len(), "every texel has a tint");
+            let bits = index_bits(chroma.tints);
+            pack(chain.texels.iter().zip(tints).map(|(item, tint)| {
+                let [index, code] = fields(0, item);
+                [index, code, (*tint, bits)]
+            }))
+        } else {
+            packed(0, &chain.texels)
+        };
+        [
+            (section(6), texels),
+            (section(4), packed(1, &chain.p4)),
+            (section(3), packed(2, &chain.p3)),
+            (section(2), packed(3, &chain.p2)),
+            (section(1), self.slices(chain)),
+        ]
+    }
+
+    /// P1 as it stands in the file: all values, then all means.
+    fn slices(&self, chain: &Chain) -> Vec<u8> {
+        let rows = || chain.p1.chunks_exact(usize::from(self.header.grid.n_beta) + 1).map(|row| row.split_last());
+        let values = rows().flatten().flat_map(|(_, values)| values);
+        let means = rows().flatten().map(|(mean, _)| mean);
+        values.chain(means).copied().chain([0; PADDING_BYTES]).collect()
+    }
+
+    fn chroma_sections(&self, books: &Books) -> Vec<(Section, Vec<u8>)> {
+        let (chroma, sizes) = (&self.chroma, &books.chroma);
+        let p2 = index_bits(books.stages[0].books[3].entries);
+        let merged = chroma.merged.iter().map(|[luma, hue]| [(*luma, p2), (*hue, index_bits(sizes.i2))]);
+        let indices = |items: &[u32], len: u32| pack(items.iter().map(|item| [(*item, index_bits(len))]));
+        let mut sections = vec![
+            (Section::Merged, pack(merged)),
+            (Section::ChromaSlices2, indices(&chroma.i2, sizes.i1)),
+            (Section::ChromaSlices1, indices(&chroma.i1, sizes.colours)),
+            (Section::Colours, chroma.colours.as_flattened().to_vec()),
+        ];
+        if !chroma.tints.is_empty() {
+            sections.push((Section::Tints, chroma.tints.as_flattened().to_vec()));
+        }
+        sections
+    }
+}
+
+/// Items without gaps, each of fields (value, bits), the lowest bit first; and the padding that readers need.
+fn pack<const FIELDS: usize>(items: impl Iterator<Item = [(u32, u32); FIELDS]>) -> Vec<u8> {
+    let mut out = Vec::new();
+    // Fewer than 8 bits wait between fields.
+    let (mut waiting, mut count) = (0_u64, 0);
+    for (value, bits) in items.flatten() {
+        assert!(u64::from(value) >> bits == 0, "{value} has more than {bits} bits");
+        waiting |= u64::from(value) << count;
+        count += bits;
+        while count >= 8 {
+            out.push(waiting.to_le_bytes()[0]);
+            waiting >>= 8;
+            count -= 8;
+        }
+    }
+    if count > 0 {
+        out.push(waiting.to_le_bytes()[0]);
+    }
+    out.resize(out.len() + PADDING_BYTES, 0);
+    out
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,52 @@
+//! The container that all files share: header, section table, checksums (`FORMAT.md`, section 1).
+
+use subsurf_decoder::Section;
+use subsurf_decoder::container::{ENTRY_BYTES, Entry, FILE_HEADER_BYTES, crc32, file_header};
+
+/// A file of these sections, in this order, each at a multiple of four bytes.
+///
+/// # Panics
+/// If there are 2³² sections.
+pub(crate) fn write<'a>(sections: impl IntoIterator<Item = (Section, &'a [u8])>) -> Vec<u8> {
+    let all: Vec<(Section, &[u8])> = sections.into_iter().collect();
+    let start = FILE_HEADER_BYTES + all.len() * ENTRY_BYTES + 4;
+    let (mut table, mut body) = (Vec::new(), Vec::new());
+    for (section, bytes) in &all {
+        // Fill stands before a section, so that none follows the last.
+        body.resize((start + body.len()).next_multiple_of(4) - start, 0);
+        let (offset, length) = ((start + body.len()) as u64, bytes.len() as u64);
+        table.extend(Entry { section: *section, crc: crc32(bytes), offset, length }.to_bytes());
+        body.extend_from_slice(bytes);
+    }
+    let sections = u32::try_from(all.len()).expect("a handful of sections");
+    let mut out = file_header(sections, (start + body.len()) as u64).to_vec();
+    out.extend(table);
+    out.extend(crc32(&out).to_le_bytes());
+    out.extend(body);
+    out
+}
+
+/// Bytes of a file whose sections are this long.
+pub(crate) fn file_bytes(lengths: &[u64]) -> u64 {
+    let start = (FILE_HEADER_BYTES + lengths.len() * ENTRY_BYTES + 4) as u64;
+    lengths.iter().fold(start, |end, length| end.next_multiple_of(4) + length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use subsurf_decoder::container::{Container, Crc};
+
+    #[test]
+    fn sections_come_back() {
+        let contents: [&[u8]; 4] = [b"12345", b"", b"1234567", b"1"];
+        let kinds = [*b"AAAA", *b"BBBB", *b"CCCC", *b"DDDD"].map(Section::from_kind);
+        let file = write(kinds.into_iter().zip(contents));
+        assert_eq!(file_bytes(&contents.map(|bytes| bytes.len() as u64)), file.len() as u64);
+        let container = Container::parse(&file).unwrap();
+        for (kind, bytes) in kinds.into_iter().zip(contents) {
+            let (entry, found) = container.section(kind, Crc::Check).unwrap();
+            assert_eq!((found, entry.offset % 4), (bytes, 0), "{kind}");
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! How far a file is from the images of a BTF.
+
+use rayon::prelude::*;
+use subsurf_decoder::btf::{Btf, Tone};
+
+use super::image::ssim_of_planes;
+use crate::btf::Images;
+use crate::progress::Progress;
+
+/// Means over pairs of directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BtfError {
+    /// Structural similarity of luma and both chroma channels.
+    pub mssim: [f64; 3],
+    /// Peak signal-to-noise ratio in dB over all pixels: of RGB display values, or of l where images are linear.
+    pub psnr_db: f64,
+    /// Pairs that were compared.
+    pub pairs: usize,
+}
+
+impl BtfError {
+    /// Mean of the three channels' structural similarities, as Havran et al. 2010 report it.
+    #[must_use]
+    pub fn mean_mssim(&self) -> f64 {
+        self.mssim.iter().sum::<f64>() / 3.0
+    }
+}
+
+/// Compares images with the full-size level of a material at some pairs of directions; `None` for images smaller than
+/// the window of structural similarity. Channels are those of the file's tone, Cr and Cb around ½ as images store them.
+///
+/// # Panics
+/// If the file has no such material.
+#[must_use]
+pub fn compare(
+    images: &Images,
+    file: &Btf<'_>,
+    material: usize,
+    pairs: &[usize],
+    progress: &impl Progress,
+) -> Option<BtfError> {
+    progress.begin("comparing", pairs.len() as u64);
+    let width = images.size()[0] as usize;
+    let each: Vec<([f64; 3], f64)> = pairs
+        .par_iter()
+        .map(|pair| {
+            let decoded = decode(images, file, material, *pair);
+            let found = of_pair(images, &decoded, *pair, file.header().tone, width);
+            progress.advance(1);
+            found
+        })
+        .collect::<Option<_>>()?;
+    let count = each.len() as f64;
+    let mean = |of: &dyn Fn(&([f64; 3], f64)) -> f64| each.iter().map(of).sum::<f64>() / count;
+    Some(BtfError {
+        mssim: [0, 1, 2].map(|c| mean(&|(mssim, _)| mssim[c])),
+        psnr_db: -10.0 * mean(&|(_, mse)| *mse).log10(),
+        pairs: pairs.len(),
+    })
+}
+
+/// The image of a pair as a file has it.
+///
+/// # Panics
+/// If the file has no such material.
+#[must_use]
+pub fn decode(images: &Images, file: &Btf<'_>, material: usize, pair: usize) -> Vec<[f32; 3]> {
+    let (lights, views) = (images.lights(), images.views());
+    let (light, view) = (lights[pair / views.len()], views[pair % views.len()]);
+    let cell = file.grid().cell(light.to_array(), &file.grid().view(view.to_array()));
+    let [width, height] = images.size().map(|side| i32::try_from(side).expect("images are below 65,536 pixels wide"));
+    let place = |k: i32| file.texel(material, 0, [k % width, k / width]).expect("the material is there");
+    // Texels of a level follow each other.
+    (0..width * height).map(|k| file.eval_cell(place(k), &cell)).collect()
+}
+
+/// Structural similarities, and mean squared error.
+fn of_pair(images: &Images, decoded: &[[f32; 3]], pair: usize, tone: Tone, width: usize) -> Option<([f64; 3], f64)> {
+    let centre = match tone {
+        Tone::Display { .. } => [0.0, 0.5, 0.5],
+        Tone::LogLuv { .. } => [0.0; 3],
+    };
+    let mut planes = [const { Vec::new() }; 6];
+    let mut squares = 0.0;
+    images.each(pair, |texel, rgb| {
+        // What was measured was clipped to what can be shown; so is what is compared with it.
+        let other = match tone {
+            Tone::Display { .. } => decoded[texel].map(|value| value.min(1.0)),
+            Tone::LogLuv { .. } => decoded[texel],
+        };
+        let (first, second) = (tone.encode(rgb), tone.encode(other));
+        squares += match tone {
+            Tone::Display { .. } => rgb.iter().zip(other).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>() / 3.0,
+            Tone::LogLuv { .. } => f64::from(first[0] - second[0]).powi(2),
+        };
+        for c in 0..3 {
+            planes[c].push(f64::from(first[c] + centre[c]));
+            planes[3 + c].push(f64::from(second[c] + centre[c]));
+        }
+    });
+    let of = |c: usize| ssim_of_planes(&planes[c], &planes[3 + c], width);
+    Some(([of(0)?, of(1)?, of(2)?], squares / decoded.len() as f64))
+}
