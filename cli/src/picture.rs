@@ -50,6 +50,16 @@ pub(crate) fn linear(pixels: &[[f64; 3]], width: u32, scale: u32) -> RgbImage {
     enlarge(&image(&bytes, width), scale)
 }
 
+/// Display values as they are, or linear ones times an exposure as sRGB; at least 256 pixels wide.
+pub(crate) fn display(pixels: &[[f32; 3]], width: u32, exposure: Option<f32>) -> RgbImage {
+    let shown = |rgb: &[f32; 3]| match exposure {
+        Some(exposure) => subsurf_shaders::cpu::srgb(rgb.map(|value| exposure * value)),
+        None => *rgb,
+    };
+    let bytes: Vec<[u8; 3]> = pixels.iter().map(|rgb| subsurf_shaders::cpu::display(shown(rgb))).collect();
+    enlarge(&image(&bytes, width), (256 / width.max(1)).max(1))
+}
+
 fn enlarge(picture: &RgbImage, scale: u32) -> RgbImage {
     let (width, height) = picture.dimensions();
     image::imageops::resize(picture, width * scale, height * scale, image::imageops::FilterType::Nearest)

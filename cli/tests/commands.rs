@@ -134,6 +134,48 @@ fn simulates_btfs() {
     assert_eq!(files(folder), ["leather", "wood"], "nothing is left of what was refused");
 }
 
+/// Images of two BTFs to one file, to targets, and back.
+#[test]
+fn btfs_from_images_to_judgement() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for sample in ["leather", "wood"] {
+        succeed(folder, &format!("simulate btf {sample} --size 16 -o {sample}"));
+    }
+    let report = json(folder, "encode btf leather --p4 64 --mipmaps -o leather.subsurf --json");
+    let file = std::fs::read(folder.join("leather.subsurf")).unwrap();
+    assert_eq!(report["bytes"], file.len());
+    assert_eq!(report["raw_bytes"], 3 * 16 * 16 * 6_561);
+
+    let judgement = json(folder, "compare leather leather.subsurf --every 61 --json");
+    for channel in ["y", "cr", "cb", "mean"] {
+        assert_eq!(judgement["mssim"][channel], report["error"]["mssim"][channel], "encode and compare agree");
+    }
+    let mean = judgement["mssim"]["mean"].as_f64().unwrap();
+    assert!(mean > 0.9, "{judgement}");
+    succeed(folder, "compare leather leather.subsurf --every 500 --images pictures");
+    assert_eq!(files(&folder.join("pictures")), ["comparison.png"]);
+    let info = json(folder, "info leather.subsurf --json");
+    assert_eq!((&info["materials"][0]["name"], &info["materials"][0]["levels"]), (&"leather".into(), &5.into()));
+    assert_eq!(info["codebooks"][0]["entries"], 16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1);
+
+    // Two materials share codebooks.
+    let both = json(folder, "encode btf leather wood --p4 64 -o both.subsurf --json");
+    assert_eq!(both["raw_bytes"], 2 * 3 * 16 * 16 * 6_561);
+    let named = json(folder, "compare wood both.subsurf --every 61 --json");
+    let numbered = json(folder, "compare wood both.subsurf --material 1 --every 61 --json");
+    assert_eq!(named, numbered, "the folder's name is the material's");
+    assert!(named["mssim"]["mean"].as_f64().unwrap() > 0.9, "{named}");
+    assert_refused(&run(folder, "compare wood both.subsurf --material jade"), &["no material jade", "leather, wood"]);
+
+    let small = json(folder, "encode btf leather --target-bytes 12kB -o small.subsurf --json");
+    assert!(small["bytes"].as_u64().unwrap() <= 12_000, "{small}");
+    assert_refused(&run(folder, "encode btf leather --target-bytes 1kB"), &["no codebooks are that small"]);
+    assert_refused(&run(folder, "encode btf leather --nodes 11,11"), &["--nodes has 2 numbers"]);
+    assert_refused(&run(folder, "encode btf nothing"), &["nothing", "a folder of images"]);
+    assert_refused(&run(folder, "render leather.subsurf -o r.png"), &["leather.subsurf", "BSSR"]);
+}
+
 /// A driver that does not draw to half floats: the paths that can do without draw the same, the other says why not.
 #[test]
 fn draws_without_half_floats_to_draw_to() {

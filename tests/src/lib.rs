@@ -1,6 +1,7 @@
 //! What the tests of several crates share.
 
 pub mod frames;
+pub mod nested;
 
 use std::path::{Path, PathBuf};
 

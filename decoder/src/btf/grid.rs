@@ -8,7 +8,7 @@ use super::angle::{atan2, sqrt};
 use core::f32::consts::TAU;
 
 /// Most nodes of an axis.
-pub const MAX_NODES: u8 = 64;
+pub(super) const MAX_NODES: u8 = 64;
 
 /// Numbers of nodes and how far they reach. A table over it has the shape `[φ_v][θ_v][α][β]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -189,8 +189,9 @@ impl Grid {
         (Place::on_ring(turns, self.n_phi), Place::on_line(theta * per_rad, self.n_theta))
     }
 
+    /// The cell of two places of view, α in rad, sin β and cos θ_i.
     #[inline]
-    fn cell_at(&self, (phi, theta): (Place, Place), alpha: f32, sin_beta: f32, cos_light: f32) -> Cell {
+    pub(super) fn cell_at(&self, (phi, theta): (Place, Place), alpha: f32, sin_beta: f32, cos_light: f32) -> Cell {
         let beta = Place::around(sin_beta, self.sin_beta_max, self.n_beta);
         Cell { phi, theta, alpha: self.alpha(alpha), beta, fade: self.fade(cos_light) }
     }

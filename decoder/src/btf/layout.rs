@@ -19,8 +19,8 @@ pub const BOOK_BYTES: usize = 40;
 pub const MAX_STAGES: usize = 4;
 /// Scales are powers of two in steps of 1/64 and multiples of it.
 pub const STEPS_PER_OCTAVE: i32 = 64;
-/// Means of slices are powers of two in these steps: code λ stands for 2^(−λ/32).
-pub const MEANS_PER_OCTAVE: i32 = 32;
+/// Slices have heights in these steps: code h stands for 2^(h/32).
+pub const HEIGHTS_PER_OCTAVE: i32 = 32;
 /// Largest magnitude of the exponent of a scale, in octaves.
 pub const MAX_OCTAVES: i32 = 24;
 /// Most entries of a codebook.
@@ -249,18 +249,20 @@ pub struct StageBooks {
 }
 
 impl StageBooks {
-    /// Bits of an item of P6, P4, P3 and P2: an index, the code of a scale, and in P6 of the first stage a tint.
+    /// Bits of an item of P6, P4, P3 and P2: an index, the code of a scale, and in P6 of the first stage a tint. The lowest
+    /// eight bits of the codes of P2 stand by themselves.
     #[must_use]
     pub fn widths(&self, is_first: bool, chroma: &ChromaBooks) -> [u32; 4] {
         let [p6, p4, p3, p2] = self.books;
         let (indices, tint) = (self.index_bits(is_first, chroma), if is_first { index_bits(chroma.tints) } else { 0 });
         let with_scale = |index: u32, book: Book| index.saturating_add(book.scales.bits.into());
         let [of_p4, of_p3, of_p2, of_p1] = indices;
+        let above_bytes = u32::from(p2.scales.bits).saturating_sub(8);
         [
             with_scale(of_p4, p6).saturating_add(tint),
             with_scale(of_p3, p4),
             with_scale(of_p2, p3),
-            with_scale(of_p1, p2),
+            of_p1.saturating_add(above_bytes),
         ]
     }
 

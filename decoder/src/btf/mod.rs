@@ -1,5 +1,6 @@
 //! Bidirectional texture functions: what a rough surface looks like from every side, under light from every side.
 
+mod albedo;
 mod angle;
 mod grid;
 pub mod layout;

@@ -55,22 +55,23 @@ impl Tone {
         }
     }
 
-    /// The pixel as images have it, not negative: sRGB values, or linear ones.
+    /// The pixel as images have it: sRGB values 0 to 1, or linear ones from 0.
     #[must_use]
     #[inline]
     pub fn decode(self, [y, a, b]: [f32; 3]) -> [f32; 3] {
         match self {
             Self::Display { .. } => {
-                let [kr, kb] = CHROMA;
-                let [wr, wg, wb] = LUMA;
-                let (red, blue) = (y + a / kr, y + b / kb);
-                [red, (y - wr * red - wb * blue) / wg, blue].map(|value| value.max(0.0))
+                const PER_CHROMA: [f32; 2] = [1.0 / CHROMA[0], 1.0 / CHROMA[1]];
+                const PER_GREEN: f32 = 1.0 / LUMA[1];
+                let ([wr, _, wb], [per_a, per_b]) = (LUMA, PER_CHROMA);
+                let (red, blue) = (y + a * per_a, y + b * per_b);
+                [red, (y - wr * red - wb * blue) * PER_GREEN, blue].map(|value| value.clamp(0.0, 1.0))
             }
             Self::LogLuv { toe, peak } => {
                 let luminance = toe * (libm::exp2f(y.clamp(0.0, 2.0) * libm::log2f(1.0 + peak / toe)) - 1.0);
-                // v' is above 0 for every colour.
-                let v = b.max(0.01);
-                let (x, z) = (2.25 * a / v, (3.0 - 0.75 * a) / v - 5.0);
+                // Of colours, u' and v' are less than 0.63, and v' is above 0.
+                let (u, v) = (a.clamp(0.0, 1.0), b.clamp(0.01, 1.0));
+                let (x, z) = (2.25 * u / v, (3.0 - 0.75 * u) / v - 5.0);
                 product(&RGB_FROM_XYZ, [x * luminance, luminance, z * luminance]).map(|value| value.max(0.0))
             }
         }

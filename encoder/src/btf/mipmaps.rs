@@ -26,6 +26,11 @@ impl Mipmaps {
         Self(covered)
     }
 
+    /// Them.
+    pub(super) fn covered(&self) -> &[Vec<u32>] {
+        &self.0
+    }
+
     /// Means of columns.
     pub(super) fn of(&self, texels: &DMatrix<f32>) -> DMatrix<f32> {
         let mut all = DMatrix::zeros(texels.nrows(), self.0.len());

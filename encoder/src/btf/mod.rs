@@ -6,6 +6,8 @@ mod images;
 mod merl;
 mod mipmaps;
 pub mod nested;
+pub mod paper;
+pub mod rate;
 mod resample;
 mod survey;
 mod ubo;

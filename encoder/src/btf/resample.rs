@@ -136,6 +136,27 @@ impl Resampler {
         // Row by row: nalgebra keeps columns together.
         nodes.transpose().iter().map(|value| *value as f32).collect()
     }
+
+    /// [`Self::fit`] of many, side by side in columns; in f32, and several times faster.
+    #[allow(clippy::cast_possible_truncation, reason = "tables are f32")]
+    pub(super) fn fit_all(&self, values: &DMatrix<f32>) -> DMatrix<f32> {
+        let (count, nodes) = (values.ncols(), self.grid.light_nodes());
+        let lights = values.nrows() / self.views;
+        let mut at_rows = DMatrix::zeros(nodes * count, self.rows.len());
+        for (number, row) in self.rows.iter().enumerate() {
+            let measured = DMatrix::from_fn(lights, count, |light, k| values[(light * self.views + row.view, k)]);
+            let fitted = row.nodes_from_lights.map(|weight| weight as f32) * measured;
+            at_rows.column_mut(number).copy_from_slice(fitted.as_slice());
+        }
+        let at_nodes = at_rows * self.views_from_rows.transpose().cast::<f32>();
+        let mut tables = DMatrix::zeros(nodes * self.views_from_rows.nrows(), count);
+        for (view, column) in at_nodes.column_iter().enumerate() {
+            for (k, slice) in column.as_slice().chunks_exact(nodes).enumerate() {
+                tables.column_mut(k).rows_mut(view * nodes, nodes).copy_from_slice(slice);
+            }
+        }
+        tables
+    }
 }
 
 /// Interpolates tables at measured pairs of directions, as the decoder does.
@@ -220,7 +241,12 @@ mod tests {
         };
         let values: Vec<f32> =
             directions.iter().flat_map(|light| directions.iter().map(move |view| value(*light, *view))).collect();
-        let table = Resampler::new(&grid, &directions, &directions).fit(&values);
+        let resampler = Resampler::new(&grid, &directions, &directions);
+        let table = resampler.fit(&values);
+        let twice = DMatrix::from_fn(values.len(), 2, |pair, k| values[pair] * (k + 1) as f32);
+        let tables = resampler.fit_all(&twice);
+        let error = table.iter().zip(tables.column(1).iter()).map(|(a, b)| (2.0 * a - b).abs()).fold(0.0, f32::max);
+        assert!(error < 1e-4, "many at a time are fitted as one: {error}");
         let measured = Measured::new(&grid, &directions, &directions);
         let back = measured.read(&table);
         let squares: f32 = values.iter().zip(&back).map(|(a, b)| (a - b) * (a - b)).sum();

@@ -51,10 +51,10 @@ pub fn compare(
         })
         .collect::<Option<_>>()?;
     let count = each.len() as f64;
-    let mean = |of: &dyn Fn(&([f64; 3], f64)) -> f64| each.iter().map(of).sum::<f64>() / count;
+    let mse = each.iter().map(|(_, mse)| mse).sum::<f64>() / count;
     Some(BtfError {
-        mssim: [0, 1, 2].map(|c| mean(&|(mssim, _)| mssim[c])),
-        psnr_db: -10.0 * mean(&|(_, mse)| *mse).log10(),
+        mssim: [0, 1, 2].map(|c: usize| each.iter().map(|(mssim, _)| mssim[c]).sum::<f64>() / count),
+        psnr_db: -10.0 * mse.log10(),
         pairs: pairs.len(),
     })
 }

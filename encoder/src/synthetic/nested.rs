@@ -79,7 +79,7 @@ impl NestedShape {
         let codes =
             |entries: u32, numbers: &mut Numbers| (0..entries).map(|_| [numbers.byte(), numbers.byte()]).collect();
         let (first, step) = match self.tone {
-            Tone::Display { .. } => ([-0.25; 2], [0.002; 2]),
+            Tone::Display { .. } => ([-0.05; 2], [0.000_4; 2]),
             Tone::LogLuv { .. } => ([0.15, 0.42], [0.000_5; 2]),
         };
         let chroma = Chroma {
@@ -103,15 +103,25 @@ impl NestedShape {
         let is_signed = stage > 0;
         let [p4, p3, p2, p1] = self.luma;
         let [merged, ..] = self.chroma;
-        // The products of four scales have a mean near 1, or 1/8 in later stages.
+        // Scales are spread around 1; those of texels around 1/2, or 1/4 of logarithms, or 1/16 in later stages.
         let bits = self.scale_bits.saturating_sub(is_signed.into());
-        let offset = if is_signed { -192 } else { 0 };
         let step = u8::from(bits <= 8);
         let last = ((1_i16 << bits) - 1) << step;
-        let scales = [offset - last / 2, -last / 2, -last / 2, -last / 2];
-        let scales = scales.map(|offset| Scales { bits: self.scale_bits, step, offset });
+        let middle = match self.tone {
+            _ if is_signed => -256,
+            Tone::Display { .. } => -64,
+            Tone::LogLuv { .. } => -128,
+        };
+        let scales = [middle, 0, 0, 0];
+        let scales = scales.map(|middle| Scales { bits: self.scale_bits, step, offset: middle - last / 2 });
         let mut items = |entries: u32, nodes: u8, len: u32| {
-            let item = |_| Item { index: numbers.below(len), code: numbers.below(1 << self.scale_bits) };
+            // The middle half of the codes.
+            let (all, sign) = (1 << bits, u32::from(is_signed) << bits);
+            let code = |numbers: &mut Numbers| all / 4 + numbers.below(all / 2 + 1).min(all - 1 - all / 4);
+            let item = |_| Item {
+                index: numbers.below(len),
+                code: code(numbers) | if numbers.below(2) == 1 { sign } else { 0 },
+            };
             (0..entries * u32::from(nodes)).map(item).collect()
         };
         let below_p3 = if stage == 0 { merged } else { p2 };

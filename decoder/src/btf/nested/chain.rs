@@ -1,7 +1,8 @@
 //! Values of apparent BRDFs by chained look-ups (their eq. 4), linear between the nodes of all four axes (their fig. 6).
 
 use super::reader::Nested;
-use super::stage::{Scale, Stage};
+use super::scale::Scale;
+use super::stage::Stage;
 use crate::btf::grid::{Cell, Place};
 
 /// One of the four nodes of view around a place.
@@ -44,8 +45,7 @@ impl Nested<'_> {
         let rows = (self.merged(a.row), self.merged(b.row), self.merged(c.row), self.merged(d.row));
         let ((p2_a, i2_a), (p2_b, i2_b), (p2_c, i2_c), (p2_d, i2_d)) = rows;
         // Weights · Y of the nodes of light, for each node of view.
-        let at = first.p2.before(cell.first_alpha());
-        let luma = |p2: u32, corner: &Corner| first.luma::<false>(p2, corner, at, cell, weights);
+        let luma = |p2: u32, corner: &Corner| first.luma::<false>(p2, corner, cell, weights);
         let lumas = [luma(p2_a, &a), luma(p2_b, &b), luma(p2_c, &c), luma(p2_d, &d)];
         let first_luma = sum(total(&lumas)) * (1.0 / 255.0);
         let mut luma = first_luma;
@@ -128,14 +128,14 @@ impl Stage<'_> {
         [a, b, c, d]
     }
 
-    /// Luma of the nodes of light in steps of a code, of row `p2` of P2 from offset `at`, times all weights.
+    /// Luma of the nodes of light in steps of a code, of row `p2` of P2, times all weights.
     #[inline(always)]
-    fn luma<const SIGNED: bool>(&self, p2: u32, corner: &Corner, at: usize, cell: &Cell, weights: Lights) -> Lights {
-        let [(low, c_low), (high, c_high)] = self.p2.two::<SIGNED>(p2, at);
+    fn luma<const SIGNED: bool>(&self, p2: u32, corner: &Corner, cell: &Cell, weights: Lights) -> Lights {
+        let [(low, c_low), (high, c_high)] = self.p2.two::<SIGNED>(p2, cell.first_alpha());
         let beta = cell.first_beta();
-        let ([v0, v1], [v2, v3]) = (self.slice_pair(low, beta), self.slice_pair(high, beta));
-        let scale = |c2: Scale| corner.weight * corner.scale.times(c2).value();
-        let (low, high) = (scale(c_low), scale(c_high));
+        let (([v0, v1], h_low), ([v2, v3], h_high)) = (self.slice_pair(low, beta), self.slice_pair(high, beta));
+        let scale = |c2: Scale, height: Scale| corner.weight * corner.scale.times(c2).times(height).value();
+        let (low, high) = (scale(c_low, h_low), scale(c_high, h_high));
         let code = |code: u8| if SIGNED { f32::from(code.cast_signed()) } else { f32::from(code) };
         let [w0, w1, w2, w3] = weights;
         [low * code(v0) * w0, low * code(v1) * w1, high * code(v2) * w2, high * code(v3) * w3]
@@ -155,8 +155,7 @@ impl Stage<'_> {
     fn all_luma<const SIGNED: bool>(&self, texel: u32, cell: &Cell, weights: Lights) -> f32 {
         let (p4, c6) = self.texels.one::<SIGNED>(texel, 0);
         let [a, b, c, d] = self.corners::<SIGNED>(p4, c6, cell.phi, cell.theta);
-        let at = self.p2.before(cell.first_alpha());
-        let luma = |corner: &Corner| self.luma::<SIGNED>(corner.row, corner, at, cell, weights);
+        let luma = |corner: &Corner| self.luma::<SIGNED>(corner.row, corner, cell, weights);
         sum(total(&[luma(&a), luma(&b), luma(&c), luma(&d)]))
     }
 }

@@ -4,43 +4,70 @@ use crate::btf::angle::sqrt;
 use crate::btf::grid::MAX_NODES;
 
 /// Room for the values of all nodes, four at a time.
-pub(super) type Values = [[f32; 4]; MAX_NODES as usize / 4];
-/// None yet.
-pub(super) const ZEROS: Values = [[0.0; 4]; MAX_NODES as usize / 4];
+type Values = [[f32; 4]; MAX_NODES as usize / 4];
+const ZEROS: Values = [[0.0; 4]; MAX_NODES as usize / 4];
 /// Share of all draws that fall anywhere with the same density, so that it is nowhere 0.
 const ANYWHERE: f32 = 1.0 / 32.0;
 
-/// A density that is proportional to values at equidistant nodes, but for what falls anywhere.
+/// A density over a line, in proportion to values at equidistant nodes but for draws that fall anywhere.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line<'a> {
-    /// At least two, not negative.
-    values: &'a [f32],
-    /// Distance of two nodes.
+pub(super) struct Line {
+    /// At the nodes, at least two.
+    values: Values,
+    count: u8,
+    /// Distance of two nodes, and one by that.
     step: f32,
+    per_length: f32,
     /// Length of the constant piece before the first node, and of that after the last.
     end: f32,
     /// What is added to all values.
     floor: f32,
-    /// Of the values and what is added.
+    /// Of the values and what is added, and one by that.
     integral: f32,
+    per_integral: f32,
 }
 
 /// A place on a line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drawn {
+    /// The node before it.
+    pub(super) node: u32,
+    /// Weight of the next, 0 to 1.
+    pub(super) weight: f32,
     /// Length from the beginning of the line.
     pub(super) at: f32,
     /// Share of draws per length there.
     pub(super) density: f32,
 }
 
-impl<'a> Line<'a> {
-    /// Over the first `count` values, which reach from −`max` to `max` of a line from −`half` to `half`.
+impl Line {
+    /// Over a line from −`half` to `half` with `count` nodes from −`max` to `max`. There is no density yet.
     #[inline]
-    pub(super) fn new(values: &'a Values, count: u8, max: f32, half: f32) -> Self {
-        let values = values.as_flattened().get(..count.into()).unwrap_or(&[]);
-        let (step, end) = (2.0 * max / (f32::from(count) - 1.0), half - max);
-        let (chunks, rest) = values.as_chunks::<4>();
+    pub(super) fn over(count: u8, max: f32, half: f32) -> Self {
+        let pieces = f32::from(count) - 1.0;
+        Self {
+            values: ZEROS,
+            count,
+            step: 2.0 * max / pieces,
+            per_length: pieces / (2.0 * max),
+            end: half - max,
+            floor: 0.5 / half,
+            integral: 1.0,
+            per_integral: 1.0,
+        }
+    }
+
+    /// Room for the values of four nodes at a time, the last of which may be more than there are.
+    #[inline]
+    pub(super) fn fours(&mut self) -> &mut [[f32; 4]] {
+        self.values.get_mut(..usize::from(self.count).div_ceil(4)).unwrap_or(&mut [])
+    }
+
+    /// Integrates the values. None of them is negative.
+    #[inline]
+    pub(super) fn integrate(&mut self) {
+        let nodes = self.nodes();
+        let (chunks, rest) = nodes.as_chunks::<4>();
         let mut sums = [0.0; 4];
         for chunk in chunks {
             for (sum, value) in sums.iter_mut().zip(chunk) {
@@ -49,64 +76,89 @@ impl<'a> Line<'a> {
         }
         let [a, b, c, d] = sums;
         let sum = ((a + b) + (c + d)) + rest.iter().sum::<f32>();
-        let mut line = Self { values, step, end, floor: 0.0, integral: 0.0 };
-        let (first, last) = line.ends();
-        let integral = step * (sum - 0.5 * (first + last)) + end * (first + last);
+        let (first, last) = ends(nodes);
+        let integral = self.step * (sum - 0.5 * (first + last)) + self.end * (first + last);
+        let length = self.step * (f32::from(self.count) - 1.0) + 2.0 * self.end;
         // Nothing but zeros, as in a hostile file: all places are alike.
-        line.integral = if integral > 0.0 { integral * (1.0 / (1.0 - ANYWHERE)) } else { 1.0 };
-        line.floor = (line.integral - integral) / (2.0 * half);
-        line
+        self.integral = if integral > 0.0 { integral * (1.0 / (1.0 - ANYWHERE)) } else { 1.0 };
+        self.per_integral = 1.0 / self.integral;
+        self.floor = (self.integral - integral.max(0.0)) / length;
     }
 
-    /// First and last value, floor left out.
     #[inline]
-    fn ends(&self) -> (f32, f32) {
-        match self.values {
-            [first, .., last] => (*first, *last),
-            _ => (0.0, 0.0),
-        }
+    fn nodes(&self) -> &[f32] {
+        self.values.as_flattened().get(..self.count.into()).unwrap_or(&[])
     }
 
     /// The place that has the share `part`, 0 to 1, of the density before it. It moves on without jumps as `part` grows.
     #[inline]
     pub(super) fn draw(&self, part: f32) -> Drawn {
-        let (first, last) = self.ends();
-        let (first, last) = (first + self.floor, last + self.floor);
+        let nodes = self.nodes();
+        let (first, last) = ends(nodes);
         let target = part * self.integral;
-        let mut rest = target - self.end * first;
+        let rest = target - self.end * (first + self.floor);
         if rest < 0.0 {
-            return Drawn { at: target / first, density: first / self.integral };
+            let low = first + self.floor;
+            return Drawn { node: 0, weight: 0.0, at: target / low, density: low * self.per_integral };
         }
-        let (mut at, half_step) = (self.end, 0.5 * self.step);
-        for (low, high) in self.values.iter().zip(self.values.get(1..).unwrap_or(&[])) {
-            let share = half_step * (low + high) + self.step * self.floor;
-            if rest < share {
-                // low u + ½ (high − low) u² = rest / step, in the form that subtracts nothing from nothing.
-                let (low, slope, rest) = (low + self.floor, high - low, 2.0 * rest / self.step);
-                let value = sqrt(low * low + slope * rest);
-                let u = (rest / (low + value)).min(1.0);
-                return Drawn { at: at + u * self.step, density: (low + u * slope) / self.integral };
-            }
-            rest -= share;
-            at += self.step;
+        // To the last node that does not lie beyond it. The search goes on to the end: where to stop would be guessed wrong.
+        let (half_step, of_floor) = (0.5 * self.step, self.step * self.floor);
+        let (mut left, mut least, mut beyond) = (rest, rest.to_bits(), 0_u32);
+        for (low, high) in nodes.iter().zip(nodes.get(1..).unwrap_or(&[])) {
+            left -= half_step * (low + high) + of_floor;
+            // What is left only falls, and as bits, negative numbers are larger than all others.
+            least = least.min(left.to_bits());
+            beyond = beyond.wrapping_add(left.to_bits() >> 31);
         }
-        Drawn { at: at + (rest / last).min(self.end), density: last / self.integral }
+        let rest = f32::from_bits(least);
+        let (pieces, final_cell) = (u32::from(self.count).wrapping_sub(1), u32::from(self.count).wrapping_sub(2));
+        let passed = pieces.wrapping_sub(beyond);
+        let node = passed.min(final_cell);
+        #[allow(clippy::cast_precision_loss, reason = "0 to 62")]
+        let start = self.end + node as f32 * self.step;
+        if passed > final_cell {
+            let last = last + self.floor;
+            let at = start + self.step + (rest / last).min(self.end);
+            return Drawn { node, weight: 1.0, at, density: last * self.per_integral };
+        }
+        let (low, high) = pair(nodes, node);
+        // low u + ½ (high − low) u² = rest / step, in the form that subtracts nothing from nothing; of an integral of 1, so
+        // that squares stay within range.
+        let [low, slope, rest] =
+            [low + self.floor, high - low, 2.0 * self.per_length * rest].map(|x| x * self.per_integral);
+        let weight = (rest / (low + sqrt(low * low + slope * rest))).min(1.0);
+        Drawn { node, weight, at: start + weight * self.step, density: low + weight * slope }
     }
 
     /// Density at a place, as [`Self::draw`] gives it.
     #[inline]
     pub(super) fn at(&self, place: f32) -> f32 {
-        let last = self.values.len().saturating_sub(1);
+        let last = u32::from(self.count).wrapping_sub(1);
         #[allow(clippy::cast_precision_loss, reason = "0 to 63")]
-        let t = ((place - self.end) / self.step).max(0.0).min(last as f32);
+        let t = ((place - self.end) * self.per_length).max(0.0).min(last as f32);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 63")]
-        let node = (t as usize).min(last.saturating_sub(1));
+        let node = (t as u32).min(last.wrapping_sub(1));
+        let (low, high) = pair(self.nodes(), node);
         #[allow(clippy::cast_precision_loss, reason = "0 to 63")]
         let weight = t - node as f32;
-        let value = match self.values.get(node..) {
-            Some([low, high, ..]) => low + weight * (high - low),
-            _ => 0.0,
-        };
-        (value + self.floor) / self.integral
+        (low + weight * (high - low) + self.floor) * self.per_integral
+    }
+}
+
+/// First and last of them.
+#[inline]
+fn ends(nodes: &[f32]) -> (f32, f32) {
+    match nodes {
+        [first, .., last] => (*first, *last),
+        _ => (0.0, 0.0),
+    }
+}
+
+/// The values at a node and the next.
+#[inline]
+fn pair(nodes: &[f32], node: u32) -> (f32, f32) {
+    match nodes.get(node as usize..) {
+        Some([low, high, ..]) => (*low, *high),
+        _ => (0.0, 0.0),
     }
 }

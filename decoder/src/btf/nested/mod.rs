@@ -4,7 +4,9 @@ mod chain;
 mod line;
 mod reader;
 mod sampler;
+mod scale;
 mod stage;
+mod table;
 
 pub use reader::Nested;
 pub use sampler::{Sample, Sampler};

@@ -1,6 +1,7 @@
 //! The sections of nested codebooks, checked once.
 
-use super::stage::{Stage, Table};
+use super::stage::Stage;
+use super::table::{SliceTable, Table};
 use crate::bits::{Items, PADDING_BYTES, field, index_bits, mask, packed_bytes};
 use crate::btf::grid::Grid;
 use crate::btf::layout::{Books, ChromaBooks, MAX_STAGES, StageBooks};
@@ -39,11 +40,13 @@ impl<'a> Nested<'a> {
         let p2 = books.stages[0].books[3].entries;
         let p2_bits = index_bits(p2);
         let width = p2_bits.saturating_add(index_bits(chroma.i2));
-        let merged = sections.items(Section::Merged, (chroma.merged, 1), width, 0, p2)?;
-        sections.indices(Section::Merged, merged, chroma.merged.into(), p2_bits, chroma.i2)?;
-        let indices = |section, rows, len| sections.items(section, rows, index_bits(len), 0, len);
-        let i2 = indices(Section::ChromaSlices2, (chroma.i2, grid.n_alpha), chroma.i1)?;
-        let i1 = indices(Section::ChromaSlices1, (chroma.i1, grid.n_beta), chroma.colours)?;
+        let shape = Shape { rows: chroma.merged, nodes: 1, width };
+        let merged = sections.items(Section::Merged, shape, p2)?;
+        sections.indices(Section::Merged, 0, merged, shape, p2_bits, chroma.i2)?;
+        let indices =
+            |section, rows, nodes, len| sections.items(section, Shape { rows, nodes, width: index_bits(len) }, len);
+        let i2 = indices(Section::ChromaSlices2, chroma.i2, grid.n_alpha, chroma.i1)?;
+        let i1 = indices(Section::ChromaSlices1, chroma.i1, grid.n_beta, chroma.colours)?;
         let colours = sections.sized(Section::Colours, u64::from(chroma.colours).saturating_mul(2))?;
         let tints = if chroma.tints == 0 {
             &[]
@@ -136,39 +139,53 @@ impl<'a> Nested<'a> {
     }
 }
 
+/// Rows of items of one width.
+#[derive(Clone, Copy)]
+struct Shape {
+    rows: u32,
+    nodes: u8,
+    width: u32,
+}
+
+impl Shape {
+    fn items(self) -> u64 {
+        u64::from(self.rows).saturating_mul(self.nodes.into())
+    }
+}
+
 impl<'a> Sections<'a, '_> {
-    /// Rows of nodes, items of `width` bits, of which the index that begins at bit `at` is less than `len`.
-    fn items(
-        &self,
-        section: Section,
-        (rows, nodes): (u32, u8),
-        width: u32,
-        at: u32,
-        len: u32,
-    ) -> Result<Items<'a>, ReadError> {
-        let count = u64::from(rows).saturating_mul(nodes.into());
-        let need = packed_bytes(count, width).unwrap_or(u64::MAX);
-        let items = Items::new(self.sized(section, need)?, width, nodes);
-        self.indices(section, items, count, at, len)?;
+    /// A section of items alone, whose lowest bits are an index that is less than `len`.
+    fn items(&self, section: Section, shape: Shape, len: u32) -> Result<Items<'a>, ReadError> {
+        let need = packed_bytes(shape.items(), shape.width).unwrap_or(u64::MAX);
+        let items = Items::new(self.sized(section, need)?, shape.width, shape.nodes);
+        self.indices(section, 0, items, shape, 0, len)?;
         Ok(items)
     }
 
-    /// Checks an index in all items.
-    fn indices(&self, section: Section, items: Items<'_>, count: u64, at: u32, len: u32) -> Result<(), ReadError> {
+    /// Checks the index at a bit of all items that stand after `before` bytes of a section.
+    fn indices(
+        &self,
+        section: Section,
+        before: u64,
+        items: Items<'_>,
+        shape: Shape,
+        at: u32,
+        len: u32,
+    ) -> Result<(), ReadError> {
         let bits = index_bits(len);
         if len == 1_u32.wrapping_shl(bits) {
             // All that fits is in range.
             return Ok(());
         }
-        let before = |item: u64| item.saturating_mul(items.width().into());
+        let first_bit = |item: u64| item.saturating_mul(shape.width.into());
         let index = |item: u64| {
-            let offset = usize::try_from(before(item)).unwrap_or(usize::MAX);
+            let offset = usize::try_from(first_bit(item)).unwrap_or(usize::MAX);
             field(items.bits(0, offset), at, mask(bits))
         };
-        match (0..count).find(|item| index(*item) >= len) {
+        match (0..shape.items()).find(|item| index(*item) >= len) {
             None => Ok(()),
             Some(item) => {
-                let offset = before(item).saturating_add(at.into()) >> 3;
+                let offset = before.saturating_add(first_bit(item).saturating_add(at.into()) >> 3);
                 let offset = self.start(section).saturating_add(offset);
                 Err(ReadError::IndexOutOfRange { section, offset, index: index(item), len })
             }
@@ -194,26 +211,31 @@ impl<'a> Sections<'a, '_> {
         let is_signed = of_books.is_signed;
         let [bits_of_p4, bits_of_p3, bits_below_p3, bits_of_p1] = of_books.index_bits(is_first, chroma);
         let [width_6, width_4, width_3, width_2] = of_books.widths(is_first, chroma);
-        let items = |book, rows, width, len| self.items(section(book), rows, width, 0, len);
-        let texels = items(6, (p6.entries, 1), width_6, p4.entries)?;
+        let items = |book, shape, len| self.items(section(book), shape, len);
+        let shape_6 = Shape { rows: p6.entries, nodes: 1, width: width_6 };
+        let texels = items(6, shape_6, p4.entries)?;
         if is_first && chroma.tints > 0 {
             let at = bits_of_p4.saturating_add(p6.scales.bits.into());
-            self.indices(section(6), texels, p6.entries.into(), at, chroma.tints)?;
+            self.indices(section(6), 0, texels, shape_6, at, chroma.tints)?;
         }
         let below_p3 = if is_first { chroma.merged } else { p2.entries };
-        let p4_items = items(4, (p4.entries, grid.n_phi), width_4, p3.entries)?;
-        let p3_items = items(3, (p3.entries, grid.n_theta), width_3, below_p3)?;
-        let p2_items = items(2, (p2.entries, grid.n_alpha), width_2, of_books.slices)?;
-        let values = u64::from(of_books.slices).saturating_mul(grid.n_beta.into());
-        let p1_bytes = values.saturating_add(of_books.slices.into()).saturating_add(PADDING_BYTES as u64);
-        let p1 = self.sized(section(1), p1_bytes)?;
+        let p4_items = items(4, Shape { rows: p4.entries, nodes: grid.n_phi, width: width_4 }, p3.entries)?;
+        let p3_items = items(3, Shape { rows: p3.entries, nodes: grid.n_theta, width: width_3 }, below_p3)?;
+        // Codes of scales, then indices.
+        let shape_2 = Shape { rows: p2.entries, nodes: grid.n_alpha, width: width_2 };
+        let p2_items = packed_bytes(shape_2.items(), width_2).unwrap_or(u64::MAX);
+        let p2_bytes = self.sized(section(2), shape_2.items().saturating_add(p2_items))?;
+        let codes = usize::try_from(shape_2.items()).unwrap_or(usize::MAX);
+        let p2_items = Items::new(p2_bytes.get(codes..).unwrap_or(&[]), width_2, grid.n_alpha);
+        self.indices(section(2), shape_2.items(), p2_items, shape_2, 0, of_books.slices)?;
+        let row = u64::from(grid.n_beta).saturating_add(1);
+        let p1_bytes = u64::from(of_books.slices).saturating_mul(row).saturating_add(PADDING_BYTES as u64);
         Ok(Stage {
             texels: Table::new(texels, bits_of_p4, p6.scales, is_signed),
             p4: Table::new(p4_items, bits_of_p3, p4.scales, is_signed),
             p3: Table::new(p3_items, bits_below_p3, p3.scales, is_signed),
-            p2: Table::new(p2_items, bits_of_p1, p2.scales, is_signed),
-            p1,
-            means: usize::try_from(values).ok().and_then(|values| p1.get(values..)).unwrap_or(&[]),
+            p2: SliceTable::new(p2_bytes, grid.n_alpha, p2_items, bits_of_p1, p2.scales, is_signed),
+            p1: self.sized(section(1), p1_bytes)?,
             n_beta: grid.n_beta,
             is_signed,
         })

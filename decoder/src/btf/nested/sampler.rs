@@ -5,9 +5,10 @@
 //! without jumps as the random numbers grow.
 
 use super::chain::Corner;
-use super::line::{Line, Values, ZEROS};
+use super::line::Line;
 use super::reader::Nested;
-use super::stage::{Scale, Stage, near};
+use super::scale::{Scale, near};
+use super::stage::Stage;
 use crate::btf::angle::{atan2, sin_cos};
 use crate::btf::grid::{Grid, Place, View};
 use core::f32::consts::FRAC_PI_2;
@@ -32,15 +33,15 @@ pub struct Sampler<'a> {
     azimuth: [f32; 2],
     /// P2 of the four nodes of view around the view.
     rows: [Row; 4],
-    /// Integrals over the slices at nodes of α.
-    slices: Values,
+    /// Of α, from −π/2 to π/2, by the integrals over slices.
+    alpha: Line,
 }
 
-/// A row of P2 with c_P4 c_P3, c_P6 being common to all directions, and the weight of the node of view.
+/// A row of P2 with c_P4 c_P3 for [`near`], c_P6 being common to all directions, and the weight of the node of view.
 #[derive(Clone, Copy, Debug)]
 struct Row {
     p2: u32,
-    scale: Scale,
+    scale: u32,
     weight: f32,
 }
 
@@ -51,73 +52,73 @@ impl<'a> Sampler<'a> {
         let [a, b, c, d] = stage.corners::<false>(p4, Scale::default(), view.phi, view.theta);
         let row = |corner: Corner| {
             let (p2, _) = nested.merged(corner.row);
-            Row { p2, scale: corner.scale, weight: corner.weight }
+            Row { p2, scale: corner.scale.near_bits(), weight: corner.weight }
         };
         let rows = [row(a), row(b), row(c), row(d)];
-        let mut slices = ZEROS;
-        for Row { p2, scale, weight } in rows {
-            let (mut at, of_row) = (0, scale.near_bits());
-            // An odd number of nodes has one too many, which is not looked at.
-            let (pairs, _) = slices.as_flattened_mut().as_chunks_mut::<2>();
-            for [first, second] in pairs.iter_mut().take(usize::from(grid.n_alpha).div_ceil(2)) {
-                let [(low, c_low), (high, c_high)] = stage.p2.two_near(p2, at);
-                let integral = |slice, c2: u32| near(of_row.wrapping_add(c2).wrapping_sub(stage.mean_bits(slice)));
-                *first += weight * integral(low, c_low);
-                *second += weight * integral(high, c_high);
-                at = at.wrapping_add(stage.p2.before(2));
-            }
-        }
-        Self { stage, grid, azimuth: view.azimuth, rows, slices }
-    }
-
-    #[inline]
-    fn over_alpha(&self) -> Line<'_> {
-        Line::new(&self.slices, self.grid.n_alpha, self.grid.alpha_max, FRAC_PI_2)
-    }
-
-    /// Over sin β, for the values of a slice.
-    #[inline]
-    fn over_beta<'v>(&self, values: &'v Values) -> Line<'v> {
-        Line::new(values, self.grid.n_beta, self.grid.sin_beta_max, 1.0)
-    }
-
-    /// Luma at nodes of sin β, in the slice at α.
-    #[inline]
-    fn slice(&self, alpha: f32) -> Values {
-        let Place { nodes: [first, _], weight } = self.grid.alpha(alpha);
-        let at = self.stage.p2.before(first);
-        let mut parts = [[(0, 0.0); 2]; 4];
-        for (part, row) in parts.iter_mut().zip(&self.rows) {
-            let [(low, c_low), (high, c_high)] = self.stage.p2.two::<false>(row.p2, at);
-            *part = [
-                (low, (1.0 - weight) * (row.weight * row.scale.times(c_low).value())),
-                (high, weight * (row.weight * row.scale.times(c_high).value())),
-            ];
-        }
-        let mut values = ZEROS;
-        for (values, node) in values.iter_mut().zip((0..u32::from(self.grid.n_beta)).step_by(4)) {
-            let mut sums = [0.0; 4];
-            for (slice, weight) in parts.as_flattened() {
-                // Beyond n_β are others, which are not looked at.
-                let codes = self.stage.slice_part(*slice, node);
-                for (sum, code) in sums.iter_mut().zip(codes) {
-                    *sum += weight * f32::from(code);
+        let mut sampler = Self {
+            stage,
+            grid,
+            azimuth: view.azimuth,
+            rows,
+            alpha: Line::over(grid.n_alpha, grid.alpha_max, FRAC_PI_2),
+        };
+        let mut node = 0_u32;
+        for integrals in sampler.alpha.fours() {
+            for Row { p2, scale, weight } in rows {
+                for (integral, c2) in integrals.iter_mut().zip(stage.p2.four_near(p2, node)) {
+                    *integral += weight * near(scale.wrapping_add(c2));
                 }
             }
-            *values = sums;
+            node = node.wrapping_add(4);
         }
-        values
+        sampler.alpha.integrate();
+        sampler
+    }
+
+    /// Of sin β, from −1 to 1, by luma between the slices at a node of α and the next.
+    #[inline(always)]
+    fn beta(&self, alpha: u32, weight: f32) -> Line {
+        // First bytes of slices, and what their codes are multiplied by.
+        let (mut lows, mut highs) = ([(0, 0.0); 4], [(0, 0.0); 4]);
+        for ((low, high), row) in lows.iter_mut().zip(&mut highs).zip(&self.rows) {
+            let part = |(slice, c2): (u32, Scale)| {
+                let start = self.stage.start(slice);
+                let scale = row.scale.wrapping_add(c2.near_bits()).wrapping_add(self.stage.near_height(start));
+                (start, row.weight * near(scale))
+            };
+            let [first, second] = self.stage.p2.two::<false>(row.p2, alpha);
+            (*low, *high) = (part(first), part(second));
+        }
+        let mut line = Line::over(self.grid.n_beta, self.grid.sin_beta_max, 1.0);
+        let mut node = 0_usize;
+        for values in line.fours() {
+            let mut sums = [[0.0; 4]; 2];
+            for (sums, parts) in sums.iter_mut().zip([&lows, &highs]) {
+                for (start, factor) in parts {
+                    let codes = self.stage.four(start.wrapping_add(node));
+                    for (sum, code) in sums.iter_mut().zip(codes) {
+                        *sum += factor * f32::from(code);
+                    }
+                }
+            }
+            let [lows, highs] = sums;
+            for (value, (low, high)) in values.iter_mut().zip(lows.into_iter().zip(highs)) {
+                *value = low + weight * (high - low);
+            }
+            node = node.wrapping_add(4);
+        }
+        line.integrate();
+        line
     }
 
     /// A light for two random numbers, 0 to 1: α grows with the first, sin β with the second, and none of them jumps.
     #[must_use]
     pub fn sample(&self, random: [f32; 2]) -> Sample {
-        let [first, second] = random;
-        // NaN is 0.
-        let alpha = self.over_alpha().draw(first.max(0.0).min(1.0));
-        let angle = alpha.at - FRAC_PI_2;
-        let beta = self.over_beta(&self.slice(angle)).draw(second.max(0.0).min(1.0));
-        let light = Grid::light(sin_cos(angle), beta.at - 1.0, self.azimuth);
+        #[allow(clippy::manual_clamp, reason = "NaN is 0")]
+        let [first, second] = random.map(|number| number.max(0.0).min(1.0));
+        let alpha = self.alpha.draw(first);
+        let beta = self.beta(alpha.node, alpha.weight).draw(second);
+        let light = Grid::light(sin_cos(alpha.at - FRAC_PI_2), beta.at - 1.0, self.azimuth);
         Sample { light, pdf: alpha.density * beta.density }
     }
 
@@ -128,7 +129,8 @@ impl<'a> Sampler<'a> {
         if z >= 0.0 {
             let [forward, sin_beta] = Grid::in_frame(light, self.azimuth);
             let alpha = atan2(forward, z);
-            self.over_alpha().at(alpha + FRAC_PI_2) * self.over_beta(&self.slice(alpha)).at(sin_beta + 1.0)
+            let Place { nodes: [node, _], weight } = self.grid.alpha(alpha);
+            self.alpha.at(alpha + FRAC_PI_2) * self.beta(node, weight).at(sin_beta + 1.0)
         } else {
             0.0
         }

@@ -19,8 +19,6 @@ use crate::progress::Progress;
 pub struct Options {
     /// Nodes of directions.
     pub grid: Grid,
-    /// Most entries of the codebooks of each stage.
-    pub stages: Vec<Sizes>,
     /// Most entries of the codebooks of chroma.
     pub chroma: ChromaSizes,
     /// Names of the materials.
@@ -31,65 +29,85 @@ pub struct Options {
     pub seed: u64,
 }
 
-/// Builds the codebooks of materials that were surveyed together.
-///
-/// # Errors
-/// [`Error::Request`] for no stage or more than four, or too many materials.
-pub fn encode(materials: &[Images], survey: &Survey, options: &Options, progress: &impl Progress) -> Result<Database> {
-    if options.stages.is_empty() || options.stages.len() > MAX_STAGES {
-        return Err(Error::Request(format!("{} stages of codebooks; 1 to 4 are possible", options.stages.len())));
-    }
-    let count = u8::try_from(materials.len()).ok().filter(|count| *count > 0);
-    let count = count.ok_or_else(|| Error::Request(format!("{} materials in one file", materials.len())))?;
-    progress.begin("codebooks", STEPS * options.stages.len() as u64);
-    let (lights, views) = (materials[0].lights(), materials[0].views());
-    let resampler = Resampler::new(&options.grid, lights, views);
-    let measured = Measured::new(&options.grid, lights, views);
-    let mipmaps = Mipmaps::new(&survey.sizes, options.has_mipmaps);
-    let [luma, chroma] = [&survey.luma.texels, &survey.chroma.texels].map(|texels| mipmaps.of(texels));
-    let energies: Vec<f32> = luma.column_iter().map(|texel| texel.norm_squared()).collect();
+/// Materials that were surveyed together, on the nodes of a grid: what codebooks of all sizes are made from.
+pub struct Prepared<'a> {
+    survey: &'a Survey,
+    options: Options,
+    measured: Measured,
+    /// Components of luma, and of both channels of chroma, at nodes.
+    tables: [DMatrix<f32>; 3],
+    /// Coefficients of luma and chroma of all texels of all levels, and their ρ.
+    texels: [DMatrix<f32>; 2],
+    ratios: Vec<[f32; 2]>,
+}
 
-    let tables = fitted(&resampler, survey, &survey.luma.basis);
-    let space = Space {
-        grid: options.grid,
-        measured: &measured,
-        weights: &survey.weights,
-        basis: &survey.luma.basis,
-        tables: &tables,
-    };
-    let mut left = luma.clone();
-    let mut built = Vec::new();
-    for (number, sizes) in options.stages.iter().enumerate() {
-        let stage = space.build(&left, *sizes, number > 0, options.seed, progress);
-        left = stage.remainder(&left);
-        built.push(stage);
+impl<'a> Prepared<'a> {
+    /// Fits the components to the nodes.
+    #[must_use]
+    pub fn new(materials: &[Images], survey: &'a Survey, options: Options) -> Self {
+        let (lights, views) = (materials[0].lights(), materials[0].views());
+        let resampler = Resampler::new(&options.grid, lights, views);
+        let measured = Measured::new(&options.grid, lights, views);
+        let mipmaps = Mipmaps::new(&survey.sizes, options.has_mipmaps);
+        let texels = [&survey.luma.texels, &survey.chroma.texels].map(|texels| mipmaps.of(texels));
+        let ratios = mipmaps.of_ratios(&survey.ratios, &survey.luma.texels);
+        let channel = |channel: usize| {
+            let rows: Vec<usize> = (0..survey.weights.len()).map(|pair| 2 * pair + channel).collect();
+            fitted(&resampler, survey, &survey.chroma.basis.select_rows(&rows))
+        };
+        let tables = [fitted(&resampler, survey, &survey.luma.basis), channel(0), channel(1)];
+        Self { survey, options, measured, tables, texels, ratios }
     }
 
-    let channel = |channel: usize| {
-        let rows = (0..survey.weights.len()).map(|pair| 2 * pair + channel).collect::<Vec<_>>();
-        fitted(&resampler, survey, &survey.chroma.basis.select_rows(&rows))
-    };
-    let channels = [channel(0), channel(1)];
-    let ratios = mipmaps.of_ratios(&survey.ratios, &luma);
-    let squares: Vec<f32> = survey.weights.iter().map(|weight| weight * weight).collect();
-    let node_weights = mean_over_views(&measured.spread(&squares), options.grid.light_nodes());
-    let hues = Hues {
-        grid: options.grid,
-        ratios: &ratios,
-        texels: &chroma,
-        tables: [&channels[0], &channels[1]],
-        node_weights: &node_weights,
-        energies: &energies,
-        is_relative: matches!(survey.tone, Tone::Display { .. }),
-    };
-    let chroma = hues.build(&mut built[0], options.chroma);
-    let named = |(size, name): (&[u32; 2], &String)| material(*size, name, options.has_mipmaps);
-    Ok(Database {
-        header: Header { model: Model::Nested, tone: survey.tone, materials: count, grid: options.grid },
-        materials: survey.sizes.iter().zip(&options.names).map(named).collect::<Result<_>>()?,
-        stages: built.into_iter().map(|stage| stage.chain).collect(),
-        chroma,
-    })
+    /// Builds codebooks of at most these sizes, a stage each.
+    ///
+    /// # Errors
+    /// [`Error::Request`] for no stage or more than four, or too many materials.
+    pub fn encode(&self, stages: &[Sizes], progress: &impl Progress) -> Result<Database> {
+        let (survey, options) = (self.survey, &self.options);
+        if stages.is_empty() || stages.len() > MAX_STAGES {
+            return Err(Error::Request(format!("{} stages of codebooks; 1 to 4 are possible", stages.len())));
+        }
+        let count = u8::try_from(survey.sizes.len()).ok().filter(|count| *count > 0);
+        let count = count.ok_or_else(|| Error::Request(format!("{} materials in one file", survey.sizes.len())))?;
+        progress.begin("codebooks", STEPS * stages.len() as u64);
+        let [luma, chroma] = &self.texels;
+        let [of_luma, of_a, of_b] = &self.tables;
+        let space = Space {
+            grid: options.grid,
+            measured: &self.measured,
+            weights: &survey.weights,
+            basis: &survey.luma.basis,
+            tables: of_luma,
+        };
+        let mut left = luma.clone();
+        let mut built = Vec::new();
+        for (number, sizes) in stages.iter().enumerate() {
+            let stage = space.build(&left, *sizes, number > 0, options.seed, progress);
+            left = stage.remainder(&left);
+            built.push(stage);
+        }
+        let energies: Vec<f32> = luma.column_iter().map(|texel| texel.norm_squared()).collect();
+        let squares: Vec<f32> = survey.weights.iter().map(|weight| weight * weight).collect();
+        let node_weights = mean_over_views(&self.measured.spread(&squares), options.grid.light_nodes());
+        let hues = Hues {
+            grid: options.grid,
+            ratios: &self.ratios,
+            texels: chroma,
+            tables: [of_a, of_b],
+            node_weights: &node_weights,
+            energies: &energies,
+            is_relative: matches!(survey.tone, Tone::Display { .. }),
+        };
+        let chroma = hues.build(&mut built[0], options.chroma);
+        let named = |(size, name): (&[u32; 2], &String)| material(*size, name, options.has_mipmaps);
+        Ok(Database {
+            header: Header { model: Model::Nested, tone: survey.tone, materials: count, grid: options.grid },
+            materials: survey.sizes.iter().zip(&options.names).map(named).collect::<Result<_>>()?,
+            stages: built.into_iter().map(|stage| stage.chain).collect(),
+            chroma,
+        })
+    }
 }
 
 /// Tables of components at nodes, without the weights of pairs.
@@ -110,7 +128,7 @@ fn mean_over_views(values: &[f32], light: usize) -> Vec<f32> {
     (0..light).map(|k| values[k..].iter().step_by(light).sum::<f32>() / count).collect()
 }
 
-fn material([width, height]: [u32; 2], name: &str, has_mipmaps: bool) -> Result<Material> {
+pub(in crate::btf) fn material([width, height]: [u32; 2], name: &str, has_mipmaps: bool) -> Result<Material> {
     let side =
         |side: u32| u16::try_from(side).map_err(|_| Error::Request(format!("{name}: {side} texels wide or high")));
     let levels = if has_mipmaps { 1 + width.max(height).ilog2() } else { 1 };

@@ -3,13 +3,15 @@
 mod chroma;
 mod clusters;
 mod encode;
+mod heights;
 mod luma;
 mod means;
-mod scales;
-mod slices;
+pub(super) mod scales;
+pub(super) mod slices;
 mod write;
 
 pub use chroma::ChromaSizes;
-pub use encode::{Options, encode};
+pub(super) use encode::material;
+pub use encode::{Options, Prepared};
 pub use luma::Sizes;
 pub use write::{Chain, Chroma, Database, Item, slice_mean};

@@ -2,9 +2,10 @@
 
 use subsurf_decoder::Section;
 use subsurf_decoder::bits::{PADDING_BYTES, index_bits};
-use subsurf_decoder::btf::layout::{Book, Books, ChromaBooks, MAX_STAGES, MEANS_PER_OCTAVE, Scales, StageBooks};
+use subsurf_decoder::btf::layout::{Book, Books, ChromaBooks, HEIGHTS_PER_OCTAVE, MAX_STAGES, Scales, StageBooks};
 use subsurf_decoder::btf::{Header, Material};
 
+use super::heights::by_means;
 use crate::container;
 
 /// A file of nested codebooks before it is packed.
@@ -71,8 +72,8 @@ pub struct Chroma {
     pub is_relative: bool,
 }
 
-/// What stands after a row of P1: λ, where 2^(−λ/32) is the mean of its piecewise linear function between the outermost
-/// nodes, of 255. Samplers choose slices by it; of signed rows it is not used.
+/// What stands after a row of P1: μ, where 2^((μ − 255)/32) is the mean of its piecewise linear function between the
+/// outermost nodes, 255 counting as 1. Of signed rows it is not used.
 #[must_use]
 pub fn slice_mean(values: &[u8]) -> u8 {
     let ends = [values.first(), values.last()].map(|end| f32::from(end.copied().unwrap_or(0)));
@@ -80,25 +81,21 @@ pub fn slice_mean(values: &[u8]) -> u8 {
     #[allow(clippy::cast_precision_loss, reason = "at most 64 nodes")]
     let mean = sum / (values.len().max(2) - 1) as f32 / 255.0;
     #[allow(clippy::cast_precision_loss, reason = "32")]
-    let per_octave = MEANS_PER_OCTAVE as f32;
+    let per_octave = HEIGHTS_PER_OCTAVE as f32;
     // Nothing has the least mean there is.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
-    let code = (-per_octave * mean.log2()).round().clamp(0.0, 255.0) as u8;
+    let code = (255.0 + per_octave * mean.log2()).round().clamp(0.0, 255.0) as u8;
     code
 }
 
 impl Database {
-    /// What `BOOK` says.
-    ///
-    /// # Panics
-    /// If there are 2³² entries or more than four stages.
-    #[must_use]
-    pub fn books(&self) -> Books {
+    /// What `BOOK` says of stages as files have them.
+    fn books(&self, chains: &[Chain]) -> Books {
         let grid = &self.header.grid;
         let entries = |length: usize, row: usize| u32::try_from(length / row).expect("fewer than 2³² entries");
         let [n_phi, n_theta, n_alpha, n_beta] = [grid.n_phi, grid.n_theta, grid.n_alpha, grid.n_beta].map(usize::from);
         let mut stages = [StageBooks::default(); MAX_STAGES];
-        for (books, chain) in stages[..self.stages.len()].iter_mut().zip(&self.stages) {
+        for (books, chain) in stages[..chains.len()].iter_mut().zip(chains) {
             let rows = [(&chain.texels, 1), (&chain.p4, n_phi), (&chain.p3, n_theta), (&chain.p2, n_alpha)];
             *books = StageBooks {
                 books: [0, 1, 2, 3]
@@ -118,17 +115,19 @@ impl Database {
             step: chroma.step,
             is_relative: chroma.is_relative,
         };
-        Books { chroma, stages, count: self.stages.len() }
+        Books { chroma, stages, count: chains.len() }
     }
 
     /// The file.
     ///
     /// # Panics
     /// If an index or a code needs more bits than there are entries or bits of scales, if the header counts other
-    /// materials, or if texels and their tints are not equally many.
+    /// materials, if texels and their tints are not equally many, or if there are more than four stages.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
-        let books = self.books();
+        let chains: Vec<Chain> =
+            self.stages.iter().map(|chain| by_means(chain, self.header.grid.n_beta.into())).collect();
+        let books = self.books(&chains);
         assert_eq!(usize::from(self.header.materials), self.materials.len(), "the header counts the materials");
         let mut of_books = books.chroma.to_bytes().to_vec();
         of_books.extend(books.stages[..books.count].iter().flat_map(StageBooks::to_bytes));
@@ -137,7 +136,7 @@ impl Database {
             (Section::Materials, self.materials.iter().flat_map(Material::to_bytes).collect()),
             (Section::Books, of_books),
         ];
-        for ((number, chain), of_chain) in (0_u8..).zip(&self.stages).zip(&books.stages) {
+        for ((number, chain), of_chain) in (0_u8..).zip(&chains).zip(&books.stages) {
             sections.extend(self.stage(number, chain, of_chain, &books.chroma));
         }
         sections.extend(self.chroma_sections(&books));
@@ -161,21 +160,17 @@ impl Database {
         } else {
             packed(0, &chain.texels)
         };
+        // The lowest eight bits of codes of P2 stand by themselves, where samplers find them.
+        let codes = chain.p2.iter().map(|item| item.code.to_le_bytes()[0]);
+        let above = u32::from(chain.scales[3].bits.saturating_sub(8));
+        let indices = chain.p2.iter().map(|item| [(item.index, widths[3]), (item.code >> 8, above)]);
         [
             (section(6), texels),
             (section(4), packed(1, &chain.p4)),
             (section(3), packed(2, &chain.p3)),
-            (section(2), packed(3, &chain.p2)),
-            (section(1), self.slices(chain)),
+            (section(2), codes.chain(pack(indices)).collect()),
+            (section(1), [&chain.p1[..], &[0; PADDING_BYTES]].concat()),
         ]
-    }
-
-    /// P1 as it stands in the file: all values, then all means.
-    fn slices(&self, chain: &Chain) -> Vec<u8> {
-        let rows = || chain.p1.chunks_exact(usize::from(self.header.grid.n_beta) + 1).map(|row| row.split_last());
-        let values = rows().flatten().flat_map(|(_, values)| values);
-        let means = rows().flatten().map(|(mean, _)| mean);
-        values.chain(means).copied().chain([0; PADDING_BYTES]).collect()
     }
 
     fn chroma_sections(&self, books: &Books) -> Vec<(Section, Vec<u8>)> {

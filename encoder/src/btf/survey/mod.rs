@@ -50,7 +50,7 @@ const SQUARE: usize = 11;
 const FOLLOWING: f32 = 0.6;
 
 /// The tone that fits all materials, which were measured in the same directions.
-fn common_tone(materials: &[Images]) -> Result<Tone> {
+pub(super) fn common_tone(materials: &[Images]) -> Result<Tone> {
     let Some((first, others)) = materials.split_first() else {
         return Err(Error::Request("no material".to_owned()));
     };

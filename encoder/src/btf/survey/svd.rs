@@ -147,7 +147,7 @@ mod tests {
         let (rows, columns, rank) = (300, 250, 5);
         let wave = |k: usize, c: usize| ((k * (c + 1)) as f32 * 0.037 + c as f32).sin();
         let a = DMatrix::from_fn(rows, columns, |x, d| {
-            (0..rank).map(|c| wave(x, c) * wave(d, c + 3) * 0.5_f32.powi(c as i32)).sum::<f32>()
+            (0..rank).map(|c| wave(x, c) * wave(d, c + 3) * 0.5_f32.powf(c as f32)).sum::<f32>()
         });
         let fill = |column: usize, out: &mut [f32]| out.copy_from_slice(a.column(column).as_slice());
         let found = Columns { rows, columns, group: 1, fill }.decompose(8, 1, &());

@@ -1,5 +1,7 @@
 //! `subsurf compare`: how far a file is from its capture.
 
+mod btf;
+
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
@@ -20,9 +22,11 @@ use crate::say::say;
 ///
 /// Mean relative error of the diffuse albedo, and PSNR and SSIM of the patch lit uniformly, by a disc and by a line
 /// (Yatagawa et al. 2020, section 4; Wang et al. 2004). Only measured entries count, on both sides.
+///
+/// Of a BTF: MSSIM of Y, Cr and Cb and PSNR over its pairs of directions, and the sizes of its codebooks.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The capture, .npy
+    /// The capture, .npy; a folder of BTF images or a .btf file
     capture: PathBuf,
     /// The .subsurf file
     file: PathBuf,
@@ -31,9 +35,15 @@ pub(crate) struct Args {
     /// Report as JSON
     #[arg(long)]
     json: bool,
-    /// Write pictures into this folder: original, file, and ten times their difference
+    /// Write pictures into this folder: original, file, and ten times their difference (of BTFs, five times)
     #[arg(long, value_name = "DIR")]
     images: Option<PathBuf>,
+    /// Of a file of several BTFs: the material's name or number
+    #[arg(long, value_name = "NAME")]
+    material: Option<String>,
+    /// Of BTFs: compare every n-th pair of directions only
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    every: usize,
 }
 
 /// The numbers of a comparison.
@@ -100,6 +110,9 @@ impl Judgement {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    if args.capture.is_dir() || args.capture.extension().is_some_and(|extension| extension == "btf") {
+        return btf::run(args);
+    }
     let capture = Capture::open(&args.capture, &args.facts.overrides())?;
     let bytes = read_file(&args.file)?;
     let material = parse(&args.file, &bytes)?;

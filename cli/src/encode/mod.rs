@@ -1,5 +1,7 @@
 //! `subsurf encode`: from a capture to a file.
 
+mod btf;
+
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -13,6 +15,8 @@ use subsurf_encoder::capture::{Capture, sidecar_path};
 use subsurf_encoder::rate::{self, Point, Target, Walked};
 use subsurf_encoder::{check_target, write_bytes};
 
+pub(crate) use btf::load as load_btf;
+
 use crate::compare::{Judgement, judge};
 use crate::curve;
 use crate::failure::bad_request;
@@ -22,11 +26,26 @@ use crate::options::{ByteCount, CaptureArgs};
 use crate::progress::Bars;
 use crate::say::say;
 
-/// Fit a material to a capture and write a .subsurf file.
+/// Fit a material to a capture and write a .subsurf file; `encode btf` does so with the images of a BTF.
 ///
 /// Ctrl-C ends the fit early and writes the best model so far; once more ends the program.
 #[derive(clap::Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(crate) struct Args {
+    #[command(subcommand)]
+    other: Option<Other>,
+    #[command(flatten)]
+    capture: Option<CaptureFit>,
+}
+
+/// What is encoded but captures.
+#[derive(clap::Subcommand)]
+enum Other {
+    Btf(btf::Args),
+}
+
+#[derive(clap::Args)]
+struct CaptureFit {
     /// The capture: a .npy array of shape (height, width, D, D, 3) of Rd in mm⁻², and its sidecar .json with the pixel pitch
     capture: PathBuf,
     /// The .subsurf file to write; NAME.subsurf beside the capture if not given
@@ -119,11 +138,24 @@ impl From<MethodArg> for Method {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    match (&args.other, &args.capture) {
+        (Some(Other::Btf(args)), _) => btf::run(args),
+        (None, Some(args)) => encode_capture(args),
+        (None, None) => Err(bad_request("what is to be encoded? Give a capture, or `btf` and its images")),
+    }
+}
+
+fn set_threads(threads: usize) -> anyhow::Result<()> {
+    if threads == 0 {
+        return Err(bad_request("--threads is 0; leave it out to use all of them"));
+    }
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
+    Ok(())
+}
+
+fn encode_capture(args: &CaptureFit) -> anyhow::Result<()> {
     if let Some(threads) = args.threads {
-        if threads == 0 {
-            return Err(bad_request("--threads is 0; leave it out to use all of them"));
-        }
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
+        set_threads(threads)?;
     }
     let capture = Capture::open(&args.capture, &args.facts.overrides())?;
     let output = args.output.clone().unwrap_or_else(|| args.capture.with_extension("subsurf"));
@@ -167,7 +199,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 /// Refuses what the machine's memory does not hold, before it is tried.
-fn check_memory(args: &Args, capture: &Capture, options: &Options) -> anyhow::Result<()> {
+fn check_memory(args: &CaptureFit, capture: &Capture, options: &Options) -> anyhow::Result<()> {
     let targeted = args.target_psnr.is_some() || args.target_bytes.is_some();
     // A target may lead to the most base materials there can be.
     let base_materials = if targeted { MAX_BASE_MATERIALS as usize } else { options.base_materials };
@@ -268,7 +300,7 @@ impl Report<'_> {
 }
 
 /// Tries models, and says what came of each.
-fn walk(capture: &Capture, args: &Args, target: Target) -> anyhow::Result<Walked> {
+fn walk(capture: &Capture, args: &CaptureFit, target: Target) -> anyhow::Result<Walked> {
     let mut said = |point: &Point| {
         if !args.json {
             say!("{}", curve::line(point));

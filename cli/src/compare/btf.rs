@@ -1,0 +1,126 @@
+//! `subsurf compare` of BTFs: how far a file is from the images it was made from.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+use subsurf_decoder::Btf;
+use subsurf_decoder::btf::Material;
+use subsurf_encoder::btf::Images;
+use subsurf_encoder::metrics::btf::{BtfError, compare, decode};
+
+use super::Args;
+use crate::encode::load_btf;
+use crate::failure::bad_request;
+use crate::info::{books, parse_btf, read_file};
+use crate::memory::human;
+use crate::picture::{display, montage, write_png};
+use crate::progress::Bars;
+use crate::say::say;
+
+/// Pairs of directions that pictures are made of: shares of all of them.
+const PICTURED: [f64; 6] = [0.003, 0.12, 0.31, 0.52, 0.73, 0.96];
+/// How many times differences are shown.
+const MAGNIFIED: f32 = 5.0;
+
+pub(super) fn run(args: &Args) -> anyhow::Result<()> {
+    let bytes = read_file(&args.file)?;
+    let file = parse_btf(&args.file, &bytes)?;
+    let images = load_btf(&args.capture)?;
+    let material = material_of(args, &file)?;
+    let of_file = file.materials().nth(material).map(|material| material.size(0));
+    if of_file != Some(images.size()) {
+        let [width, height] = images.size();
+        return Err(bad_request(format!(
+            "{}: images of {width} × {height} pixels, and the file's material has {of_file:?}",
+            args.capture.display()
+        )));
+    }
+    let pairs: Vec<usize> = (0..images.pairs()).step_by(args.every.max(1)).collect();
+    let error = compare(&images, &file, material, &pairs, &Bars::new())
+        .ok_or_else(|| bad_request("structural similarity needs images of 11 × 11 pixels at least"))?;
+    if args.json {
+        say!("{:#}", to_json(&error, &file, &images, bytes.len()));
+    } else {
+        print(args, &error, &file, &images, bytes.len());
+    }
+    if let Some(folder) = &args.images {
+        pictures(folder, &images, &file, material)?;
+        if !args.json {
+            say!("pictures (original, file, {MAGNIFIED} × difference) in {}", folder.display());
+        }
+    }
+    Ok(())
+}
+
+/// The number of the material that is asked for, by name or number; the only one if none is.
+fn material_of(args: &Args, file: &Btf<'_>) -> anyhow::Result<usize> {
+    let names: Vec<String> = file.materials().map(|material: Material| material.name().to_owned()).collect();
+    let Some(asked) = &args.material else {
+        let folder = args.capture.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let named = names.iter().position(|name| Some(name) == folder.as_ref());
+        return named
+            .or((names.len() == 1).then_some(0))
+            .ok_or_else(|| bad_request(format!("--material is needed: the file has {}", names.join(", "))));
+    };
+    let number = names.iter().position(|name| name == asked);
+    let number = number.or_else(|| asked.parse().ok().filter(|number| *number < names.len()));
+    number.ok_or_else(|| bad_request(format!("no material {asked}: the file has {}", names.join(", "))))
+}
+
+fn to_json(error: &BtfError, file: &Btf<'_>, images: &Images, bytes: usize) -> Value {
+    let [luma, cr, cb] = error.mssim;
+    let books: Vec<Value> = books(file)
+        .iter()
+        .map(|book| json!({ "name": book.name, "entries": book.entries, "items": book.items, "bits": book.bits }))
+        .collect();
+    json!({
+        "mssim": { "y": luma, "cr": cr, "cb": cb, "mean": error.mean_mssim() }, "psnr_db": error.psnr_db,
+        "pairs": error.pairs, "bytes": bytes, "raw_bytes": images.bytes(), "codebooks": books,
+    })
+}
+
+fn print(args: &Args, error: &BtfError, file: &Btf<'_>, images: &Images, bytes: usize) {
+    let [luma, cr, cb] = error.mssim;
+    say!("{} against {}", args.file.display(), args.capture.display());
+    #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
+    let ratio = images.bytes() as f64 / bytes as f64;
+    say!("  {} of {}: 1:{ratio:.0}", human(bytes as u64), human(images.bytes()));
+    say!("  MSSIM {:.4} (Y {luma:.4}, Cr {cr:.4}, Cb {cb:.4}) over {} pairs", error.mean_mssim(), error.pairs);
+    say!("  PSNR  {:.1} dB", error.psnr_db);
+    for book in books(file) {
+        say!("  {book}");
+    }
+}
+
+fn pictures(folder: &Path, images: &Images, file: &Btf<'_>, material: usize) -> anyhow::Result<()> {
+    std::fs::create_dir_all(folder)
+        .map_err(|error| bad_request(format!("{}: cannot make the folder: {error}", folder.display())))?;
+    let [width, _] = images.size();
+    let tone = file.header().tone;
+    // Linear images are shown at an exposure that makes their mean a middle grey.
+    let exposure = match tone {
+        subsurf_decoder::btf::Tone::Display { .. } => None,
+        subsurf_decoder::btf::Tone::LogLuv { toe, .. } => Some(0.01 / toe),
+    };
+    let mut rows = Vec::new();
+    for share in PICTURED {
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            clippy::cast_precision_loss,
+            reason = "a pair"
+        )]
+        let pair = (share * images.pairs() as f64) as usize;
+        let mut original = vec![[0.0; 3]; images.texels()];
+        images.each(pair, |texel, rgb| original[texel] = rgb);
+        let decoded = decode(images, file, material, pair);
+        let difference: Vec<[f32; 3]> =
+            original.iter().zip(&decoded).map(|(a, b)| [0, 1, 2].map(|c| MAGNIFIED * (a[c] - b[c]).abs())).collect();
+        rows.push(vec![
+            display(&original, width, exposure),
+            display(&decoded, width, exposure),
+            display(&difference, width, exposure),
+        ]);
+    }
+    write_png(&folder.join("comparison.png"), &montage(&rows))
+}

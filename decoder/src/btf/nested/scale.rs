@@ -1,0 +1,77 @@
+//! Scales: powers of two in steps of 1/64 octaves, with a sign in some stages.
+
+use crate::btf::layout::STEPS_PER_OCTAVE;
+
+/// Bits of the f32 values 2^(k/64).
+static MANTISSAS: [u32; STEPS_PER_OCTAVE as usize] = mantissas();
+
+#[allow(clippy::cast_possible_truncation, reason = "from 1 to 2")]
+#[allow(clippy::indexing_slicing, clippy::arithmetic_side_effects, reason = "evaluated by the compiler")]
+const fn mantissas() -> [u32; STEPS_PER_OCTAVE as usize] {
+    let mut table = [0; STEPS_PER_OCTAVE as usize];
+    let (mut power, mut k) = (1.0_f64, 0);
+    while k < table.len() {
+        table[k] = (power as f32).to_bits();
+        // 2^(1/64)
+        power *= 1.010_889_286_051_700_5;
+        k += 1;
+    }
+    table
+}
+
+/// A scale: exponent in 1/64 octaves, and the sign in the highest bit.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Scale {
+    pub(super) exponent: i32,
+    pub(super) sign: u32,
+}
+
+impl Scale {
+    /// The product of two.
+    #[inline]
+    pub(super) fn times(self, other: Self) -> Self {
+        Self { exponent: self.exponent.wrapping_add(other.exponent), sign: self.sign ^ other.sign }
+    }
+
+    /// ±2^(exponent / 64). Products of a checked file are within 2^±104, and normal.
+    #[inline]
+    pub(super) fn value(self) -> f32 {
+        let mantissa = MANTISSAS.get((self.exponent & 63) as usize).copied().unwrap_or(0);
+        let octaves = (self.exponent >> 6).wrapping_shl(23).cast_unsigned();
+        f32::from_bits(mantissa.wrapping_add(octaves) ^ self.sign)
+    }
+
+    /// For [`near`].
+    #[inline]
+    pub(super) fn near_bits(self) -> u32 {
+        self.exponent.wrapping_shl(NEAR).cast_unsigned()
+    }
+}
+
+/// Bits of an f32 below an exponent in 1/64 octaves.
+pub(super) const NEAR: u32 = f32::MANTISSA_DIGITS - 1 - 6;
+
+/// What lies on straight lines between powers of two: 2^(exponent / 64), up to 6.2 % more. Exponents have been shifted to
+/// where f32 have them, and added up.
+#[inline]
+pub(super) fn near(bits: u32) -> f32 {
+    f32::from_bits(bits.wrapping_add(1.0_f32.to_bits()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_are_powers_of_two() {
+        for exponent in [-6144_i16, -640, -65, -64, -1, 0, 1, 63, 64, 100, 6144] {
+            let expected = libm::exp2f(f32::from(exponent) / 64.0);
+            for (sign, factor) in [(0, 1.0), (1 << 31, -1.0)] {
+                let value = Scale { exponent: exponent.into(), sign }.value() * factor;
+                assert!((value / expected - 1.0).abs() < 1e-6, "{exponent}: {value} {expected}");
+            }
+            let near = near(Scale { exponent: exponent.into(), sign: 0 }.near_bits()) / expected;
+            assert!((0.999_999..1.062).contains(&near), "{exponent}: {near}");
+        }
+    }
+}
