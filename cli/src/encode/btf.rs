@@ -102,7 +102,7 @@ fn grid(images: &Images, nodes: &[u8]) -> anyhow::Result<Grid> {
         alpha_max: light_max,
         sin_beta_max: light_max.sin(),
         theta_max,
-        cos_light_min: light_max.cos().max(0.0).min(0.999),
+        cos_light_min: light_max.cos().clamp(0.0, 0.999),
     })
 }
 

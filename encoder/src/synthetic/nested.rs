@@ -115,9 +115,10 @@ impl NestedShape {
         let scales = [middle, 0, 0, 0];
         let scales = scales.map(|middle| Scales { bits: self.scale_bits, step, offset: middle - last / 2 });
         let mut items = |entries: u32, nodes: u8, len: u32| {
-            // The middle half of the codes.
-            let (all, sign) = (1 << bits, u32::from(is_signed) << bits);
-            let code = |numbers: &mut Numbers| all / 4 + numbers.below(all / 2 + 1).min(all - 1 - all / 4);
+            // The middle half of the codes, at most an octave up and down.
+            let (all, sign) = (1_u32 << bits, u32::from(is_signed) << bits);
+            let reach = (all / 4).min(64 >> step);
+            let code = |numbers: &mut Numbers| (all / 2 - reach + numbers.below(2 * reach + 1)).min(all - 1);
             let item = |_| Item {
                 index: numbers.below(len),
                 code: code(numbers) | if numbers.below(2) == 1 { sign } else { 0 },

@@ -50,7 +50,8 @@ impl<'a> Functions<'a> {
         let chunk = |start: &usize| {
             let group = |column: usize| start + column / 3;
             let columns = 3 * CHUNK.min(count - start);
-            let values = DMatrix::from_fn(pairs, columns, |pair, column| measured[pair * count + group(column)][column % 3]);
+            let values =
+                DMatrix::from_fn(pairs, columns, |pair, column| measured[pair * count + group(column)][column % 3]);
             let tables = self.resampler.fit_all(&values);
             let function = |k: usize| self.function([0, 1, 2].map(|c| tables.column(3 * k + c).as_slice().to_vec()));
             (0..columns / 3).map(function).collect::<Vec<_>>()

@@ -187,9 +187,8 @@ impl<'a> Pruning<'a> {
 
     /// A colour as an entry of C.
     fn insert_colour(&mut self, colour: [f32; 2]) -> u32 {
-        let score = |k: usize, bound: f32, tally: &mut Tally| {
-            self.measure.colours(colour, self.books.colours[k], bound, tally)
-        };
+        let score =
+            |k: usize, bound: f32, tally: &mut Tally| self.measure.colours(colour, self.books.colours[k], bound, tally);
         nearest(self.books.colours.len(), self.allowed.colours, score)
             .map_or_else(|| self.books.push_colour(colour), entry)
     }
