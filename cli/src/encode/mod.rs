@@ -35,7 +35,7 @@ pub(crate) struct Args {
     #[command(subcommand)]
     other: Option<Other>,
     #[command(flatten)]
-    capture: Option<CaptureFit>,
+    capture: CaptureFit,
 }
 
 /// What is encoded but captures.
@@ -47,7 +47,8 @@ enum Other {
 #[derive(clap::Args)]
 struct CaptureFit {
     /// The capture: a .npy array of shape (height, width, D, D, 3) of Rd in mm⁻², and its sidecar .json with the pixel pitch
-    capture: PathBuf,
+    #[arg(required = true)]
+    capture: Option<PathBuf>,
     /// The .subsurf file to write; NAME.subsurf beside the capture if not given
     #[arg(long, short)]
     output: Option<PathBuf>,
@@ -138,9 +139,9 @@ impl From<MethodArg> for Method {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    match (&args.other, &args.capture) {
+    match (&args.other, &args.capture.capture) {
         (Some(Other::Btf(args)), _) => btf::run(args),
-        (None, Some(args)) => encode_capture(args),
+        (None, Some(path)) => encode_capture(path, &args.capture),
         (None, None) => Err(bad_request("what is to be encoded? Give a capture, or `btf` and its images")),
     }
 }
@@ -153,14 +154,14 @@ fn set_threads(threads: usize) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn encode_capture(args: &CaptureFit) -> anyhow::Result<()> {
+fn encode_capture(path: &Path, args: &CaptureFit) -> anyhow::Result<()> {
     if let Some(threads) = args.threads {
         set_threads(threads)?;
     }
-    let capture = Capture::open(&args.capture, &args.facts.overrides())?;
-    let output = args.output.clone().unwrap_or_else(|| args.capture.with_extension("subsurf"));
+    let capture = Capture::open(path, &args.facts.overrides())?;
+    let output = args.output.clone().unwrap_or_else(|| path.with_extension("subsurf"));
     check_target(&output)?;
-    for input in [args.capture.clone(), sidecar_path(&args.capture)] {
+    for input in [path.to_owned(), sidecar_path(path)] {
         if is_same_file(&output, &input) {
             return Err(bad_request(format!("{}: would overwrite {}", output.display(), input.display())));
         }
