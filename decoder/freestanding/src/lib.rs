@@ -7,7 +7,7 @@
 use core::panic::PanicInfo;
 use subsurf_decoder::bssrdf::Model;
 use subsurf_decoder::container::Crc;
-use subsurf_decoder::{Bssrdf, ReadError};
+use subsurf_decoder::{Bssrdf, Btf, ReadError};
 
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
@@ -30,9 +30,23 @@ pub struct Probe {
     log_profile: [f32; 3],
     /// Sum over all planes, so that their accessors are linked.
     sum: f32,
+    /// Material, mipmap level and coordinates of a texel of a BTF.
+    material: usize,
+    level: u8,
+    texel: [i32; 2],
+    /// Unit vectors towards light and eye, and two random numbers.
+    light: [f32; 3],
+    view: [f32; 3],
+    random: [f32; 2],
+    /// Results: the texel's value, linear too, its albedo, a light that was drawn and both lights' densities.
+    value: [f32; 3],
+    linear: [f32; 3],
+    btf_albedo: [f32; 3],
+    drawn: [f32; 3],
+    pdfs: [f32; 2],
 }
 
-/// Parses `file` and calls every accessor; false if the file was refused.
+/// Parses `file` as a BSSRDF or as a BTF and calls every accessor; false if the file was refused.
 ///
 /// # Safety
 /// `file` must point to `len` readable bytes.
@@ -49,6 +63,10 @@ fn decode(file: &[u8], probe: &mut Probe) -> Result<(), ReadError> {
         probe.sum = f32::from(file[probe.x_i[0] as usize]);
     }
     let crc = if probe.check_crc { Crc::Check } else { Crc::Skip };
+    if let Ok(btf) = Btf::parse_with(file, crc) {
+        look_at(&btf, probe);
+        return Ok(());
+    }
     let material = Bssrdf::parse_with(file, crc)?;
     probe.rd = material.rd(probe.x_i, probe.x_o);
     probe.albedo = material.albedo(probe.x_i);
@@ -63,4 +81,22 @@ fn decode(file: &[u8], probe: &mut Probe) -> Result<(), ReadError> {
         Model::PerPixel(planes) => planes.profiles.iter().sum(),
     };
     Ok(())
+}
+
+/// Every accessor of a BTF.
+fn look_at(btf: &Btf<'_>, probe: &mut Probe) {
+    probe.sum =
+        btf.materials().map(|material| material.name().len() as f32 + material.size(probe.level)[0] as f32).sum();
+    let Some(texel) = btf.texel(probe.material, probe.level, probe.texel) else { return };
+    probe.value = btf.eval(texel, probe.light, probe.view);
+    probe.linear = btf.header().tone.linear(probe.value);
+    probe.sum += btf.header().tone.encode(probe.linear)[0];
+    let view = btf.grid().view(probe.view);
+    let prepared = btf.eval_for(texel, probe.light, &view);
+    probe.sum += prepared[0] + f32::from(btf.nested().books().chroma.is_relative);
+    probe.btf_albedo = btf.albedo(texel, probe.view);
+    let sample = btf.sample(texel, probe.view, probe.random);
+    probe.drawn = sample.light;
+    let sampler = btf.sampler(texel, &view);
+    probe.pdfs = [sampler.sample(probe.random).pdf, sampler.pdf(probe.light) + btf.pdf(texel, probe.drawn, probe.view)];
 }

@@ -238,7 +238,7 @@ impl Azimuth {
     fn of([x, y, _]: [f32; 3]) -> Self {
         let sin_theta = sqrt(x * x + y * y);
         // Straight above, and where it is no number, the azimuth is 0.
-        if sin_theta > 1e-6 {
+        if sin_theta > 1e-6 && sin_theta.is_finite() {
             Self { x, y, length: sin_theta, sin_theta }
         } else {
             Self { x: 1.0, y: 0.0, length: 1.0, sin_theta }

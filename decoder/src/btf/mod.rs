@@ -1,4 +1,5 @@
-//! Bidirectional texture functions: what a rough surface looks like from every side, under light from every side.
+//! Bidirectional texture functions (`FORMAT.md`, section 4): what a rough surface looks like from every side, under light
+//! from every side.
 
 mod albedo;
 mod angle;
