@@ -159,7 +159,8 @@ impl Grid {
         let [_, _, z] = view;
         let Azimuth { x, y, length, sin_theta } = Azimuth::of(view);
         let (phi, theta) = self.view_places(atan2(y, x), atan2(sin_theta, z));
-        View { phi, theta, azimuth: [x / length, y / length] }
+        let per_length = 1.0 / length;
+        View { phi, theta, azimuth: [x * per_length, y * per_length] }
     }
 
     /// Where a light falls, a unit vector too, for one view.

@@ -17,6 +17,8 @@ pub struct Btf<'a> {
     header: Header,
     materials: &'a [[u8; MATERIAL_BYTES]],
     nested: Nested<'a>,
+    /// Of the tone.
+    octaves: f32,
 }
 
 impl<'a> Btf<'a> {
@@ -50,7 +52,7 @@ impl<'a> Btf<'a> {
                 return Err(ReadError::BadField { section: Section::BtfHeader, offset: start, value: 2 });
             }
         };
-        Ok(Self { header, materials, nested })
+        Ok(Self { header, materials, nested, octaves: header.tone.octaves() })
     }
 
     /// What the file says of itself.
@@ -94,7 +96,7 @@ impl<'a> Btf<'a> {
     pub fn eval_cell(&self, texel: Texel, cell: &Cell) -> [f32; 3] {
         let Texel(texel) = texel;
         let [y, a, b] = self.nested.channels(texel, cell);
-        self.header.tone.decode([y, a, b]).map(|value| value * cell.fade)
+        self.header.tone.decode_in(self.octaves, [y, a, b]).map(|value| value * cell.fade)
     }
 
     /// [`Self::eval_cell`] for a light and a prepared view.

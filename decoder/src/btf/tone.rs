@@ -46,19 +46,33 @@ impl Tone {
                 let [kr, kb] = CHROMA;
                 [y, kr * (r - y), kb * (b - y)]
             }
-            Self::LogLuv { toe, peak } => {
+            Self::LogLuv { toe, .. } => {
                 let [x, y, z] = product(&XYZ_FROM_RGB, rgb.map(|value| value.max(0.0)));
                 let sum = x + 15.0 * y + 3.0 * z;
                 let [u, v] = if sum > 0.0 { [4.0 * x / sum, 9.0 * y / sum] } else { WHITE_UV };
-                [libm::log2f(1.0 + y / toe) / libm::log2f(1.0 + peak / toe), u, v]
+                [libm::log2f(1.0 + y / toe) / self.octaves(), u, v]
             }
+        }
+    }
+
+    /// log2(1 + peak / toe), which is worth keeping for many pixels; 0 of displays.
+    #[must_use]
+    pub(super) fn octaves(self) -> f32 {
+        match self {
+            Self::Display { .. } => 0.0,
+            Self::LogLuv { toe, peak } => libm::log2f(1.0 + peak / toe),
         }
     }
 
     /// The pixel as images have it: sRGB values 0 to 1, or linear ones from 0.
     #[must_use]
+    pub fn decode(self, channels: [f32; 3]) -> [f32; 3] {
+        self.decode_in(self.octaves(), channels)
+    }
+
+    /// [`Self::decode`] with [`Self::octaves`].
     #[inline]
-    pub fn decode(self, [y, a, b]: [f32; 3]) -> [f32; 3] {
+    pub(super) fn decode_in(self, octaves: f32, [y, a, b]: [f32; 3]) -> [f32; 3] {
         match self {
             Self::Display { .. } => {
                 const PER_CHROMA: [f32; 2] = [1.0 / CHROMA[0], 1.0 / CHROMA[1]];
@@ -67,8 +81,8 @@ impl Tone {
                 let (red, blue) = (y + a * per_a, y + b * per_b);
                 [red, (y - wr * red - wb * blue) * PER_GREEN, blue].map(|value| value.clamp(0.0, 1.0))
             }
-            Self::LogLuv { toe, peak } => {
-                let luminance = toe * (libm::exp2f(y.clamp(0.0, 2.0) * libm::log2f(1.0 + peak / toe)) - 1.0);
+            Self::LogLuv { toe, .. } => {
+                let luminance = toe * (libm::exp2f(y.clamp(0.0, 2.0) * octaves) - 1.0);
                 // Of colours, u' and v' are less than 0.63, and v' is above 0.
                 let (u, v) = (a.clamp(0.0, 1.0), b.clamp(0.01, 1.0));
                 let (x, z) = (2.25 * u / v, (3.0 - 0.75 * u) / v - 5.0);

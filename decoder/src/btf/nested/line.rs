@@ -20,6 +20,8 @@ pub(super) struct Line {
     per_length: f32,
     /// Length of the constant piece before the first node, and of that after the last.
     end: f32,
+    /// One by the length of the line.
+    even: f32,
     /// What is added to all values.
     floor: f32,
     /// Of the values and what is added, and one by that.
@@ -51,6 +53,7 @@ impl Line {
             step: 2.0 * max / pieces,
             per_length: pieces / (2.0 * max),
             end: half - max,
+            even: 0.5 / half,
             floor: 0.5 / half,
             integral: 1.0,
             per_integral: 1.0,
@@ -78,11 +81,10 @@ impl Line {
         let sum = ((a + b) + (c + d)) + rest.iter().sum::<f32>();
         let (first, last) = ends(nodes);
         let integral = self.step * (sum - 0.5 * (first + last)) + self.end * (first + last);
-        let length = self.step * (f32::from(self.count) - 1.0) + 2.0 * self.end;
+        const REST: f32 = 1.0 - ANYWHERE;
         // Nothing but zeros, as in a hostile file: all places are alike.
-        self.integral = if integral > 0.0 { integral * (1.0 / (1.0 - ANYWHERE)) } else { 1.0 };
-        self.per_integral = 1.0 / self.integral;
-        self.floor = (self.integral - integral.max(0.0)) / length;
+        let (all, floor) = if integral > 0.0 { (integral * (1.0 / REST), integral * (ANYWHERE / REST)) } else { (1.0, 1.0) };
+        (self.integral, self.per_integral, self.floor) = (all, 1.0 / all, floor * self.even);
     }
 
     #[inline]
