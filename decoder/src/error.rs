@@ -49,6 +49,16 @@ pub enum Section {
     Colours,
     /// `TINT`: tints of texels.
     Tints,
+    /// `FACT`: numbers and steps of factors.
+    Factors,
+    /// `AXES`: axes of views and of lights.
+    Axes,
+    /// `CORE`: the core between the axes.
+    Core,
+    /// `WORD`: codewords of texels.
+    Codewords,
+    /// `INDX`: indices of texels.
+    TexelIndices,
     /// A kind that this version does not know.
     Other([u8; 4]),
 }
@@ -75,6 +85,11 @@ impl Section {
             b"CHR1" => Self::ChromaSlices1,
             b"CHRC" => Self::Colours,
             b"TINT" => Self::Tints,
+            b"FACT" => Self::Factors,
+            b"AXES" => Self::Axes,
+            b"CORE" => Self::Core,
+            b"WORD" => Self::Codewords,
+            b"INDX" => Self::TexelIndices,
             [b'P', book @ (b'1'..=b'4' | b'6'), b'S', stage @ b'0'..=b'3'] => {
                 Self::Codebook { book: book.wrapping_sub(b'0'), stage: stage.wrapping_sub(b'0') }
             }
@@ -105,6 +120,11 @@ impl Section {
             Self::ChromaSlices1 => *b"CHR1",
             Self::Colours => *b"CHRC",
             Self::Tints => *b"TINT",
+            Self::Factors => *b"FACT",
+            Self::Axes => *b"AXES",
+            Self::Core => *b"CORE",
+            Self::Codewords => *b"WORD",
+            Self::TexelIndices => *b"INDX",
             Self::Other(kind) => kind,
         }
     }
@@ -132,6 +152,11 @@ impl fmt::Display for Section {
             Self::ChromaSlices1 => f.write_str("CHR1 (codebook I1)"),
             Self::Colours => f.write_str("CHRC (codebook C)"),
             Self::Tints => f.write_str("TINT (tints of texels)"),
+            Self::Factors => f.write_str("FACT (numbers and steps of factors)"),
+            Self::Axes => f.write_str("AXES (axes of views and lights)"),
+            Self::Core => f.write_str("CORE (core between axes)"),
+            Self::Codewords => f.write_str("WORD (codewords of texels)"),
+            Self::TexelIndices => f.write_str("INDX (indices of texels)"),
             Self::Other(kind) => write!(f, "{}", kind.escape_ascii()),
         }
     }

@@ -50,5 +50,5 @@ mod crc;
 mod error;
 
 pub use bssrdf::Bssrdf;
-pub use btf::Btf;
+pub use btf::{Btf, Evaluate, Factored};
 pub use error::{ReadError, Section};

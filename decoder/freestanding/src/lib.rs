@@ -7,7 +7,8 @@
 use core::panic::PanicInfo;
 use subsurf_decoder::bssrdf::Model;
 use subsurf_decoder::container::Crc;
-use subsurf_decoder::{Bssrdf, Btf, ReadError};
+use subsurf_decoder::{Bssrdf, Btf, Evaluate, Factored, ReadError};
+use subsurf_decoder::btf::factored::Buffers;
 
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
@@ -44,9 +45,13 @@ pub struct Probe {
     btf_albedo: [f32; 3],
     drawn: [f32; 3],
     pdfs: [f32; 2],
+    /// Room for factors that are small.
+    table: [i8; 4096],
+    words: [i16; 4096],
+    scratch: [f32; 512],
 }
 
-/// Parses `file` as a BSSRDF or as a BTF and calls every accessor; false if the file was refused.
+/// Parses `file` as a BSSRDF or as a BTF of either model and calls every accessor; false if the file was refused.
 ///
 /// # Safety
 /// `file` must point to `len` readable bytes.
@@ -65,6 +70,10 @@ fn decode(file: &[u8], probe: &mut Probe) -> Result<(), ReadError> {
     let crc = if probe.check_crc { Crc::Check } else { Crc::Skip };
     if let Ok(btf) = Btf::parse_with(file, crc) {
         look_at(&btf, probe);
+        return Ok(());
+    }
+    if let Ok(factored) = Factored::parse_with(file, crc) {
+        expand(&factored, probe);
         return Ok(());
     }
     let material = Bssrdf::parse_with(file, crc)?;
@@ -99,4 +108,14 @@ fn look_at(btf: &Btf<'_>, probe: &mut Probe) {
     probe.drawn = sample.light;
     let sampler = btf.sampler(texel, &view);
     probe.pdfs = [sampler.sample(probe.random).pdf, sampler.pdf(probe.light) + btf.pdf(texel, probe.drawn, probe.view)];
+}
+
+/// Expanded factors, and one value of them.
+fn expand(factored: &Factored<'_>, probe: &mut Probe) {
+    let Probe { table, words, scratch, .. } = probe;
+    let Some(expanded) = factored.expand(Buffers { table, words, scratch }) else { return };
+    let Some(texel) = expanded.catalog().texel(probe.material, probe.level, probe.texel) else { return };
+    let view = expanded.catalog().grid().view(probe.view);
+    probe.value = expanded.eval(texel, probe.light, probe.view);
+    probe.linear = expanded.eval_for(texel, probe.light, &view);
 }

@@ -1,8 +1,11 @@
-//! Bidirectional texture functions (`FORMAT.md`, section 4): what a rough surface looks like from every side, under light
-//! from every side.
+//! Bidirectional texture functions (`FORMAT.md`, sections 4 and 5): what a rough surface looks like from every side, under
+//! light from every side.
 
 mod albedo;
 mod angle;
+mod catalog;
+mod evaluate;
+pub mod factored;
 mod grid;
 pub mod layout;
 mod nested;
@@ -10,8 +13,11 @@ mod reader;
 mod sections;
 mod tone;
 
+pub use catalog::{Catalog, Texel};
+pub use evaluate::Evaluate;
+pub use factored::{Expanded, Factored};
 pub use grid::{Cell, Grid, Place, View};
 pub use layout::{Header, Material, Model};
 pub use nested::{Nested, Sample, Sampler};
-pub use reader::{Btf, Texel};
+pub use reader::Btf;
 pub use tone::{CHROMA, LUMA, Tone};

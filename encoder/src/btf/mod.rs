@@ -1,6 +1,8 @@
 //! Bidirectional texture functions: what a rough surface looks like from every side, under light from every side.
 
+pub mod baseline;
 mod directions;
+pub mod factored;
 mod folder;
 mod images;
 mod merl;

@@ -1,7 +1,7 @@
 //! How far a file is from the images of a BTF.
 
 use rayon::prelude::*;
-use subsurf_decoder::btf::{Btf, Tone};
+use subsurf_decoder::btf::{Evaluate, Tone};
 
 use super::image::ssim_of_planes;
 use crate::btf::Images;
@@ -34,9 +34,22 @@ impl BtfError {
 #[must_use]
 pub fn compare(
     images: &Images,
-    file: &Btf<'_>,
+    file: &(impl Evaluate + Sync),
     material: usize,
     pairs: &[usize],
+    progress: &impl Progress,
+) -> Option<BtfError> {
+    let tone = file.catalog().header().tone;
+    compare_images(images, tone, pairs, |pair| decode(images, file, material, pair), progress)
+}
+
+/// [`compare`] with images that come from anywhere, whose channels are of this tone.
+#[must_use]
+pub fn compare_images(
+    images: &Images,
+    tone: Tone,
+    pairs: &[usize],
+    decode: impl Fn(usize) -> Vec<[f32; 3]> + Sync,
     progress: &impl Progress,
 ) -> Option<BtfError> {
     progress.begin("comparing", pairs.len() as u64);
@@ -44,8 +57,7 @@ pub fn compare(
     let each: Vec<([f64; 3], f64)> = pairs
         .par_iter()
         .map(|pair| {
-            let decoded = decode(images, file, material, *pair);
-            let found = of_pair(images, &decoded, *pair, file.header().tone, width);
+            let found = of_pair(images, &decode(*pair), *pair, tone, width);
             progress.advance(1);
             found
         })
@@ -64,12 +76,13 @@ pub fn compare(
 /// # Panics
 /// If the file has no such material.
 #[must_use]
-pub fn decode(images: &Images, file: &Btf<'_>, material: usize, pair: usize) -> Vec<[f32; 3]> {
+pub fn decode(images: &Images, file: &impl Evaluate, material: usize, pair: usize) -> Vec<[f32; 3]> {
     let (lights, views) = (images.lights(), images.views());
     let (light, view) = (lights[pair / views.len()], views[pair % views.len()]);
-    let cell = file.grid().cell(light.to_array(), &file.grid().view(view.to_array()));
+    let grid = file.catalog().grid();
+    let cell = grid.cell(light.to_array(), &grid.view(view.to_array()));
     let [width, height] = images.size().map(|side| i32::try_from(side).expect("images are below 65,536 pixels wide"));
-    let place = |k: i32| file.texel(material, 0, [k % width, k / width]).expect("the material is there");
+    let place = |k: i32| file.catalog().texel(material, 0, [k % width, k / width]).expect("the material is there");
     // Texels of a level follow each other.
     (0..width * height).map(|k| file.eval_cell(place(k), &cell)).collect()
 }

@@ -1,0 +1,125 @@
+//! How many of everything a file of factors has.
+
+use subsurf_decoder::btf::factored::layout::{MAX_CHROMA, MAX_LUMA, MAX_STAGES};
+
+use super::angles::CoreSize;
+use super::encode::{Prepared, positive};
+use super::texels::StageSize;
+use crate::error::{Error, Result};
+use crate::progress::Progress;
+
+/// Numbers and steps of one file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sizes {
+    /// Most components of luma, 1 to 128.
+    pub luma: usize,
+    /// Most components of chroma beyond what follows luma, 0 to 32.
+    pub chroma: usize,
+    /// Stages of codewords of texels, 1 to 32.
+    pub stages: Vec<StageSize>,
+    /// Most axes of views and of lights, 1 to 255 each.
+    pub axes: [usize; 2],
+    /// Of the core between the axes.
+    pub core: CoreSize,
+    /// Step of codewords, in units of the survey.
+    pub word_step: f32,
+}
+
+/// Shares of a file: a byte per texel and stage, the core, and the axes. What is left is for codewords.
+const OF_INDICES: f64 = 0.42;
+/// See [`OF_INDICES`].
+const OF_CORE: f64 = 0.23;
+/// See [`OF_INDICES`].
+const OF_AXES: f64 = 0.07;
+/// Bytes that a number of a codeword takes, about.
+const OF_WORD: f64 = 0.3;
+/// Step of codewords in units of the survey: finer ones would cost more than they gain.
+const WORD_STEP: f32 = 0.1;
+/// Bytes of a file that may be left over.
+const SLACK: f64 = 0.01;
+/// Files that [`Prepared::encode_to`] tries.
+const TRIES: usize = 4;
+
+impl Sizes {
+    /// Sizes of a file of about so many bytes, found on simulated materials of 128 × 128 texels at 1:500 to 1:2000.
+    #[must_use]
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    pub fn for_bytes(bytes: usize, texels: usize, nodes: [usize; 2]) -> Self {
+        let of = |share: f64| share * bytes as f64;
+        let stages = (of(OF_INDICES) / texels.max(1) as f64).round().clamp(1.0, MAX_STAGES as f64);
+        let left = of(1.0 - OF_CORE - OF_AXES) - stages * texels as f64;
+        let coefficients = left.max(0.0) / (256.0 * stages * OF_WORD);
+        let chroma = (0.14 * coefficients).round().clamp(1.0, 16.0);
+        let luma = (coefficients - 2.0 - chroma).round().clamp(4.0, f64::from(MAX_LUMA)) as usize;
+        let axes = (of(OF_AXES) / (nodes[0] + nodes[1]).max(1) as f64).round().clamp(4.0, 255.0) as usize;
+        let stage = StageSize { words: 256, count: 2 + chroma as usize + luma };
+        Self {
+            luma,
+            chroma: chroma as usize,
+            stages: vec![stage; stages as usize],
+            axes: [axes; 2],
+            core: CoreSize::Bytes(of(OF_CORE) as usize),
+            word_step: WORD_STEP,
+        }
+    }
+
+    pub(super) fn check(&self) -> Result<()> {
+        let (luma, chroma) = (usize::from(MAX_LUMA), usize::from(MAX_CHROMA));
+        let ranges = [
+            ("components of luma", self.luma, 1, luma),
+            ("components of chroma", self.chroma, 0, chroma),
+            ("stages of codewords", self.stages.len(), 1, MAX_STAGES),
+            ("axes of views", self.axes[0], 1, 255),
+            ("axes of lights", self.axes[1], 1, 255),
+        ];
+        for (what, number, least, most) in ranges {
+            if !(least..=most).contains(&number) {
+                return Err(Error::Request(format!("{number} {what}; {least} to {most} are possible")));
+            }
+        }
+        if let CoreSize::Step(step) = self.core {
+            positive("step of the core", step)?;
+        }
+        positive("step of codewords", self.word_step)
+    }
+}
+
+impl Prepared<'_> {
+    /// Builds a file of at most so many bytes, a few times where its parts turn out larger or smaller than usual; says
+    /// what it has.
+    ///
+    /// # Errors
+    /// As [`Self::encode`]; [`Error::Request`] if no file is that small.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of a number of bytes")]
+    pub fn encode_to(&self, bytes: usize, progress: &impl Progress) -> Result<(Vec<u8>, Sizes)> {
+        let mut sizes = Sizes::for_bytes(bytes, self.texels(), self.nodes());
+        let mut best: Option<(Vec<u8>, Sizes)> = None;
+        let mut least = usize::MAX;
+        for _ in 0..TRIES {
+            let file = self.encode(&sizes, progress)?;
+            least = least.min(file.len());
+            let CoreSize::Bytes(core) = sizes.core else { break };
+            let off = file.len() as f64 - bytes as f64;
+            let is_near = off <= 0.0 && -off <= SLACK * bytes as f64;
+            let is_better = off <= 0.0 && best.as_ref().is_none_or(|(best, _)| best.len() < file.len());
+            if is_better {
+                best = Some((file, sizes.clone()));
+            }
+            if is_near || progress.stopped() {
+                break;
+            }
+            // The core takes what is left, or gives up what is missing; components go before it is too coarse.
+            let usual = OF_CORE * bytes as f64;
+            let wanted = core as f64 - off - 0.3 * SLACK * bytes as f64;
+            if wanted < 0.5 * usual {
+                let fewer =
+                    (sizes.luma as f64 * (1.0 - (usual - wanted) / (0.5 * bytes as f64)).clamp(0.3, 0.95)) as usize;
+                sizes.luma = fewer.max(2);
+                let count = 2 + sizes.chroma + sizes.luma;
+                sizes.stages.iter_mut().for_each(|stage| stage.count = count);
+            }
+            sizes.core = CoreSize::Bytes(wanted.clamp(0.5 * usual, 2.5 * usual) as usize);
+        }
+        best.ok_or_else(|| Error::Request(format!("no file of factors is that small; this one takes {least} bytes")))
+    }
+}

@@ -1,0 +1,4 @@
+//! Files from random factors, and from images.
+
+mod file;
+mod images;

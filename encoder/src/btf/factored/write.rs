@@ -1,0 +1,91 @@
+//! The file of factors, through the decoder's own layout.
+
+use nalgebra::DMatrix;
+use subsurf_decoder::Section;
+use subsurf_decoder::btf::factored::layout::{MAX_STAGES, Shape, Stage};
+use subsurf_decoder::btf::factored::model::{Numbers, code_core, code_words};
+use subsurf_decoder::btf::{Header, Material};
+
+use super::angles::Tucker;
+use super::coder::Encoder;
+use super::texels::Quantised;
+use crate::container;
+
+/// All of a file.
+pub(super) struct Contents<'a> {
+    pub(super) header: Header,
+    pub(super) materials: &'a [Material],
+    /// Components of luma and of chroma.
+    pub(super) components: [usize; 2],
+    pub(super) tucker: &'a Tucker,
+    pub(super) texels: &'a Quantised,
+    /// ρ of a step of its coefficients.
+    pub(super) ratio_steps: [f32; 2],
+    /// Value of a step of a coefficient times a step of a table, by columns.
+    pub(super) factors: &'a [f32],
+}
+
+fn byte(number: usize) -> u8 {
+    u8::try_from(number).expect("options were checked")
+}
+
+impl Contents<'_> {
+    pub(super) fn to_bytes(&self) -> Vec<u8> {
+        let mut stages = [Stage::default(); MAX_STAGES];
+        for (stage, words) in stages.iter_mut().zip(&self.texels.words) {
+            *stage = Stage {
+                words: u16::try_from(words.ncols()).expect("at most 256"),
+                first: 0,
+                count: byte(words.nrows()),
+            };
+        }
+        let [view_scales, light_scales] = &self.tucker.scales;
+        let shape = Shape {
+            luma: byte(self.components[0]),
+            chroma: byte(self.components[1]),
+            view_axes: byte(view_scales.len()),
+            light_axes: byte(light_scales.len()),
+            stages,
+            count: byte(self.texels.words.len()),
+        };
+        // Steps of the core in steps of the table.
+        let core_steps: Vec<f32> =
+            self.tucker.core_steps.iter().zip(&self.tucker.steps).map(|(core, table)| core / table).collect();
+        let floats = [&self.ratio_steps[..], self.factors, &core_steps, view_scales, light_scales];
+        let factors: Vec<u8> =
+            shape.to_bytes().chain(floats.into_iter().flatten().flat_map(|value| value.to_le_bytes())).collect();
+        let axes: Vec<u8> = self.tucker.axes.iter().flatten().map(|value| value.to_le_bytes()[0]).collect();
+        let materials: Vec<u8> = self.materials.iter().flat_map(Material::to_bytes).collect();
+        let (core, words) = (core(&self.tucker.core, light_scales.len()), codewords(&self.texels.words));
+        container::write([
+            (Section::BtfHeader, &self.header.to_bytes()[..]),
+            (Section::Materials, &materials),
+            (Section::Factors, &factors),
+            (Section::Axes, &axes),
+            (Section::Core, &core),
+            (Section::Codewords, &words),
+            (Section::TexelIndices, &self.texels.indices),
+        ])
+    }
+}
+
+/// `CORE` of columns `[view axis][light axis]`.
+pub(super) fn core(columns: &[Vec<i32>], light_axes: usize) -> Vec<u8> {
+    let (mut coder, mut numbers) = (Encoder::new(), Numbers::default());
+    let mut usual = vec![0.0; columns.first().map_or(0, Vec::len)];
+    for column in columns {
+        let mut column: Vec<f32> = column.iter().map(|number| *number as f32).collect();
+        code_core(&mut coder, &mut numbers, light_axes, &mut column, &mut usual);
+    }
+    coder.finish()
+}
+
+fn codewords(stages: &[DMatrix<f32>]) -> Vec<u8> {
+    let mut coder = Encoder::new();
+    for words in stages {
+        #[allow(clippy::cast_possible_truncation, reason = "whole, at most 32,767")]
+        let mut numbers: Vec<i16> = words.iter().map(|number| *number as i16).collect();
+        code_words(&mut coder, words.nrows(), &mut numbers);
+    }
+    coder.finish()
+}
