@@ -3,15 +3,14 @@
 use std::path::Path;
 
 use serde_json::{Value, json};
-use subsurf_decoder::Btf;
-use subsurf_decoder::btf::Material;
+use subsurf_decoder::btf::{Catalog, Evaluate};
 use subsurf_encoder::btf::Images;
-use subsurf_encoder::metrics::btf::{BtfError, compare, decode};
+use subsurf_encoder::metrics::btf::{BtfError, compare, decode, with_file};
 
 use super::Args;
 use crate::encode::load_btf;
 use crate::failure::bad_request;
-use crate::info::{books, parse_btf, read_file};
+use crate::info::{Parts, read_error, read_file};
 use crate::memory::human;
 use crate::picture::{display, montage, write_png};
 use crate::progress::Bars;
@@ -24,10 +23,15 @@ const MAGNIFIED: f32 = 5.0;
 
 pub(super) fn run(args: &Args) -> anyhow::Result<()> {
     let bytes = read_file(&args.file)?;
-    let file = parse_btf(&args.file, &bytes)?;
+    let parts = Parts::of(&args.file, &bytes)?;
+    with_file(&bytes, |file| compare_with(args, file, &parts, bytes.len()))
+        .map_err(|error| read_error(&args.file, error))?
+}
+
+fn compare_with(args: &Args, file: &(dyn Evaluate + Sync), parts: &Parts, bytes: usize) -> anyhow::Result<()> {
     let images = load_btf(&args.capture)?;
-    let material = material_of(args, &file)?;
-    let of_file = file.materials().nth(material).map(|material| material.size(0));
+    let material = material_of(args, file.catalog())?;
+    let of_file = file.catalog().materials().nth(material).map(|material| material.size(0));
     if of_file != Some(images.size()) {
         let [width, height] = images.size();
         return Err(bad_request(format!(
@@ -36,15 +40,15 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
         )));
     }
     let pairs: Vec<usize> = (0..images.pairs()).step_by(args.every.max(1)).collect();
-    let error = compare(&images, &file, material, &pairs, &Bars::new())
+    let error = compare(&images, file, material, &pairs, &Bars::new())
         .ok_or_else(|| bad_request("structural similarity needs images of 11 × 11 pixels at least"))?;
     if args.json {
-        say!("{:#}", to_json(&error, &file, &images, bytes.len()));
+        say!("{:#}", to_json(&error, parts, &images, bytes));
     } else {
-        print(args, &error, &file, &images, bytes.len());
+        print(args, &error, parts, &images, bytes);
     }
     if let Some(folder) = &args.images {
-        pictures(folder, &images, &file, material)?;
+        pictures(folder, &images, file, material)?;
         if !args.json {
             say!("pictures (original, file, {MAGNIFIED} × difference) in {}", folder.display());
         }
@@ -53,8 +57,8 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 /// The number of the material that is asked for, by name or number; the only one if none is.
-fn material_of(args: &Args, file: &Btf<'_>) -> anyhow::Result<usize> {
-    let names: Vec<String> = file.materials().map(|material: Material| material.name().to_owned()).collect();
+fn material_of(args: &Args, file: &Catalog<'_>) -> anyhow::Result<usize> {
+    let names: Vec<String> = file.materials().map(|material| material.name().to_owned()).collect();
     let Some(asked) = &args.material else {
         let folder = args.capture.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let named = names.iter().position(|name| Some(name) == folder.as_ref());
@@ -67,19 +71,15 @@ fn material_of(args: &Args, file: &Btf<'_>) -> anyhow::Result<usize> {
     number.ok_or_else(|| bad_request(format!("no material {asked}: the file has {}", names.join(", "))))
 }
 
-fn to_json(error: &BtfError, file: &Btf<'_>, images: &Images, bytes: usize) -> Value {
+fn to_json(error: &BtfError, parts: &Parts, images: &Images, bytes: usize) -> Value {
     let [luma, cr, cb] = error.mssim;
-    let books: Vec<Value> = books(file)
-        .iter()
-        .map(|book| json!({ "name": book.name, "entries": book.entries, "items": book.items, "bits": book.bits }))
-        .collect();
     json!({
         "mssim": { "y": luma, "cr": cr, "cb": cb, "mean": error.mean_mssim() }, "psnr_db": error.psnr_db,
-        "pairs": error.pairs, "bytes": bytes, "raw_bytes": images.bytes(), "codebooks": books,
+        "pairs": error.pairs, "bytes": bytes, "raw_bytes": images.bytes(), "parts": parts.to_json(),
     })
 }
 
-fn print(args: &Args, error: &BtfError, file: &Btf<'_>, images: &Images, bytes: usize) {
+fn print(args: &Args, error: &BtfError, parts: &Parts, images: &Images, bytes: usize) {
     let [luma, cr, cb] = error.mssim;
     say!("{} against {}", args.file.display(), args.capture.display());
     #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
@@ -87,16 +87,14 @@ fn print(args: &Args, error: &BtfError, file: &Btf<'_>, images: &Images, bytes: 
     say!("  {} of {}: 1:{ratio:.0}", human(bytes as u64), human(images.bytes()));
     say!("  MSSIM {:.4} (Y {luma:.4}, Cr {cr:.4}, Cb {cb:.4}) over {} pairs", error.mean_mssim(), error.pairs);
     say!("  PSNR  {:.1} dB", error.psnr_db);
-    for book in books(file) {
-        say!("  {book}");
-    }
+    parts.print();
 }
 
-fn pictures(folder: &Path, images: &Images, file: &Btf<'_>, material: usize) -> anyhow::Result<()> {
+fn pictures(folder: &Path, images: &Images, file: &(dyn Evaluate + Sync), material: usize) -> anyhow::Result<()> {
     std::fs::create_dir_all(folder)
         .map_err(|error| bad_request(format!("{}: cannot make the folder: {error}", folder.display())))?;
     let [width, _] = images.size();
-    let tone = file.header().tone;
+    let tone = file.catalog().header().tone;
     // Linear images are shown at an exposure that makes their mean a middle grey.
     let exposure = match tone {
         subsurf_decoder::btf::Tone::Display { .. } => None,

@@ -1,11 +1,8 @@
-//! Sizes of codebooks for a quality or for a number of bytes: a walk along the rate-distortion curve.
-
-use subsurf_decoder::Btf;
+//! Sizes for a quality or for a number of bytes: a walk along the rate-distortion curve.
 
 use super::Images;
-use super::nested::{Prepared, Sizes};
 use crate::error::{Error, Result};
-use crate::metrics::btf::{BtfError, compare};
+use crate::metrics::btf::{BtfError, compare, with_file};
 use crate::progress::Progress;
 
 /// What a file has to reach.
@@ -20,8 +17,8 @@ pub enum Target {
 /// One file that was tried.
 #[derive(Clone, Debug)]
 pub struct Point {
-    /// Of its codebooks.
-    pub stages: Vec<Sizes>,
+    /// What was asked of the encoder.
+    pub name: String,
     /// The file.
     pub bytes: Vec<u8>,
     /// How far it is from the images, over a sample of pairs; the mean over materials.
@@ -31,66 +28,45 @@ pub struct Point {
 /// Files that were tried, by size, and the one to take.
 #[derive(Clone, Debug)]
 pub struct Walked {
-    /// Smallest codebooks first.
+    /// In the order of the ladder.
     pub points: Vec<Point>,
     /// Number of the best.
     pub best: usize,
 }
 
-/// Entries of P4 and stages, by the bytes they take. What gains more, larger codebooks or a second stage, depends on the
-/// material: smooth ones take to stages.
-const LADDER: [(usize, usize); 12] = [
-    (64, 1),
-    (128, 1),
-    (128, 2),
-    (256, 1),
-    (256, 2),
-    (512, 1),
-    (512, 2),
-    (1024, 1),
-    (1024, 2),
-    (2048, 1),
-    (2048, 2),
-    (4096, 1),
-];
 /// Every so many pairs are compared; prime, and thus of all lights and views.
 pub const PAIR_STEP: usize = 61;
 
-/// The codebooks of a number of stages, by the entries of P4.
-#[must_use]
-pub fn stages(p4: usize, count: usize) -> Vec<Sizes> {
-    vec![Sizes { p4, p3: 2 * p4, p2: 2 * p4, p1: (2 * p4).min(512) }; count]
-}
-
-/// Tries codebooks until the target is reached, or all that are small enough; hands each point to `said` as it comes.
+/// Encodes one rung of `ladder` after the other, smaller files first, until the target is reached, or all that are small
+/// enough; hands each point to `said` as it comes.
 ///
 /// # Errors
-/// As [`Prepared::encode`]; [`Error::Request`] if not even the smallest codebooks are small enough, or images are smaller
-/// than the window of structural similarity.
-pub fn walk(
+/// As `encode`; [`Error::Request`] if not even the first rungs are small enough, or images are smaller than the window of
+/// structural similarity.
+pub fn walk<S>(
     materials: &[Images],
-    prepared: &Prepared<'_>,
+    ladder: &[(String, S)],
     target: Target,
     progress: &impl Progress,
+    encode: impl Fn(&S) -> Result<Vec<u8>>,
     mut said: impl FnMut(&Point),
 ) -> Result<Walked> {
     let mut points: Vec<Point> = Vec::new();
     let mut too_large = Vec::new();
-    for (p4, count) in LADDER {
-        let stages = stages(p4, count);
-        let bytes = prepared.encode(&stages, progress)?.to_bytes();
+    for (name, sizes) in ladder {
+        let bytes = encode(sizes)?;
         if let Target::Bytes(limit) = target
             && bytes.len() as u64 > limit
         {
             too_large.push(bytes.len());
-            // Bytes grow along the ladder, but for two stages next to one.
+            // Bytes grow along the ladder, but now and then a rung is smaller than the one before.
             if too_large.len() == 2 {
                 break;
             }
             continue;
         }
         let error = judge(materials, &bytes, progress)?;
-        let point = Point { stages, bytes, error };
+        let point = Point { name: name.clone(), bytes, error };
         said(&point);
         points.push(point);
         let reached = matches!(target, Target::Ssim(least) if error.mean_mssim() >= least);
@@ -99,17 +75,16 @@ pub fn walk(
         }
     }
     let quality = |number: &usize| points[*number].error.mean_mssim();
+    let highest = (0..points.len()).max_by(|a, b| quality(a).total_cmp(&quality(b)));
     let best = match target {
-        Target::Bytes(_) => (0..points.len()).max_by(|a, b| quality(a).total_cmp(&quality(b))),
-        Target::Ssim(least) => (0..points.len())
-            .find(|number| quality(number) >= least)
-            .or_else(|| (0..points.len()).max_by(|a, b| quality(a).total_cmp(&quality(b)))),
+        Target::Bytes(_) => highest,
+        Target::Ssim(least) => (0..points.len()).find(|number| quality(number) >= least).or(highest),
     };
     match best {
         Some(best) => Ok(Walked { points, best }),
         None => {
             let least = too_large.into_iter().min().unwrap_or(0);
-            Err(Error::Request(format!("no codebooks are that small; the least take {least} bytes")))
+            Err(Error::Request(format!("no file is that small; the least takes {least} bytes")))
         }
     }
 }
@@ -122,11 +97,12 @@ pub fn walk(
 /// # Panics
 /// If the decoder refuses the file.
 pub fn judge(materials: &[Images], bytes: &[u8], progress: &impl Progress) -> Result<BtfError> {
-    let file = Btf::parse(bytes).expect("the decoder reads what was just written");
     let mut sum = BtfError { mssim: [0.0; 3], psnr_db: 0.0, pairs: 0 };
     for (number, images) in materials.iter().enumerate() {
         let pairs: Vec<usize> = (0..images.pairs()).step_by(PAIR_STEP).collect();
-        let error = compare(images, &file, number, &pairs, progress).ok_or_else(|| {
+        let error = with_file(bytes, |file| compare(images, file, number, &pairs, progress))
+            .expect("the decoder reads what was just written");
+        let error = error.ok_or_else(|| {
             Error::Request(format!("{}: images are smaller than 11 × 11 pixels; give sizes yourself", images.label()))
         })?;
         let share = 1.0 / materials.len() as f64;

@@ -1,10 +1,13 @@
 //! How far a file is from the images of a BTF.
 
 use rayon::prelude::*;
-use subsurf_decoder::btf::{Evaluate, Tone};
+use subsurf_decoder::btf::{Catalog, Evaluate, Model, Tone};
+use subsurf_decoder::container::Crc;
+use subsurf_decoder::{Btf, Factored, ReadError};
 
 use super::image::ssim_of_planes;
 use crate::btf::Images;
+use crate::btf::factored::{Memory, expanded};
 use crate::progress::Progress;
 
 /// Means over pairs of directions.
@@ -26,6 +29,20 @@ impl BtfError {
     }
 }
 
+/// Reads a BTF file of either model, and expands factors.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn with_file<R>(bytes: &[u8], then: impl FnOnce(&(dyn Evaluate + Sync)) -> R) -> Result<R, ReadError> {
+    match Catalog::parse(bytes, Crc::Check)?.header().model {
+        Model::Nested => Ok(then(&Btf::parse(bytes)?)),
+        Model::Factored => {
+            let mut memory = Memory::default();
+            Ok(then(&expanded(&Factored::parse(bytes)?, &mut memory)))
+        }
+    }
+}
+
 /// Compares images with the full-size level of a material at some pairs of directions; `None` for images smaller than
 /// the window of structural similarity. Channels are those of the file's tone, Cr and Cb around ½ as images store them.
 ///
@@ -34,7 +51,7 @@ impl BtfError {
 #[must_use]
 pub fn compare(
     images: &Images,
-    file: &(impl Evaluate + Sync),
+    file: &(impl Evaluate + Sync + ?Sized),
     material: usize,
     pairs: &[usize],
     progress: &impl Progress,
@@ -76,7 +93,7 @@ pub fn compare_images(
 /// # Panics
 /// If the file has no such material.
 #[must_use]
-pub fn decode(images: &Images, file: &impl Evaluate, material: usize, pair: usize) -> Vec<[f32; 3]> {
+pub fn decode(images: &Images, file: &(impl Evaluate + ?Sized), material: usize, pair: usize) -> Vec<[f32; 3]> {
     let (lights, views) = (images.lights(), images.views());
     let (light, view) = (lights[pair / views.len()], views[pair % views.len()]);
     let grid = file.catalog().grid();

@@ -25,6 +25,31 @@ pub struct Sizes {
     pub p1: usize,
 }
 
+impl Sizes {
+    /// Entries of P4 and stages, by the bytes they take. What gains more, larger codebooks or a second stage, depends on
+    /// the material: smooth ones take to stages.
+    pub const LADDER: [(usize, usize); 12] = [
+        (64, 1),
+        (128, 1),
+        (128, 2),
+        (256, 1),
+        (256, 2),
+        (512, 1),
+        (512, 2),
+        (1024, 1),
+        (1024, 2),
+        (2048, 1),
+        (2048, 2),
+        (4096, 1),
+    ];
+
+    /// The codebooks of a number of stages, by the entries of P4.
+    #[must_use]
+    pub fn stages(p4: usize, count: usize) -> Vec<Self> {
+        vec![Self { p4, p3: 2 * p4, p2: 2 * p4, p1: (2 * p4).min(512) }; count]
+    }
+}
+
 /// Of P6, P4, P3 and P2.
 const FINENESS: [Fineness; 4] = [Fineness { bits: 8, step: 1 }, FINE, FINE, FINE];
 /// Four octaves in steps of 1/32: coarser steps are seen as noise on smooth materials.

@@ -64,6 +64,17 @@ impl Allowed {
 }
 
 impl Similarity {
+    /// All thresholds so many times as large.
+    #[must_use]
+    pub fn times(self, factor: f32) -> Self {
+        match self {
+            Self::Mse { threshold, factor: of_levels } => {
+                Self::Mse { threshold: factor * threshold, factor: of_levels }
+            }
+            Self::Ssim(allowed) => Self::Ssim(allowed.times(factor)),
+        }
+    }
+
     pub(super) fn allowed(&self) -> Allowed {
         match *self {
             Self::Mse { threshold, factor } => {

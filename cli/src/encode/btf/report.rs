@@ -1,0 +1,72 @@
+//! What is said of a BTF that was encoded.
+
+use std::path::Path;
+
+use serde_json::json;
+use subsurf_encoder::btf::rate::Point;
+use subsurf_encoder::metrics::btf::BtfError;
+
+use super::methods::Made;
+use crate::memory::{human, resident};
+use crate::say::say;
+
+/// Facts about one run.
+pub(super) struct Report<'a> {
+    pub(super) output: &'a Path,
+    pub(super) made: &'a Made,
+    pub(super) raw_bytes: u64,
+    pub(super) seconds: f64,
+    pub(super) error: Option<BtfError>,
+}
+
+/// One file that was tried.
+pub(super) fn line(point: &Point) -> String {
+    let [luma, cr, cb] = point.error.mssim;
+    format!(
+        "  {:>8}  {:<14}  MSSIM {:.4} (Y {luma:.4}, Cr {cr:.4}, Cb {cb:.4})  PSNR {:.1} dB",
+        human(point.bytes.len() as u64),
+        point.name,
+        point.error.mean_mssim(),
+        point.error.psnr_db,
+    )
+}
+
+impl Report<'_> {
+    pub(super) fn json(&self) {
+        let of_error = |error: &BtfError| {
+            let [luma, cr, cb] = error.mssim;
+            json!({ "mssim": { "y": luma, "cr": cr, "cb": cb, "mean": error.mean_mssim() }, "psnr_db": error.psnr_db })
+        };
+        let points = self.made.walked.as_ref().map(|walked| {
+            let point = |(number, point): (usize, &Point)| {
+                let error = of_error(&point.error);
+                json!({ "chosen": number == walked.best, "sizes": point.name, "bytes": point.bytes.len(), "error": error })
+            };
+            walked.points.iter().enumerate().map(point).collect::<Vec<_>>()
+        });
+        let value = json!({
+            "file": self.output, "sizes": self.made.name, "bytes": self.made.bytes.len(), "raw_bytes": self.raw_bytes,
+            "error": self.error.as_ref().map(of_error), "curve": points, "seconds": self.seconds,
+            "peak_rss_bytes": resident().unwrap_or_default().peak,
+        });
+        say!("{value:#}");
+    }
+
+    pub(super) fn print(&self) {
+        let bytes = self.made.bytes.len();
+        #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
+        let ratio = self.raw_bytes as f64 / bytes as f64;
+        let (size, raw) = (human(bytes as u64), human(self.raw_bytes));
+        say!("{}: {size} from {raw}, 1:{ratio:.0}; {}", self.output.display(), self.made.name);
+        if let Some(error) = self.error {
+            let [luma, cr, cb] = error.mssim;
+            say!(
+                "  MSSIM {:.4} (Y {luma:.4}, Cr {cr:.4}, Cb {cb:.4}), PSNR {:.1} dB over {} pairs of directions",
+                error.mean_mssim(),
+                error.psnr_db,
+                error.pairs
+            );
+        }
+        say!("  {:.1} s, {} of memory", self.seconds, human(resident().unwrap_or_default().peak));
+    }
+}

@@ -1,0 +1,205 @@
+//! What BTF files of both models say of themselves.
+
+use std::path::Path;
+
+use anyhow::Context;
+use serde_json::{Value, json};
+use subsurf_decoder::bits::index_bits;
+use subsurf_decoder::btf::{Catalog, Model};
+use subsurf_decoder::container::{Container, Crc};
+use subsurf_decoder::{Btf, Factored, ReadError};
+
+use super::{Args, read_error};
+use crate::memory::human;
+use crate::say::say;
+
+pub(super) fn info(args: &Args, bytes: &[u8], container: &Container<'_>) -> anyhow::Result<()> {
+    let parts = Parts::of(&args.file, bytes)?;
+    let catalog = Catalog::parse(bytes, Crc::Skip).map_err(|error| read_error(&args.file, error))?;
+    let (header, grid) = (catalog.header(), catalog.grid());
+    let nodes = [grid.n_alpha, grid.n_beta, grid.n_theta, grid.n_phi];
+    if args.json {
+        let materials: Vec<_> = catalog
+            .materials()
+            .map(|of| json!({ "name": of.name(), "width": of.width, "height": of.height, "levels": of.levels }))
+            .collect();
+        let value = json!({
+            "model": parts.model(), "tone": format!("{:?}", header.tone), "nodes": nodes, "materials": materials,
+            "parts": parts.to_json(), "bytes": bytes.len(),
+        });
+        say!("{value:#}");
+        return Ok(());
+    }
+    say!("{}: BTF in {}, {}", args.file.display(), parts.model(), human(bytes.len() as u64));
+    for of in catalog.materials() {
+        let name = if of.name().is_empty() { "unnamed" } else { of.name() };
+        say!("  {name}: {} × {} texels, mipmap levels: {}", of.width, of.height, of.levels);
+    }
+    say!(
+        "  nodes of α, sin β, θ, φ: {nodes:?}, lights measured to {:.0}°, views to {:.0}°",
+        grid.cos_light_min.acos().to_degrees(),
+        grid.theta_max.to_degrees(),
+    );
+    say!("  {:?}", header.tone);
+    parts.print();
+    for entry in container.entries() {
+        say!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
+    }
+    Ok(())
+}
+
+/// What a file is made of.
+pub(crate) enum Parts {
+    /// Nested codebooks.
+    Books(Vec<BookSize>),
+    /// Factors.
+    Factors(FactorSizes),
+}
+
+/// Numbers of everything in a file of factors.
+pub(crate) struct FactorSizes {
+    luma: u8,
+    chroma: u8,
+    /// Codewords of every stage.
+    words: Vec<u16>,
+    view_axes: u8,
+    light_axes: u8,
+    /// Bytes that it takes to be evaluated.
+    expanded: usize,
+}
+
+impl Parts {
+    /// Checks all of a file.
+    pub(crate) fn of(path: &Path, bytes: &[u8]) -> anyhow::Result<Self> {
+        let parts = || -> Result<Self, ReadError> {
+            match Catalog::parse(bytes, Crc::Check)?.header().model {
+                Model::Nested => Ok(Self::Books(books(&Btf::parse(bytes)?))),
+                Model::Factored => {
+                    let file = Factored::parse(bytes)?;
+                    let shape = file.shape();
+                    Ok(Self::Factors(FactorSizes {
+                        luma: shape.luma,
+                        chroma: shape.chroma,
+                        words: shape.stages().iter().map(|stage| stage.words).collect(),
+                        view_axes: shape.view_axes,
+                        light_axes: shape.light_axes,
+                        expanded: file.table_len() + 2 * file.words_len(),
+                    }))
+                }
+            }
+        };
+        parts().map_err(|error| read_error(path, error)).context("not a usable BTF")
+    }
+
+    pub(crate) fn model(&self) -> &'static str {
+        match self {
+            Self::Books(_) => "nested codebooks",
+            Self::Factors(_) => "factors",
+        }
+    }
+
+    pub(crate) fn print(&self) {
+        match self {
+            Self::Books(books) => books.iter().for_each(|book| say!("  {book}")),
+            Self::Factors(FactorSizes { luma, chroma, words, view_axes, light_axes, expanded }) => {
+                say!("  components: {luma} of luma, {chroma} of chroma");
+                say!("  codewords of {} stages: {words:?}", words.len());
+                say!("  axes: {view_axes} of views, {light_axes} of lights");
+                say!("  expanded when loaded: {}", human(*expanded as u64));
+            }
+        }
+    }
+
+    pub(crate) fn to_json(&self) -> Value {
+        match self {
+            Self::Books(books) => {
+                let book = |book: &BookSize| json!({ "name": book.name, "entries": book.entries, "items": book.items, "bits": book.bits });
+                books.iter().map(book).collect()
+            }
+            Self::Factors(FactorSizes { luma, chroma, words, view_axes, light_axes, expanded }) => json!({
+                "luma": luma, "chroma": chroma, "codewords": words, "view_axes": view_axes, "light_axes": light_axes,
+                "expanded_bytes": expanded,
+            }),
+        }
+    }
+}
+
+/// A codebook of a BTF, and how many vectors it stands for.
+pub(crate) struct BookSize {
+    pub(crate) name: String,
+    pub(crate) entries: u32,
+    /// Items of an entry, and bits of an item.
+    pub(crate) items: u32,
+    pub(crate) bits: u32,
+    /// Vectors of its kind in the resampled data.
+    stands_for: u64,
+}
+
+impl std::fmt::Display for BookSize {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let bytes = u64::from(self.entries) * u64::from(self.items) * u64::from(self.bits) / 8;
+        write!(
+            f,
+            "{:<9} {:>7} entries of {:>2} × {:>2} bits, {:>9}",
+            self.name,
+            self.entries,
+            self.items,
+            self.bits,
+            human(bytes)
+        )?;
+        match self.stands_for.checked_div(self.entries.into()) {
+            Some(ratio) if ratio > 1 => write!(f, ", for {} vectors: 1:{ratio}", self.stands_for),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The codebooks of a file, from texels to colours.
+fn books(file: &Btf<'_>) -> Vec<BookSize> {
+    let (books, grid) = (file.nested().books(), file.grid());
+    let chroma = &books.chroma;
+    let texels: u64 = file.materials().map(|of| u64::from(of.texels(u8::MAX))).sum();
+    let [n_phi, n_theta, n_alpha, n_beta] = [grid.n_phi, grid.n_theta, grid.n_alpha, grid.n_beta].map(u32::from);
+    let mut sizes = Vec::new();
+    for (number, stage) in books.stages.iter().take(books.count).enumerate() {
+        let widths = stage.widths(number == 0, chroma);
+        let suffix = if books.count > 1 { format!(", stage {}", number + 1) } else { String::new() };
+        let mut stands_for = texels;
+        for (k, (name, items)) in [("P6", 1), ("P4", n_phi), ("P3", n_theta), ("P2", n_alpha)].iter().enumerate() {
+            sizes.push(BookSize {
+                name: format!("{name}{suffix}"),
+                entries: stage.books[k].entries,
+                items: *items,
+                // Codes of scales of P2 stand in bytes of their own.
+                bits: widths[k] + if k == 3 { 8 } else { 0 },
+                stands_for,
+            });
+            stands_for *= u64::from(if k == 0 { 1 } else { *items });
+        }
+        sizes.push(BookSize {
+            name: format!("P1{suffix}"),
+            entries: stage.slices,
+            items: n_beta + 1,
+            bits: 8,
+            stands_for,
+        });
+    }
+    let slices = texels * u64::from(n_phi) * u64::from(n_theta);
+    let p2_bits = index_bits(books.stages[0].books[3].entries);
+    let rows = [
+        ("M", chroma.merged, 1, p2_bits + index_bits(chroma.i2), slices),
+        ("I2", chroma.i2, n_alpha, index_bits(chroma.i1), slices),
+        ("I1", chroma.i1, n_beta, index_bits(chroma.colours), slices * u64::from(n_alpha)),
+        ("C", chroma.colours, 2, 8, slices * u64::from(n_alpha * n_beta)),
+        ("tints", chroma.tints, 2, 8, texels),
+    ];
+    let size = |(name, entries, items, bits, stands_for): (&str, u32, u32, u32, u64)| BookSize {
+        name: name.to_owned(),
+        entries,
+        items,
+        bits,
+        stands_for,
+    };
+    sizes.extend(rows.into_iter().map(size));
+    sizes
+}
