@@ -29,6 +29,11 @@ pub trait Source: Sync {
     /// # Errors
     /// If it cannot be read.
     fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>>;
+
+    /// Bytes of what was measured, if images are not it but are made from it.
+    fn raw_bytes(&self) -> Option<u64> {
+        None
+    }
 }
 
 impl Source for Folder {
@@ -99,6 +104,7 @@ pub struct Images {
     views: Vec<Vec3>,
     size: [u32; 2],
     tone: Tone,
+    raw_bytes: Option<u64>,
     /// `[light][view][pixel][rgb]`.
     pixels: Store,
 }
@@ -167,7 +173,7 @@ impl Images {
             let peak = f32::from_bits(peak.into_inner()).clamp(2.0 * toe, 1e6);
             (Store::Linear(halves), Tone::LogLuv { toe, peak })
         };
-        Ok(Self { label: source.label(), lights, views, size, tone, pixels })
+        Ok(Self { label: source.label(), lights, views, size, tone, raw_bytes: source.raw_bytes(), pixels })
     }
 
     /// What errors call them.
@@ -212,9 +218,12 @@ impl Images {
         self.lights.len() * self.views.len()
     }
 
-    /// Bytes of all images, as they are kept.
+    /// Bytes of all images, as they are kept, or of what they were made from.
     #[must_use]
     pub fn bytes(&self) -> u64 {
+        if let Some(bytes) = self.raw_bytes {
+            return bytes;
+        }
         match &self.pixels {
             Store::Display(bytes) => bytes.len() as u64,
             Store::Linear(halves) => 2 * halves.len() as u64,

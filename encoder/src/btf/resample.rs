@@ -22,6 +22,8 @@ pub struct Resampler {
     views: usize,
     /// Views with an azimuth, and the pole's once for every node of φ_v.
     rows: Vec<Row>,
+    /// Nodes of light from measured lights, for each azimuth of a view.
+    nodes_from_lights: Vec<DMatrix<f64>>,
     /// Nodes of view from rows.
     views_from_rows: DMatrix<f64>,
 }
@@ -29,9 +31,12 @@ pub struct Resampler {
 struct Row {
     /// The measured view.
     view: usize,
-    /// Nodes of light from measured lights.
-    nodes_from_lights: DMatrix<f64>,
+    /// Number of its azimuth.
+    azimuth: usize,
 }
+
+/// Azimuths closer than that, in turns, are one.
+const SAME_AZIMUTH: f32 = 1e-5;
 
 /// Four weighted nodes of a table, at most.
 type Weights = Vec<(usize, f64)>;
@@ -55,16 +60,6 @@ fn view_weights(grid: &Grid, view: &View) -> Weights {
     product(view.phi, view.theta, usize::from(grid.n_theta))
 }
 
-fn dense(rows: &[Weights], columns: usize) -> DMatrix<f64> {
-    let mut matrix = DMatrix::zeros(rows.len(), columns);
-    for (row, weights) in rows.iter().enumerate() {
-        for (column, weight) in weights {
-            matrix[(row, *column)] += weight;
-        }
-    }
-    matrix
-}
-
 /// Second differences along both axes of a table of `[first][second]` nodes; the first may be a ring.
 fn differences([first, second]: [usize; 2], is_ring: bool) -> Vec<Weights> {
     let at = |a: usize, b: usize| (a % first) * second + b;
@@ -81,11 +76,30 @@ fn differences([first, second]: [usize; 2], is_ring: bool) -> Vec<Weights> {
     rows
 }
 
+/// AᵀA of sparse rows.
+fn square(rows: &[Weights], columns: usize) -> DMatrix<f64> {
+    let mut sum = DMatrix::zeros(columns, columns);
+    for row in rows {
+        for (a, wa) in row {
+            for (b, wb) in row {
+                sum[(*a, *b)] += wa * wb;
+            }
+        }
+    }
+    sum
+}
+
 /// (WᵀW + λ DᵀD + ε I)⁻¹ Wᵀ.
-fn inverse(weights: &DMatrix<f64>, differences: &DMatrix<f64>) -> DMatrix<f64> {
-    let normal = weights.transpose() * weights + differences.transpose() * differences * SMOOTHNESS;
-    let normal = normal + DMatrix::identity(weights.ncols(), weights.ncols()) * SMALLNESS;
-    normal.cholesky().expect("it is positive: ε > 0").solve(&weights.transpose())
+fn inverse(weights: &[Weights], squared_differences: &DMatrix<f64>) -> DMatrix<f64> {
+    let nodes = squared_differences.ncols();
+    let normal = square(weights, nodes) + squared_differences * SMOOTHNESS;
+    let normal = normal + DMatrix::identity(nodes, nodes) * SMALLNESS;
+    let inverse = normal.cholesky().expect("it is positive: ε > 0").inverse();
+    let mut product = DMatrix::zeros(nodes, weights.len());
+    for (mut column, weights) in product.column_iter_mut().zip(weights) {
+        weights.iter().for_each(|(node, weight)| column.axpy(*weight, &inverse.column(*node), 1.0));
+    }
+    product
 }
 
 impl Resampler {
@@ -107,19 +121,31 @@ impl Resampler {
             .collect();
         let light_nodes = grid.light_nodes();
         let sides = [grid.n_alpha, grid.n_beta].map(usize::from);
-        let smooth = dense(&differences(sides, false), light_nodes);
-        let row = |(view, direction): &(usize, Vec3)| {
-            let direction = grid.view(direction.to_array());
-            let weights: Vec<_> = lights.iter().map(|light| light_weights(grid, *light, &direction)).collect();
-            Row { view: *view, nodes_from_lights: inverse(&dense(&weights, light_nodes), &smooth) }
+        let smooth = square(&differences(sides, false), light_nodes);
+        // Frames of lights depend on a view's azimuth alone.
+        let (mut azimuths, mut rows): (Vec<(f32, View)>, Vec<Row>) = (Vec::new(), Vec::new());
+        for (view, direction) in &stood_for {
+            let turns = direction.truncate().to_angle() / std::f32::consts::TAU;
+            let is_same = |(other, _): &(f32, View)| {
+                let apart = (other - turns).abs();
+                apart.min(1.0 - apart) < SAME_AZIMUTH
+            };
+            let azimuth = azimuths.iter().position(is_same).unwrap_or_else(|| {
+                azimuths.push((turns, grid.view(direction.to_array())));
+                azimuths.len() - 1
+            });
+            rows.push(Row { view: *view, azimuth });
+        }
+        let of_azimuth = |(_, direction): &(f32, View)| {
+            let weights: Vec<_> = lights.iter().map(|light| light_weights(grid, *light, direction)).collect();
+            inverse(&weights, &smooth)
         };
-        let rows: Vec<Row> = stood_for.par_iter().map(row).collect();
+        let nodes_from_lights = azimuths.par_iter().map(of_azimuth).collect();
         let of_views: Vec<_> =
             stood_for.iter().map(|(_, view)| view_weights(grid, &grid.view(view.to_array()))).collect();
         let sides = [grid.n_phi, grid.n_theta].map(usize::from);
-        let smooth = dense(&differences(sides, true), grid.view_nodes());
-        let views_from_rows = inverse(&dense(&of_views, grid.view_nodes()), &smooth);
-        Self { grid: *grid, views: views.len(), rows, views_from_rows }
+        let views_from_rows = inverse(&of_views, &square(&differences(sides, true), grid.view_nodes()));
+        Self { grid: *grid, views: views.len(), rows, nodes_from_lights, views_from_rows }
     }
 
     /// Table `[φ_v][θ_v][α][β]` of values at all pairs, light after light.
@@ -130,7 +156,7 @@ impl Resampler {
         let mut at_rows = DMatrix::zeros(self.rows.len(), self.grid.light_nodes());
         for (number, row) in self.rows.iter().enumerate() {
             let measured = DVector::from_fn(lights, |light, _| f64::from(values[light * self.views + row.view]));
-            at_rows.row_mut(number).tr_copy_from(&(&row.nodes_from_lights * measured));
+            at_rows.row_mut(number).tr_copy_from(&(&self.nodes_from_lights[row.azimuth] * measured));
         }
         let nodes = &self.views_from_rows * at_rows;
         // Row by row: nalgebra keeps columns together.
@@ -143,9 +169,11 @@ impl Resampler {
         let (count, nodes) = (values.ncols(), self.grid.light_nodes());
         let lights = values.nrows() / self.views;
         let mut at_rows = DMatrix::zeros(nodes * count, self.rows.len());
+        let nodes_from_lights: Vec<DMatrix<f32>> =
+            self.nodes_from_lights.iter().map(|nodes| nodes.map(|weight| weight as f32)).collect();
         for (number, row) in self.rows.iter().enumerate() {
             let measured = DMatrix::from_fn(lights, count, |light, k| values[(light * self.views + row.view, k)]);
-            let fitted = row.nodes_from_lights.map(|weight| weight as f32) * measured;
+            let fitted = &nodes_from_lights[row.azimuth] * measured;
             at_rows.column_mut(number).copy_from_slice(fitted.as_slice());
         }
         let at_nodes = at_rows * self.views_from_rows.transpose().cast::<f32>();

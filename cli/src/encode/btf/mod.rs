@@ -9,7 +9,7 @@ use std::time::Instant;
 use clap::ValueEnum;
 use subsurf_decoder::btf::Grid;
 use subsurf_encoder::btf::rate::{self, Target};
-use subsurf_encoder::btf::{Folder, Images, Source, Ubo};
+use subsurf_encoder::btf::{Folder, Images, Merl, Source, Ubo};
 use subsurf_encoder::{check_target, write_bytes};
 
 use crate::failure::bad_request;
@@ -40,7 +40,8 @@ enum MethodArg {
 /// Nested codebooks of the usual size come to some 1:3000 at 128 × 128 texels, factors to 1:1000.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// BTFs: folders of images named "tl030 pl060 tv045 pv120.png" (.jpg, .exr, .hdr), or .btf files of UBO2014
+    /// BTFs: folders of images named "tl030 pl060 tv045 pv120.png" (.jpg, .exr, .hdr), .btf files of UBO2014, or
+    /// isotropic BRDFs of MERL (.binary)
     #[arg(required = true, value_name = "BTF")]
     inputs: Vec<PathBuf>,
     /// The .subsurf file to write; NAME.subsurf beside the first BTF if not given
@@ -61,7 +62,8 @@ pub(crate) struct Args {
     /// Additive stages of codebooks, 1 to 4 (nested)
     #[arg(long, default_value_t = 1, value_name = "N")]
     stages: usize,
-    /// Nodes of α, sin β, θ_v and φ_v, each 2 to 64; 11,11,6,16, with 24 of φ_v for factors
+    /// Nodes of α, sin β, θ_v and φ_v, each 2 to 64, or 1 of φ_v; 11,11,6,16, with 24 of φ_v for factors, and
+    /// 45,45,18,1 for isotropic BRDFs
     #[arg(long, value_delimiter = ',', value_name = "NODES")]
     nodes: Option<Vec<u8>>,
     /// Make mipmaps: a third more of what is stored for texels
@@ -81,10 +83,10 @@ pub(crate) struct Args {
 /// Reads all images of a BTF.
 pub(crate) fn load(path: &Path) -> anyhow::Result<Images> {
     let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
-    if extension.is_some_and(|extension| extension == "btf") {
-        Ok(load_from(&Ubo::open(path)?)?)
-    } else {
-        Ok(load_from(&Folder::open(path)?)?)
+    match extension.as_ref().and_then(|extension| extension.to_str()) {
+        Some("btf") => Ok(load_from(&Ubo::open(path)?)?),
+        Some("binary") => Ok(load_from(&Merl::open(path)?)?),
+        _ => Ok(load_from(&Folder::open(path)?)?),
     }
 }
 
@@ -94,13 +96,18 @@ fn load_from(source: &impl Source) -> subsurf_encoder::Result<Images> {
 
 /// A grid that reaches as far as what was measured, and no farther.
 fn grid(images: &Images, args: &Args) -> anyhow::Result<Grid> {
-    let usual = if args.method == MethodArg::Factored { [11, 11, 6, 24] } else { [11, 11, 6, 16] };
+    let is_isotropic = images.views().iter().all(|view| view.y == 0.0);
+    let usual = match args.method {
+        _ if is_isotropic => [45, 45, 18, 1],
+        MethodArg::Factored => [11, 11, 6, 24],
+        MethodArg::Nested | MethodArg::Paper => [11, 11, 6, 16],
+    };
     let nodes = args.nodes.as_deref().unwrap_or(&usual);
     let [n_alpha, n_beta, n_theta, n_phi] = nodes else {
         return Err(bad_request(format!("--nodes has {} numbers, not four: 11,11,6,16", nodes.len())));
     };
-    if nodes.iter().any(|nodes| !(2..=64).contains(nodes)) {
-        return Err(bad_request("--nodes are from 2 to 64 each"));
+    if nodes.iter().any(|nodes| !(1..=64).contains(nodes)) || [n_alpha, n_beta, n_theta].contains(&&1) {
+        return Err(bad_request("--nodes are from 2 to 64 each, those of φ_v from 1"));
     }
     let lowest = |directions: &[glam::Vec3]| directions.iter().map(|direction| direction.z).fold(1.0, f32::min);
     // A degree at least: a single direction has no reach.

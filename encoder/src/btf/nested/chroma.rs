@@ -93,20 +93,22 @@ impl Hues<'_> {
         let [n_phi, n_theta] = [self.grid.n_phi, self.grid.n_theta].map(usize::from);
         let light = self.grid.light_nodes();
         let chain = &built.chain;
-        // v̄ = Σ g v / Σ g² of the texels of each entry of P4, and Σ g².
+        // Chroma relative to luma grows with g, absolute chroma does not.
+        let of_gain = |g: f32| if self.is_relative { g } else { g * g };
+        // v̄ = Σ g v / Σ g² of the texels of each entry of P4 (Σ g² v / Σ g² of absolute chroma), and Σ g².
         let entries = chain.p4.len() / n_phi;
         let mut means = DMatrix::<f32>::zeros(self.texels.nrows(), entries);
         let mut weights4 = vec![0.0_f32; entries];
         for (texel, item) in chain.texels.iter().enumerate() {
             let (entry, g) = (item.index as usize, gain(chain.scales[0], item.code, false));
             weights4[entry] += g * g;
-            means.column_mut(entry).axpy(g, &self.texels.column(texel), 1.0);
+            means.column_mut(entry).axpy(of_gain(g), &self.texels.column(texel), 1.0);
         }
         for (mut mean, weight) in means.column_iter_mut().zip(&weights4) {
             mean /= weight.max(f32::MIN_POSITIVE);
         }
         let tables = self.tables.map(|tables| product(tables, &means));
-        // Σ w g A / Σ w g² of the parts of P4 that each entry of P3 stands for.
+        // Σ w g A / Σ w g², likewise, of the parts of P4 that each entry of P3 stands for.
         let part = n_theta * light;
         let mut members = vec![Vec::new(); chain.p3.len() / n_theta];
         for (number, item) in chain.p4.iter().enumerate() {
@@ -117,8 +119,8 @@ impl Hues<'_> {
             let mut total = 0.0_f32;
             for &number in members {
                 let g = gain(chain.scales[1], chain.p4[number].code, false);
-                let weight = weights4[number / n_phi] * g;
-                total += weight * g;
+                let weight = weights4[number / n_phi] * of_gain(g);
+                total += weights4[number / n_phi] * g * g;
                 for (sums, tables) in sums.iter_mut().zip(&tables) {
                     let values = &tables.as_slice()[number * part..][..part];
                     sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);

@@ -29,7 +29,9 @@ pub(super) struct Samples {
 
 impl Samples {
     pub(super) fn new(vectors: DMatrix<f32>, weights: Vec<f32>, is_signed: bool) -> Self {
-        let reduced = (vectors.nrows() > 2 * REDUCED).then(|| {
+        // Of few vectors, all dimensions are compared sooner than the best are found.
+        let is_worth_it = vectors.nrows() > 2 * REDUCED && vectors.ncols() > vectors.nrows();
+        let reduced = is_worth_it.then(|| {
             let axes = leading_axes(&vectors, &weights);
             (product(&axes.transpose(), &vectors), axes)
         });

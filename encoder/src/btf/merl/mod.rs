@@ -6,6 +6,8 @@
 //! i · 1°, φ_d = i · 1° at the beginning of sample i; φ_d ends at 180°, as beyond it light and view have changed
 //! places.
 
+mod source;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fs::File;
 use std::io::Write;
@@ -193,7 +195,7 @@ mod tests {
     use crate::synthetic::unit;
 
     /// Coloured Lambert below isotropic GGX of roughness α = 0.2 with F = 0.05 and masking by Smith.
-    fn plastic(light: Vec3, view: Vec3) -> [f32; 3] {
+    pub(super) fn plastic(light: Vec3, view: Vec3) -> [f32; 3] {
         let a2 = 0.2_f32 * 0.2;
         let half = (light + view).normalize();
         let d = a2 / (std::f32::consts::PI * (half.z * half.z * (a2 - 1.0) + 1.0).powi(2));
@@ -203,7 +205,7 @@ mod tests {
     }
 
     /// Pairs up to 80° off the normal, half of them near to mirroring each other.
-    fn pairs(count: u32) -> impl Iterator<Item = (Vec3, Vec3)> {
+    pub(super) fn pairs(count: u32) -> impl Iterator<Item = (Vec3, Vec3)> {
         let direction = |n: u32| {
             let (theta, phi) = (80.0_f32.to_radians() * unit(n), std::f32::consts::TAU * unit(n + 1));
             Vec3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
