@@ -8,7 +8,7 @@ use subsurf_encoder::btf::Images;
 use subsurf_encoder::metrics::btf::{BtfError, compare, decode, with_file};
 
 use super::Args;
-use crate::encode::load_btf;
+use crate::encode::btf::load;
 use crate::failure::bad_request;
 use crate::info::{Parts, read_error, read_file};
 use crate::memory::human;
@@ -29,7 +29,7 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 fn compare_with(args: &Args, file: &(dyn Evaluate + Sync), parts: &Parts, bytes: usize) -> anyhow::Result<()> {
-    let images = load_btf(&args.capture)?;
+    let images = load(&args.capture)?;
     let material = material_of(args, file.catalog())?;
     let of_file = file.catalog().materials().nth(material).map(|material| material.size(0));
     if of_file != Some(images.size()) {

@@ -1,6 +1,6 @@
 //! `subsurf encode`: from a capture to a file.
 
-mod btf;
+pub(crate) mod btf;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -14,8 +14,6 @@ use subsurf_encoder::bssrdf::{self, Encoded, Method, Options, fit_bytes};
 use subsurf_encoder::capture::{Capture, sidecar_path};
 use subsurf_encoder::rate::{self, Point, Target, Walked};
 use subsurf_encoder::{check_target, write_bytes};
-
-pub(crate) use btf::load as load_btf;
 
 use crate::compare::{Judgement, judge};
 use crate::curve;

@@ -15,6 +15,16 @@ pub trait Evaluate {
     #[must_use]
     fn eval_cell(&self, texel: Texel, cell: &Cell) -> [f32; 3];
 
+    /// [`Self::eval_cell`] of texels that follow each other, row by row, level by level; from the last on, values are
+    /// those of other texels, or of none.
+    fn eval_texels(&self, first: Texel, cell: &Cell, values: &mut [[f32; 3]]) {
+        let Texel(mut texel) = first;
+        for value in values {
+            *value = self.eval_cell(Texel(texel), cell);
+            texel = texel.wrapping_add(1);
+        }
+    }
+
     /// [`Self::eval_cell`] for a light and a prepared view.
     #[must_use]
     fn eval_for(&self, texel: Texel, light: [f32; 3], view: &View) -> [f32; 3] {
@@ -45,5 +55,9 @@ impl Evaluate for Expanded<'_> {
 
     fn eval_cell(&self, texel: Texel, cell: &Cell) -> [f32; 3] {
         Expanded::eval_cell(self, texel, cell)
+    }
+
+    fn eval_texels(&self, first: Texel, cell: &Cell, values: &mut [[f32; 3]]) {
+        Expanded::eval_texels(self, first, cell, values);
     }
 }

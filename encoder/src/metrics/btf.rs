@@ -98,10 +98,10 @@ pub fn decode(images: &Images, file: &(impl Evaluate + ?Sized), material: usize,
     let (light, view) = (lights[pair / views.len()], views[pair % views.len()]);
     let grid = file.catalog().grid();
     let cell = grid.cell(light.to_array(), &grid.view(view.to_array()));
-    let [width, height] = images.size().map(|side| i32::try_from(side).expect("images are below 65,536 pixels wide"));
-    let place = |k: i32| file.catalog().texel(material, 0, [k % width, k / width]).expect("the material is there");
-    // Texels of a level follow each other.
-    (0..width * height).map(|k| file.eval_cell(place(k), &cell)).collect()
+    let first = file.catalog().texel(material, 0, [0; 2]).expect("the material is there");
+    let mut values = vec![[0.0; 3]; images.texels()];
+    file.eval_texels(first, &cell, &mut values);
+    values
 }
 
 /// Structural similarities, and mean squared error.

@@ -11,15 +11,13 @@ use crate::memory::human;
 use crate::progress::Bars;
 use crate::say::say;
 
-/// Components that codebooks are made from: more than any of them can hold.
-const OF_CODEBOOKS: Detail = Detail { luma: 128, chroma: 16 };
-/// As many as a file of factors can have.
-const OF_FACTORS: Detail = Detail { luma: 128, chroma: 32 };
+/// Components that files are made from: as many as factors can have, and more than codebooks can hold.
+pub(crate) const DETAIL: Detail = Detail { luma: 128, chroma: 32 };
 const CHROMA: ChromaSizes = ChromaSizes { i2: 64, i1: 64, colours: 64, tints: 64 };
 /// What errors of chroma count beside those of luma, in factors.
 const CHROMA_WEIGHT: f32 = 1.5;
 /// Bytes of images to a byte of factors: what is made if nothing is asked for, and what is tried for a quality.
-const USUAL_RATIO: u64 = 1000;
+pub(crate) const USUAL_RATIO: u64 = 1000;
 const RATIOS: [u64; 8] = [4000, 2800, 2000, 1400, 1000, 700, 500, 350];
 /// What thresholds of pruning are multiplied by for a quality or a number of bytes.
 const LOOSENESS: [f32; 8] = [4.0, 2.8, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35];
@@ -33,52 +31,73 @@ pub(super) struct Made {
     pub(super) walked: Option<Walked>,
 }
 
-type Encoded = subsurf_encoder::Result<Vec<u8>>;
+pub(crate) type Encoded = subsurf_encoder::Result<Vec<u8>>;
 
-pub(super) fn nested(args: &Args, materials: &[Images], grid: Grid) -> anyhow::Result<Made> {
-    let survey = Survey::new(materials, OF_CODEBOOKS, args.seed, &Bars::new())?;
-    let (names, has_mipmaps, seed) = (args.names(), args.mipmaps, args.seed);
-    let options = nested::Options { grid, chroma: CHROMA, names, has_mipmaps, seed };
-    let prepared = nested::Prepared::new(materials, &survey, options);
+/// What all methods want to know.
+#[derive(Clone)]
+pub(crate) struct Common {
+    pub(crate) grid: Grid,
+    /// Of the materials.
+    pub(crate) names: Vec<String>,
+    pub(crate) has_mipmaps: bool,
+    pub(crate) seed: u64,
+}
+
+impl Common {
+    pub(crate) fn nested<'a>(self, materials: &[Images], survey: &'a Survey) -> nested::Prepared<'a> {
+        let Self { grid, names, has_mipmaps, seed } = self;
+        nested::Prepared::new(materials, survey, nested::Options { grid, chroma: CHROMA, names, has_mipmaps, seed })
+    }
+
+    pub(crate) fn factored<'a>(
+        self,
+        materials: &[Images],
+        survey: &'a Survey,
+    ) -> subsurf_encoder::Result<factored::Prepared<'a>> {
+        let Self { grid, names, has_mipmaps, seed } = self;
+        let options = factored::Options { grid, chroma_weight: CHROMA_WEIGHT, names, has_mipmaps, seed };
+        factored::Prepared::new(materials, survey, options)
+    }
+
+    /// The paper's encoder with its thresholds times `looseness`.
+    pub(crate) fn paper(self, materials: &[Images], looseness: f32) -> Encoded {
+        let Self { grid, names, has_mipmaps, seed } = self;
+        let usual = paper::Options::default();
+        let similarity = usual.similarity.times(looseness);
+        let options = paper::Options { grid, similarity, names, has_mipmaps, seed, ..usual };
+        Ok(paper::encode(materials, &options, &Bars::new())?.to_bytes())
+    }
+}
+
+pub(super) fn nested(args: &Args, materials: &[Images], common: Common) -> anyhow::Result<Made> {
+    let survey = Survey::new(materials, DETAIL, args.seed, &Bars::new())?;
+    let prepared = common.nested(materials, &survey);
     let sized = |(p4, stages): (usize, usize)| (format!("P4 = {p4} × {stages}"), Sizes::stages(p4, stages));
     let encode = |stages: &Vec<Sizes>| -> Encoded { Ok(prepared.encode(stages, &Bars::new())?.to_bytes()) };
     choose(args, materials, sized((args.p4.max(1), args.stages)), &Sizes::LADDER.map(sized), encode)
 }
 
-pub(super) fn paper(args: &Args, materials: &[Images], grid: Grid) -> anyhow::Result<Made> {
+pub(super) fn paper(args: &Args, materials: &[Images], common: &Common) -> anyhow::Result<Made> {
     let rung = |looseness: f32| (format!("thresholds × {looseness}"), looseness);
-    let usual = paper::Options::default();
-    let encode = |looseness: &f32| -> Encoded {
-        let options = paper::Options {
-            grid,
-            similarity: usual.similarity.times(*looseness),
-            names: args.names(),
-            has_mipmaps: args.mipmaps,
-            seed: args.seed,
-            ..usual.clone()
-        };
-        Ok(paper::encode(materials, &options, &Bars::new())?.to_bytes())
-    };
+    let encode = |looseness: &f32| common.clone().paper(materials, *looseness);
     choose(args, materials, rung(1.0), &LOOSENESS.map(rung), encode)
 }
 
-pub(super) fn factored(args: &Args, materials: &[Images], grid: Grid) -> anyhow::Result<Made> {
-    let survey = Survey::new(materials, OF_FACTORS, args.seed, &Bars::new())?;
-    let (names, has_mipmaps, seed) = (args.names(), args.mipmaps, args.seed);
-    let options = factored::Options { grid, chroma_weight: CHROMA_WEIGHT, names, has_mipmaps, seed };
-    let prepared = factored::Prepared::new(materials, &survey, options)?;
+pub(super) fn factored(args: &Args, materials: &[Images], common: Common) -> anyhow::Result<Made> {
+    let survey = Survey::new(materials, DETAIL, args.seed, &Bars::new())?;
+    let prepared = common.factored(materials, &survey)?;
     let encode = |bytes: &u64| -> Encoded {
         Ok(prepared.encode_to(usize::try_from(*bytes).unwrap_or(usize::MAX), &Bars::new())?.0)
     };
     let sized = |bytes: u64| (format!("at most {}", human(bytes)), bytes);
-    let usual = match args.target() {
+    match args.target() {
         // One file of that size; no other can be better.
-        Some(Target::Bytes(bytes)) => bytes,
-        _ => survey.raw_bytes / USUAL_RATIO,
-    };
-    let ladder = RATIOS.map(|ratio| sized(survey.raw_bytes / ratio));
-    let ladder = if matches!(args.target(), Some(Target::Bytes(_))) { &[sized(usual)][..] } else { &ladder };
-    choose(args, materials, sized(usual), ladder, encode)
+        Some(Target::Bytes(bytes)) => choose(args, materials, sized(bytes), &[sized(bytes)], encode),
+        _ => {
+            let ladder = RATIOS.map(|ratio| sized(survey.raw_bytes / ratio));
+            choose(args, materials, sized(survey.raw_bytes / USUAL_RATIO), &ladder, encode)
+        }
+    }
 }
 
 /// The usual sizes, or those of the ladder that reach the target.

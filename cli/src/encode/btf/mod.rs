@@ -16,11 +16,12 @@ use crate::failure::bad_request;
 use crate::interrupt::Graceful;
 use crate::options::ByteCount;
 use crate::progress::Bars;
+pub(crate) use methods::{Common, DETAIL, USUAL_RATIO};
 use report::Report;
 
 /// How a file is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum MethodArg {
+pub(crate) enum MethodArg {
     /// Nested codebooks by shape-gain k-means from the top down, chosen anew from the bottom up against what is decoded;
     /// further stages add what is left. Drawn as they stand in the file, on the GPU too
     Nested,
@@ -94,15 +95,18 @@ fn load_from(source: &impl Source) -> subsurf_encoder::Result<Images> {
     Images::load(source, &Bars::new())
 }
 
-/// A grid that reaches as far as what was measured, and no farther.
-fn grid(images: &Images, args: &Args) -> anyhow::Result<Grid> {
+/// Nodes where none are asked for.
+pub(crate) fn usual_nodes(method: MethodArg, images: &Images) -> [u8; 4] {
     let is_isotropic = images.views().iter().all(|view| view.y == 0.0);
-    let usual = match args.method {
+    match method {
         _ if is_isotropic => [45, 45, 18, 1],
         MethodArg::Factored => [11, 11, 6, 24],
         MethodArg::Nested | MethodArg::Paper => [11, 11, 6, 16],
-    };
-    let nodes = args.nodes.as_deref().unwrap_or(&usual);
+    }
+}
+
+/// A grid that reaches as far as what was measured, and no farther.
+pub(crate) fn grid(images: &Images, nodes: &[u8]) -> anyhow::Result<Grid> {
     let [n_alpha, n_beta, n_theta, n_phi] = nodes else {
         return Err(bad_request(format!("--nodes has {} numbers, not four: 11,11,6,16", nodes.len())));
     };
@@ -134,12 +138,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     check_target(&output)?;
     let start = Instant::now();
     let materials: Vec<Images> = args.inputs.iter().map(|path| load(path)).collect::<anyhow::Result<_>>()?;
-    let grid = grid(&materials[0], args)?;
+    let nodes = args.nodes.clone().unwrap_or_else(|| usual_nodes(args.method, &materials[0]).to_vec());
+    let grid = grid(&materials[0], &nodes)?;
+    let common = Common { grid, names: args.names(), has_mipmaps: args.mipmaps, seed: args.seed };
     let graceful = Graceful::new();
     let made = match args.method {
-        MethodArg::Nested => methods::nested(args, &materials, grid),
-        MethodArg::Factored => methods::factored(args, &materials, grid),
-        MethodArg::Paper => methods::paper(args, &materials, grid),
+        MethodArg::Nested => methods::nested(args, &materials, common),
+        MethodArg::Factored => methods::factored(args, &materials, common),
+        MethodArg::Paper => methods::paper(args, &materials, &common),
     }?;
     drop(graceful);
     write_bytes(&output, &made.bytes)?;

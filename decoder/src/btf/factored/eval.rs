@@ -50,7 +50,21 @@ impl<'b> Expanded<'b> {
     /// Value of a texel at a place of the grid; see [`Evaluate::eval_cell`](crate::btf::Evaluate::eval_cell).
     #[must_use]
     pub fn eval_cell(&self, texel: Texel, cell: &Cell) -> [f32; 3] {
-        self.catalog().header().tone.decode(self.channels(texel, cell)).map(|value| value * cell.fade)
+        self.value(texel, &self.interpolated(cell), cell.fade)
+    }
+
+    /// Values of texels that follow each other at one place of the grid, where tables are interpolated once.
+    pub(in crate::btf) fn eval_texels(&self, Texel(first): Texel, cell: &Cell, values: &mut [[f32; 3]]) {
+        let columns = self.interpolated(cell);
+        let mut texel = first;
+        for value in values {
+            *value = self.value(Texel(texel), &columns, cell.fade);
+            texel = texel.wrapping_add(1);
+        }
+    }
+
+    fn value(&self, texel: Texel, columns: &[f32; MAX_COLUMNS], fade: f32) -> [f32; 3] {
+        self.catalog().header().tone.decode(self.mixed(texel, columns)).map(|value| value * fade)
     }
 
     /// Coefficients of a texel in steps, as many as [`Shape::coefficients`](super::layout::Shape::coefficients) says
@@ -75,12 +89,16 @@ impl<'b> Expanded<'b> {
         sums
     }
 
-    /// Luma and chroma of a texel without the fading of low lights: Y = Σ_c u_c b_c, C = ρ Y + Σ_c v_c q_c.
+    /// Luma and chroma of a texel without the fading of low lights.
     #[must_use]
     pub fn channels(&self, texel: Texel, cell: &Cell) -> [f32; 3] {
+        self.mixed(texel, &self.interpolated(cell))
+    }
+
+    /// Y = Σ_c u_c b_c, C = ρ Y + Σ_c v_c q_c.
+    fn mixed(&self, texel: Texel, columns: &[f32; MAX_COLUMNS]) -> [f32; 3] {
         let shape = self.file.shape();
         let (luma, chroma) = (usize::from(shape.luma), usize::from(shape.chroma));
-        let columns = shape.columns();
         // What the tables' columns are multiplied by.
         let steps = self.coefficients(texel);
         let [ratio_a, ratio_b, others @ ..] = steps;
@@ -92,9 +110,9 @@ impl<'b> Expanded<'b> {
             let value = *step as f32 * factor;
             *weight = value;
         }
-        let mut products = self.interpolated(cell, columns);
-        for (product, weight) in products.iter_mut().zip(weights) {
-            *product *= weight;
+        let mut products = weights;
+        for (product, column) in products.iter_mut().zip(columns) {
+            *product *= column;
         }
         let (of_luma, others) = products.split_at_checked(luma).unwrap_or_default();
         let (of_a, others) = others.split_at_checked(chroma).unwrap_or_default();
@@ -107,8 +125,8 @@ impl<'b> Expanded<'b> {
     }
 
     /// All columns at a place, in steps.
-    fn interpolated(&self, cell: &Cell, columns: usize) -> [f32; MAX_COLUMNS] {
-        let grid = self.catalog().grid();
+    fn interpolated(&self, cell: &Cell) -> [f32; MAX_COLUMNS] {
+        let (grid, columns) = (self.catalog().grid(), self.file.shape().columns());
         let mut sums = [0.0_f32; MAX_COLUMNS];
         let row = |view: u32, light: u32| {
             let node = (view as usize).wrapping_mul(grid.light_nodes()).wrapping_add(light as usize);
