@@ -132,7 +132,7 @@ pub(crate) struct BookSize {
     pub(crate) items: u32,
     pub(crate) bits: u32,
     /// Vectors of its kind in the resampled data.
-    stands_for: u64,
+    pub(crate) stands_for: u64,
 }
 
 impl std::fmt::Display for BookSize {

@@ -1,11 +1,11 @@
 //! `subsurf simulate btf`: images of a rough surface from all sides, where nothing was measured.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::ValueEnum;
-use serde_json::json;
-use subsurf_encoder::btf::{FolderWriter, Pixels, bonn};
+use serde_json::{Value, json};
+use subsurf_encoder::btf::{Folder, FolderWriter, Pixels, bonn};
 use subsurf_encoder::simulate::btf::{Sample, simulate};
 
 use crate::failure::bad_request;
@@ -43,7 +43,7 @@ pub(crate) struct Args {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct SampleArg(Sample);
+pub(crate) struct SampleArg(pub(crate) Sample);
 
 impl ValueEnum for SampleArg {
     fn value_variants<'a>() -> &'a [Self] {
@@ -72,15 +72,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let sample = args.sample.0;
     let pixels = if args.hdr { Pixels::Linear } else { Pixels::Display { exposure: args.exposure } };
     let start = Instant::now();
-    let writer = FolderWriter::new(&args.output, args.size, pixels)?;
-    let write = |light, view, image: &[[f32; 3]]| writer.write(light, view, image);
-    simulate(sample, args.size as usize, args.seed, write, &Bars::new())?;
-    writer.finish(&json!({
-        "simulated": {
-            "by": concat!("subsurf ", env!("CARGO_PKG_VERSION")), "sample": sample.name(), "seed": args.seed,
-            "exposure": if args.hdr { 1.0 } else { args.exposure },
-        },
-    }))?;
+    Request { sample, size: args.size, pixels, seed: args.seed }.write(&args.output)?;
     let images = bonn().len() * bonn().len();
     let raw = 3 * images as u64 * u64::from(args.size) * u64::from(args.size) * if args.hdr { 4 } else { 1 };
     say!(
@@ -92,4 +84,42 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         start.elapsed().as_secs_f64(),
     );
     Ok(())
+}
+
+/// A folder of simulated images.
+pub(crate) struct Request {
+    pub(crate) sample: Sample,
+    /// Pixels in x and in y.
+    pub(crate) size: u32,
+    pub(crate) pixels: Pixels,
+    pub(crate) seed: u64,
+}
+
+impl Request {
+    fn facts(&self) -> Value {
+        let exposure = match self.pixels {
+            Pixels::Display { exposure } => exposure,
+            Pixels::Linear => 1.0,
+        };
+        json!({
+            "simulated": {
+                "by": concat!("subsurf ", env!("CARGO_PKG_VERSION")), "sample": self.sample.name(), "seed": self.seed,
+                "exposure": exposure,
+            },
+        })
+    }
+
+    /// Simulates and writes it.
+    pub(crate) fn write(&self, output: &Path) -> anyhow::Result<()> {
+        let writer = FolderWriter::new(output, self.size, self.pixels)?;
+        let write = |light, view, image: &[[f32; 3]]| writer.write(light, view, image);
+        simulate(self.sample, self.size as usize, self.seed, write, &Bars::new())?;
+        Ok(writer.finish(&self.facts())?)
+    }
+
+    /// Whether a folder is what it asks for.
+    pub(crate) fn is_there(&self, output: &Path) -> bool {
+        Folder::open(output)
+            .is_ok_and(|folder| folder.size() == [self.size; 2] && folder.facts().as_ref() == Some(&self.facts()))
+    }
 }

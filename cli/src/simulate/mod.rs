@@ -1,6 +1,6 @@
 //! `subsurf simulate`: a capture where nothing was measured.
 
-mod btf;
+pub(crate) mod btf;
 
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,6 @@
-//! `subsurf study`: the paper's experiments on simulated materials.
+//! `subsurf study`: the papers' experiments on simulated materials.
 
+mod btf;
 mod colour;
 mod figures;
 mod page;
@@ -10,7 +11,7 @@ mod published;
 mod record;
 mod tables;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde_json::json;
@@ -31,11 +32,28 @@ use record::{Record, Subject, capture_name};
 ///
 /// Writes DIR/study.html, a page with tables, curves and pictures that needs nothing beside it, and DIR/study.csv. Captures
 /// and fits are kept in DIR: a study that was interrupted goes on where it was. The whole of it takes about an hour on
-/// two cores, most of it for the paper's own method; the page is there, and grows, after every capture.
+/// two cores, most of it for the paper's own method; the page is there, and grows, after every capture. `study btf` does
+/// so for BTFs.
 #[derive(clap::Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(crate) struct Args {
+    #[command(subcommand)]
+    other: Option<Other>,
+    #[command(flatten)]
+    captures: Captures,
+}
+
+/// What is studied but captures.
+#[derive(clap::Subcommand)]
+enum Other {
+    Btf(btf::Args),
+}
+
+#[derive(clap::Args)]
+struct Captures {
     /// The folder
-    dir: PathBuf,
+    #[arg(required = true)]
+    dir: Option<PathBuf>,
     /// Materials
     #[arg(long, value_enum, value_delimiter = ',', default_values = MATERIALS)]
     materials: Vec<SceneArg>,
@@ -64,8 +82,16 @@ const PITCH_MM: f64 = 0.5;
 const SEED: u64 = 1;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    match (&args.other, &args.captures.dir) {
+        (Some(Other::Btf(args)), _) => btf::run(args),
+        (None, Some(dir)) => study(&args.captures, dir),
+        (None, None) => Err(bad_request("where to? Give a folder, or `btf` and one")),
+    }
+}
+
+fn study(args: &Captures, dir: &Path) -> anyhow::Result<()> {
     check(args)?;
-    for folder in ["captures", "fits", "pictures"].map(|name| args.dir.join(name)) {
+    for folder in ["captures", "fits", "pictures"].map(|name| dir.join(name)) {
         std::fs::create_dir_all(&folder)
             .map_err(|error| bad_request(format!("{}: cannot make the folder: {error}", folder.display())))?;
     }
@@ -86,10 +112,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         halves.iter().flat_map(|noisy| scenes.iter().map(|scene| (*noisy, *scene))).enumerate()
     {
         let material = scene.name();
-        let truth = capture(args, scene, false)?;
-        let exposed = if noisy { Some(capture(args, scene, true)?) } else { None };
+        let truth = capture(args, dir, scene, false)?;
+        let exposed = if noisy { Some(capture(args, dir, scene, true)?) } else { None };
         let capture = exposed.as_ref().unwrap_or(&truth);
-        let subject = Subject { material, noisy, capture, truth: &truth, folder: &args.dir };
+        let subject = Subject { material, noisy, capture, truth: &truth, folder: dir };
         say!("{} ({} of {all})", subject.name(), done + 1);
         for fit in &fits {
             let (record, fresh) = subject.record(fit)?;
@@ -105,7 +131,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             records.push(record);
         }
         let study = Study {
-            folder: &args.dir,
+            folder: dir,
             materials: &materials,
             records: &records,
             fits: &fits,
@@ -115,16 +141,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             photons: (!args.clean_only).then_some(args.photons),
             capture_bytes: truth.file_bytes(),
         };
-        write_bytes(&args.dir.join("study.html"), study.html()?.as_bytes())?;
-        write_bytes(&args.dir.join("study.csv"), tables::csv(&study).as_bytes())?;
+        write_bytes(&dir.join("study.html"), study.html()?.as_bytes())?;
+        write_bytes(&dir.join("study.csv"), tables::csv(&study).as_bytes())?;
     }
-    let page = std::path::absolute(args.dir.join("study.html"))?;
+    let page = std::path::absolute(dir.join("study.html"))?;
     say!("{} after {}; numbers in study.csv beside it", page.display(), page::duration(start.elapsed().as_secs_f64()));
     Ok(())
 }
 
 /// Refuses what would only fail after an hour.
-fn check(args: &Args) -> anyhow::Result<()> {
+fn check(args: &Captures) -> anyhow::Result<()> {
     let sensor = (!args.clean_only).then_some(Sensor { photons: args.photons, seed: SEED });
     for scene in &args.materials {
         // Voxels depend on the media, of which a corner of the patch has most.
@@ -135,9 +161,9 @@ fn check(args: &Args) -> anyhow::Result<()> {
 }
 
 /// The capture of a material, simulated unless it is there already.
-fn capture(args: &Args, scene: Scene, noisy: bool) -> anyhow::Result<Capture> {
+fn capture(args: &Captures, dir: &Path, scene: Scene, noisy: bool) -> anyhow::Result<Capture> {
     let size = args.size.0.map(|side| side as usize);
-    let path = args.dir.join("captures").join(format!("{}.npy", capture_name(scene.name(), noisy)));
+    let path = dir.join("captures").join(format!("{}.npy", capture_name(scene.name(), noisy)));
     let sensor = noisy.then_some(Sensor { photons: args.photons, seed: SEED });
     let map = scene.map(size, Addressing::Clamp, SEED);
     let request = request(args, scene, &map, sensor);
@@ -149,7 +175,7 @@ fn capture(args: &Args, scene: Scene, noisy: bool) -> anyhow::Result<Capture> {
         return Ok(kept);
     }
     if let Some(sensor) = &sensor {
-        let clean = capture(args, scene, false)?;
+        let clean = capture(args, dir, scene, false)?;
         let writer =
             CaptureWriter { path: &path, size, radius: clean.radius(), scalar: Scalar::F32, sidecar: &sidecar };
         expose(&clean, sensor, &writer)?;
@@ -160,7 +186,7 @@ fn capture(args: &Args, scene: Scene, noisy: bool) -> anyhow::Result<Capture> {
     Ok(Capture::open(&path, &Overrides::default())?)
 }
 
-fn request<'a>(args: &Args, scene: Scene, map: &'a MediumMap, sensor: Option<Sensor>) -> Request<'a> {
+fn request<'a>(args: &Captures, scene: Scene, map: &'a MediumMap, sensor: Option<Sensor>) -> Request<'a> {
     Request {
         map,
         source: json!({ "scene": scene.name() }),

@@ -34,7 +34,7 @@ pub(super) fn table(titles: &[String], rows: &[Vec<String>]) -> String {
     out
 }
 
-fn mark(holds: bool, what: &str) -> String {
+pub(super) fn mark(holds: bool, what: &str) -> String {
     format!("{} {what}", if holds { '✓' } else { '✗' })
 }
 

@@ -11,13 +11,24 @@ use crate::memory::human;
 use crate::progress::Bars;
 use crate::say::say;
 
-/// Components that files are made from: as many as factors can have, and more than codebooks can hold.
-pub(crate) const DETAIL: Detail = Detail { luma: 128, chroma: 32 };
-const CHROMA: ChromaSizes = ChromaSizes { i2: 64, i1: 64, colours: 64, tints: 64 };
+/// Components that files of some materials are made from: as many as factors can have, and more than codebooks can hold.
+pub(crate) fn detail(materials: usize) -> Detail {
+    Detail { luma: 128 + 32 * (materials - 1), chroma: 32 }
+}
+
+/// Codebooks of chroma of some materials.
+fn chroma(materials: usize) -> ChromaSizes {
+    let each = 64 * materials;
+    ChromaSizes { i2: each, i1: each, colours: each.min(256), tints: each.min(256) }
+}
+
 /// What errors of chroma count beside those of luma, in factors.
 const CHROMA_WEIGHT: f32 = 1.5;
-/// Bytes of images to a byte of factors: what is made if nothing is asked for, and what is tried for a quality.
-pub(crate) const USUAL_RATIO: u64 = 1000;
+/// Bytes of images to a byte of factors where nothing is asked for.
+const USUAL_RATIO: u64 = 1000;
+/// Bytes that the angular side of factors takes where few texels share it.
+const LEAST_USUAL: u64 = 150_000;
+/// Ratios that are tried for a quality.
 const RATIOS: [u64; 8] = [4000, 2800, 2000, 1400, 1000, 700, 500, 350];
 /// What thresholds of pruning are multiplied by for a quality or a number of bytes.
 const LOOSENESS: [f32; 8] = [4.0, 2.8, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35];
@@ -33,6 +44,11 @@ pub(super) struct Made {
 
 pub(crate) type Encoded = subsurf_encoder::Result<Vec<u8>>;
 
+/// Bytes of factors where nothing is asked for.
+pub(crate) fn usual_bytes(survey: &Survey) -> u64 {
+    (survey.raw_bytes / USUAL_RATIO).max(LEAST_USUAL)
+}
+
 /// What all methods want to know.
 #[derive(Clone)]
 pub(crate) struct Common {
@@ -46,7 +62,8 @@ pub(crate) struct Common {
 impl Common {
     pub(crate) fn nested<'a>(self, materials: &[Images], survey: &'a Survey) -> nested::Prepared<'a> {
         let Self { grid, names, has_mipmaps, seed } = self;
-        nested::Prepared::new(materials, survey, nested::Options { grid, chroma: CHROMA, names, has_mipmaps, seed })
+        let chroma = chroma(materials.len());
+        nested::Prepared::new(materials, survey, nested::Options { grid, chroma, names, has_mipmaps, seed })
     }
 
     pub(crate) fn factored<'a>(
@@ -70,7 +87,7 @@ impl Common {
 }
 
 pub(super) fn nested(args: &Args, materials: &[Images], common: Common) -> anyhow::Result<Made> {
-    let survey = Survey::new(materials, DETAIL, args.seed, &Bars::new())?;
+    let survey = Survey::new(materials, detail(materials.len()), args.seed, &Bars::new())?;
     let prepared = common.nested(materials, &survey);
     let sized = |(p4, stages): (usize, usize)| (format!("P4 = {p4} × {stages}"), Sizes::stages(p4, stages));
     let encode = |stages: &Vec<Sizes>| -> Encoded { Ok(prepared.encode(stages, &Bars::new())?.to_bytes()) };
@@ -84,7 +101,7 @@ pub(super) fn paper(args: &Args, materials: &[Images], common: &Common) -> anyho
 }
 
 pub(super) fn factored(args: &Args, materials: &[Images], common: Common) -> anyhow::Result<Made> {
-    let survey = Survey::new(materials, DETAIL, args.seed, &Bars::new())?;
+    let survey = Survey::new(materials, detail(materials.len()), args.seed, &Bars::new())?;
     let prepared = common.factored(materials, &survey)?;
     let encode = |bytes: &u64| -> Encoded {
         Ok(prepared.encode_to(usize::try_from(*bytes).unwrap_or(usize::MAX), &Bars::new())?.0)
@@ -95,7 +112,7 @@ pub(super) fn factored(args: &Args, materials: &[Images], common: Common) -> any
         Some(Target::Bytes(bytes)) => choose(args, materials, sized(bytes), &[sized(bytes)], encode),
         _ => {
             let ladder = RATIOS.map(|ratio| sized(survey.raw_bytes / ratio));
-            choose(args, materials, sized(survey.raw_bytes / USUAL_RATIO), &ladder, encode)
+            choose(args, materials, sized(usual_bytes(&survey)), &ladder, encode)
         }
     }
 }

@@ -16,7 +16,7 @@ use crate::failure::bad_request;
 use crate::interrupt::Graceful;
 use crate::options::ByteCount;
 use crate::progress::Bars;
-pub(crate) use methods::{Common, DETAIL, USUAL_RATIO};
+pub(crate) use methods::{Common, detail, usual_bytes};
 use report::Report;
 
 /// How a file is made.

@@ -1,0 +1,187 @@
+//! One material through one codec: kept on disk, as it takes minutes.
+
+use std::hint::black_box;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+use subsurf_decoder::btf::Evaluate;
+use subsurf_encoder::btf::{Images, Survey};
+use subsurf_encoder::metrics::btf::{BtfError, compare, compare_images, decode, with_file};
+use subsurf_encoder::write_bytes;
+
+use super::codec::{Codec, Made};
+use super::size;
+use crate::failure::bad_request;
+use crate::info::Parts;
+use crate::picture::{display, write_png};
+use crate::progress::Bars;
+
+/// Pairs of directions that are shown: shares of all of them.
+pub(super) const PICTURED: [f64; 3] = [0.12, 0.52, 0.73];
+
+/// What was found.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub(super) struct Record {
+    /// What it answers; another one is another question.
+    request: String,
+    pub(super) material: String,
+    pub(super) label: String,
+    pub(super) bytes: u64,
+    pub(super) raw_bytes: u64,
+    /// Of Y, Cr and Cb.
+    pub(super) mssim: [f64; 3],
+    pub(super) psnr_db: f64,
+    pub(super) seconds: f64,
+    /// Evaluations in a second on one core, light, view and texel at random.
+    pub(super) evaluations: Option<f64>,
+    /// Name, entries, and how many vectors each codebook stands for.
+    pub(super) books: Vec<(String, u32, u64)>,
+}
+
+impl Record {
+    pub(super) fn mean_mssim(&self) -> f64 {
+        self.mssim.iter().sum::<f64>() / 3.0
+    }
+
+    pub(super) fn line(&self) -> String {
+        let ([luma, ..], mean) = (self.mssim, self.mean_mssim());
+        let size = size(self.bytes, self.raw_bytes);
+        format!("{:<20} {size:>18}  MSSIM {mean:.4} (Y {luma:.4})  {:.1} dB", self.label, self.psnr_db)
+    }
+}
+
+/// A material of the study.
+pub(super) struct Subject<'a> {
+    pub(super) name: &'a str,
+    pub(super) images: &'a [Images],
+    pub(super) folder: &'a Path,
+    pub(super) every: usize,
+}
+
+impl Subject<'_> {
+    fn kept(&self, codec: Codec) -> PathBuf {
+        let side = self.images[0].size()[0];
+        self.folder.join("files").join(format!("{}-{side}-{}.json", self.name, codec.label()))
+    }
+
+    fn read(&self, codec: Codec) -> Option<Record> {
+        serde_json::from_slice(&std::fs::read(self.kept(codec)).ok()?).ok()
+    }
+
+    /// The record of a codec, the kept one if it is still the answer; none if it cannot be as small as it may be.
+    pub(super) fn record(&self, codec: Codec, survey: &mut Option<Survey>) -> anyhow::Result<Option<Record>> {
+        let budget = codec.budget_of().and_then(|other| self.read(other)).map_or(0, |record| record.bytes);
+        let request = format!("{} {codec:?} {budget} every {}", env!("CARGO_PKG_VERSION"), self.every);
+        if let Some(kept) = self.read(codec).filter(|kept| kept.request == request) {
+            return Ok(Some(kept));
+        }
+        let start = Instant::now();
+        let made = codec.make(self.name, self.images, survey, budget)?;
+        let seconds = start.elapsed().as_secs_f64();
+        let judged = made.into_iter().map(|made| Ok((self.judge(&made)?, made)));
+        let judged: Vec<(BtfError, Made)> = judged.collect::<anyhow::Result<_>>()?;
+        let best = judged.into_iter().max_by(|a, b| a.0.mean_mssim().total_cmp(&b.0.mean_mssim()));
+        let Some((error, made)) = best else { return Ok(None) };
+        self.draw(codec, &made)?;
+        let path = self.kept(codec);
+        let (mut books, mut evaluations) = (Vec::new(), None);
+        if let Made::File(bytes) = &made {
+            write_bytes(&path.with_extension("subsurf"), bytes)?;
+            if let Parts::Books(found) = Parts::of(&path, bytes)? {
+                books = found.iter().map(|book| (book.name.clone(), book.entries, book.stands_for)).collect();
+            }
+            evaluations = Some(with_file(bytes, |file| evaluations_per_second(file))?);
+        }
+        let record = Record {
+            request,
+            material: self.name.to_owned(),
+            label: codec.label().to_owned(),
+            bytes: made.bytes(),
+            raw_bytes: self.images[0].bytes(),
+            mssim: error.mssim,
+            psnr_db: error.psnr_db,
+            seconds,
+            evaluations,
+            books,
+        };
+        write_bytes(&path, format!("{:#}\n", serde_json::to_value(&record)?).as_bytes())?;
+        Ok(Some(record))
+    }
+
+    fn judge(&self, made: &Made) -> anyhow::Result<BtfError> {
+        let images = &self.images[0];
+        let pairs: Vec<usize> = (0..images.pairs()).step_by(self.every).collect();
+        let error = match made {
+            Made::File(bytes) => with_file(bytes, |file| compare(images, file, 0, &pairs, &Bars::new()))?,
+            Made::Baseline(baseline) => {
+                compare_images(images, images.tone(), &pairs, |pair| baseline.image(pair), &Bars::new())
+            }
+        };
+        error.ok_or_else(|| bad_request("structural similarity needs images of 11 × 11 pixels at least"))
+    }
+
+    /// Pictures at a few pairs, and the originals.
+    fn draw(&self, codec: Codec, made: &Made) -> anyhow::Result<()> {
+        let images = &self.images[0];
+        for (number, share) in PICTURED.iter().enumerate() {
+            let pair = pictured_pair(images, *share);
+            let decoded = match made {
+                Made::File(bytes) => with_file(bytes, |file| decode(images, file, 0, pair))?,
+                Made::Baseline(baseline) => baseline.image(pair),
+            };
+            let width = images.size()[0];
+            write_png(&picture_path(self.folder, self.name, codec.label(), number), &display(&decoded, width, None))?;
+            let mut original = vec![[0.0; 3]; images.texels()];
+            images.each(pair, |texel, rgb| original[texel] = rgb);
+            write_png(&picture_path(self.folder, self.name, "original", number), &display(&original, width, None))?;
+        }
+        Ok(())
+    }
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "a pair of 6,561"
+)]
+fn pictured_pair(images: &Images, share: f64) -> usize {
+    (share * images.pairs() as f64) as usize
+}
+
+pub(super) fn picture_path(folder: &Path, material: &str, label: &str, number: usize) -> PathBuf {
+    folder.join("pictures").join(format!("btf-{material}-{label}-{number}.png"))
+}
+
+/// Texels, lights and views at random, for a fifth of a second at least.
+fn evaluations_per_second(file: &dyn Evaluate) -> f64 {
+    let Some([width, height]) = file.catalog().materials().next().map(|material| material.size(0)) else {
+        return 0.0;
+    };
+    let mut state = 1_u32;
+    let mut random = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        state >> 8
+    };
+    #[allow(clippy::cast_precision_loss, reason = "24 bits")]
+    let mut unit = || random() as f32 / 16_777_216.0;
+    let mut direction = || {
+        let (z, phi) = (0.3 + 0.7 * unit(), std::f32::consts::TAU * unit());
+        let across = (1.0 - z * z).sqrt();
+        [across * phi.cos(), across * phi.sin(), z]
+    };
+    let queries: Vec<[[f32; 3]; 2]> = (0..4_096).map(|_| [direction(), direction()]).collect();
+    let (width, height) = (width.cast_signed(), height.cast_signed());
+    let texels: Vec<_> = (0..4_096_i32)
+        .filter_map(|k| file.catalog().texel(0, 0, [k.wrapping_mul(7_919) % width, k.wrapping_mul(104_729) % height]))
+        .collect();
+    let (start, mut count) = (Instant::now(), 0_u32);
+    while start.elapsed() < Duration::from_millis(200) {
+        for (texel, [light, view]) in texels.iter().zip(&queries) {
+            black_box(file.eval(*texel, *light, *view));
+            count += 1;
+        }
+    }
+    f64::from(count) / start.elapsed().as_secs_f64()
+}
