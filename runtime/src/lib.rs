@@ -2,6 +2,7 @@
 //!
 //! Everything keeps within `Limits::downlevel_webgl2_defaults()`: no compute, no storage buffers, tables in textures.
 
+mod btf;
 mod cascade;
 mod context;
 mod error;
@@ -17,6 +18,7 @@ mod resource;
 pub mod scene;
 mod separable;
 
+pub use btf::{BtfAnswer, BtfMaterial, BtfQueries, BtfQuery};
 pub use context::{Backend, Gpu, OnScreen, PictureTarget, devices};
 pub use error::{Error, Result};
 pub use factors::{SeparableMaterial, SplatMaterial};

@@ -288,6 +288,18 @@ pub const PRESENT: &str = concat!(
     include_str!("../wgsl/present.wgsl")
 );
 
+/// Values and samples of a BTF for lists of directions; entry points `cover` and `answer`.
+pub const BTF_QUERY: &str = joined!(
+    "cover.wgsl",
+    "btf_words.wgsl",
+    "btf_angle.wgsl",
+    "btf_grid.wgsl",
+    "btf_chain.wgsl",
+    "btf_tone.wgsl",
+    "btf_sampler.wgsl",
+    "btf_query.wgsl"
+);
+
 /// Every pass in every variant, by name, complete.
 #[must_use]
 pub fn all() -> Vec<(String, String)> {
@@ -335,6 +347,7 @@ fn passes() -> Vec<(String, &'static str)> {
         ("shade splats there", shade_splats(Encoding::There)),
         ("present", PRESENT),
         ("homogeneous", HOMOGENEOUS),
+        ("BTF query", BTF_QUERY),
     ];
     let others = others.into_iter().map(|(name, text)| (name.to_owned(), text));
     gathers.chain(on_surfaces).chain(separable).chain(others).collect()

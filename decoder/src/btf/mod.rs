@@ -12,6 +12,6 @@ mod tone;
 
 pub use grid::{Cell, Grid, Place, View};
 pub use layout::{Header, Material, Model};
-pub use nested::{Nested, Sample, Sampler};
+pub use nested::{Codebooks, Nested, PackedTable, Sample, Sampler, StageTables};
 pub use reader::{Btf, Texel};
 pub use tone::{CHROMA, LUMA, Tone};

@@ -11,9 +11,19 @@ use crate::error::{ReadError, Section};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Texel(u32);
 
+impl Texel {
+    /// Its number in the file: texels row by row, level by level, material by material.
+    #[must_use]
+    pub fn number(self) -> u32 {
+        let Self(number) = self;
+        number
+    }
+}
+
 /// A checked BTF file.
 #[derive(Clone, Copy, Debug)]
 pub struct Btf<'a> {
+    file: &'a [u8],
     header: Header,
     materials: &'a [[u8; MATERIAL_BYTES]],
     nested: Nested<'a>,
@@ -36,6 +46,7 @@ impl<'a> Btf<'a> {
     /// The first thing that is wrong.
     pub fn parse_with(bytes: &'a [u8], crc: Crc) -> Result<Self, ReadError> {
         let container = Container::parse(bytes)?;
+        let file = bytes.get(..container.file_bytes()).unwrap_or(bytes);
         let sections = Sections { container: &container, crc };
         let (start, bytes) = sections.any(Section::BtfHeader)?;
         let header = Header::parse(bytes, start)?;
@@ -52,7 +63,13 @@ impl<'a> Btf<'a> {
                 return Err(ReadError::BadField { section: Section::BtfHeader, offset: start, value: 2 });
             }
         };
-        Ok(Self { header, materials, nested, octaves: header.tone.octaves() })
+        Ok(Self { file, header, materials, nested, octaves: header.tone.octaves() })
+    }
+
+    /// The bytes that it was read from.
+    #[must_use]
+    pub fn file(&self) -> &'a [u8] {
+        self.file
     }
 
     /// What the file says of itself.
@@ -82,12 +99,21 @@ impl<'a> Btf<'a> {
     /// A texel by material, mipmap level and coordinates, which repeat; `None` if there is no such material or level.
     #[must_use]
     pub fn texel(&self, material: usize, level: u8, [x, y]: [i32; 2]) -> Option<Texel> {
-        let of = self.materials().nth(material).filter(|of| level < of.levels)?;
-        let before = self.materials().take(material).fold(0_u32, |sum, other| sum.wrapping_add(other.texels(u8::MAX)));
+        let of = self.materials().nth(material)?;
+        let Texel(first) = self.first_texel(material, level)?;
         let [width, height] = of.size(level).map(u32::cast_signed);
         let (x, y) = (x.checked_rem_euclid(width)?, y.checked_rem_euclid(height)?);
         let inside = y.wrapping_mul(width).wrapping_add(x).cast_unsigned();
-        Some(Texel(before.wrapping_add(of.texels(level)).wrapping_add(inside)))
+        Some(Texel(first.wrapping_add(inside)))
+    }
+
+    /// The first texel of a mipmap level of a material, others following row by row; `None` if there is no such material
+    /// or level.
+    #[must_use]
+    pub fn first_texel(&self, material: usize, level: u8) -> Option<Texel> {
+        let of = self.materials().nth(material).filter(|of| level < of.levels)?;
+        let before = self.materials().take(material).fold(0_u32, |sum, other| sum.wrapping_add(other.texels(u8::MAX)));
+        Some(Texel(before.wrapping_add(of.texels(level))))
     }
 
     /// Value of a texel at a place of the grid, as images have it ([`Tone`](super::Tone)): π times the radiance under

@@ -83,7 +83,8 @@ impl Line {
         let integral = self.step * (sum - 0.5 * (first + last)) + self.end * (first + last);
         const REST: f32 = 1.0 - ANYWHERE;
         // Nothing but zeros, as in a hostile file: all places are alike.
-        let (all, floor) = if integral > 0.0 { (integral * (1.0 / REST), integral * (ANYWHERE / REST)) } else { (1.0, 1.0) };
+        let (all, floor) =
+            if integral > 0.0 { (integral * (1.0 / REST), integral * (ANYWHERE / REST)) } else { (1.0, 1.0) };
         (self.integral, self.per_integral, self.floor) = (all, 1.0 / all, floor * self.even);
     }
 
