@@ -174,7 +174,13 @@ fn texture_loads_are_accounted_for() {
             ("present", 1),
             ("homogeneous", 0),
             // Words of a file, clamped to the last; lists at the target's own texel.
-            ("BTF query", 4),
+            ("BTF query, Nested", 4),
+            ("shade BTF, Nested", 2),
+            ("shade BTF there, Nested", 2),
+            // Pixels of images clamped to their size, tiles and layers to the texture's.
+            ("BTF query, Images", 4),
+            ("shade BTF, Images", 2),
+            ("shade BTF there, Images", 2),
         ]
     );
 }

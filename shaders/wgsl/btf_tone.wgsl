@@ -1,10 +1,5 @@
 // From luma and chroma to linear Rec. 709.
 
-// IEC 61966-2-1, from display to linear.
-fn from_srgb(value: vec3<f32>) -> vec3<f32> {
-    return select(pow((value + 0.055) / 1.055, vec3<f32>(2.4)), value / 12.92, value <= vec3<f32>(0.04045));
-}
-
 // What is left of low lights is as the images have it: display values, or light.
 fn linear_of(channels: vec3<f32>, fade: f32) -> vec3<f32> {
     if books.tone == 1u {

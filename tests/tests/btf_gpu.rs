@@ -1,10 +1,12 @@
 //! BTFs on Vulkan and on OpenGL ES 3.0 against the decoder.
 
+use glam::Vec3;
 use subsurf_decoder::Btf;
-use subsurf_decoder::btf::{Grid, Tone};
+use subsurf_decoder::btf::{Grid, Texel, Tone};
 use subsurf_decoder::container::Crc;
+use subsurf_encoder::btf::bonn;
 use subsurf_encoder::synthetic::{NestedShape, unit};
-use subsurf_runtime::{Backend, BtfAnswer, BtfMaterial, BtfQueries, BtfQuery, Gpu};
+use subsurf_runtime::{Backend, BtfAnswer, BtfImages, BtfMaterial, BtfQueries, BtfQuery, BtfStorage, Gpu};
 use subsurf_tests::frames::device;
 use subsurf_tests::nested::{direction, single};
 
@@ -45,7 +47,7 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
 }
 
 /// Random texels of all materials and levels, lights and views, some of them below the horizon or straight above.
-fn queries(btf: &Btf<'_>, count: u32) -> Vec<BtfQuery> {
+fn queries(btf: &Btf<'_>, count: u32) -> (Vec<Texel>, Vec<BtfQuery>) {
     let query = |n: u32| {
         let random = |k: u32| unit(16 * n + k);
         let towards = |k: u32| match n % 16 {
@@ -59,19 +61,21 @@ fn queries(btf: &Btf<'_>, count: u32) -> Vec<BtfQuery> {
         let level = u8::try_from(n % u32::from(of.levels)).unwrap();
         #[allow(clippy::cast_possible_truncation, reason = "texels")]
         let at = [4, 5].map(|k| (1000.0 * random(k)) as i32);
-        BtfQuery {
-            texel: btf.texel(material, level, at).unwrap(),
+        let texel = btf.texel(material, level, at).unwrap();
+        let query = BtfQuery {
+            texel: texel.number(),
             light: towards(0),
             view: if n % 16 == 2 { single(direction([random(2), random(3)])) } else { towards(2) },
             random: [random(6), random(7)],
-        }
+        };
+        (texel, query)
     };
-    (0..count).map(query).collect()
+    (0..count).map(query).unzip()
 }
 
 /// What the decoder says.
-fn expected(btf: &Btf<'_>, query: &BtfQuery) -> BtfAnswer {
-    let BtfQuery { texel, light, view, random } = *query;
+fn expected(btf: &Btf<'_>, texel: Texel, query: &BtfQuery) -> BtfAnswer {
+    let BtfQuery { light, view, random, .. } = *query;
     BtfAnswer {
         value: btf.header().tone.linear(btf.eval(texel, light, view)),
         pdf: btf.pdf(texel, light, view),
@@ -80,9 +84,10 @@ fn expected(btf: &Btf<'_>, query: &BtfQuery) -> BtfAnswer {
 }
 
 /// Largest errors of values, densities and samples, in tolerances.
-fn errors(btf: &Btf<'_>, queries: &[BtfQuery], found: &[BtfAnswer]) -> [f32; 3] {
+fn errors(btf: &Btf<'_>, (texels, queries): &(Vec<Texel>, Vec<BtfQuery>), found: &[BtfAnswer]) -> [f32; 3] {
     assert_eq!(queries.len(), found.len(), "every query is answered");
-    let wanted: Vec<BtfAnswer> = queries.iter().map(|query| expected(btf, query)).collect();
+    let wanted = texels.iter().zip(queries).map(|(texel, query)| expected(btf, *texel, query));
+    let wanted: Vec<BtfAnswer> = wanted.collect();
     let brightest = wanted.iter().flat_map(|answer| answer.value).fold(0.0, f32::max);
     let mut worst = [0.0_f32; 3];
     for (found, wanted) in found.iter().zip(&wanted) {
@@ -110,7 +115,7 @@ fn gles(backend: Backend) -> Gpu {
 
 fn values_and_samples(backend: Backend) {
     let gpu = gles(backend);
-    let answers = BtfQueries::new(&gpu).unwrap();
+    let answers = BtfQueries::new(&gpu, BtfStorage::Nested).unwrap();
     for (name, file) in files() {
         let btf = Btf::parse(&file).unwrap();
         let before = gpu.ledger().bytes();
@@ -118,7 +123,7 @@ fn values_and_samples(backend: Backend) {
         assert_eq!(gpu.ledger().bytes() - before, material.gpu_bytes(), "{name}: counted");
         assert!(material.gpu_bytes() < file.len() as u64 + (10 << 10), "{name}: as large as the file, but for a row");
         let queries = queries(&btf, 6_000);
-        let found = answers.answer(&gpu, &material, &queries).unwrap();
+        let found = answers.answer(&gpu, &material, &queries.1).unwrap();
         let [value, pdf, sample] = errors(&btf, &queries, &found);
         println!("{backend}, {name}: values {value:.1e}, densities {pdf:.1e}, samples {sample:.1e}");
         assert!(value <= VALUE_TOLERANCE, "{backend}, {name}: values are off by {value}");
@@ -139,7 +144,7 @@ fn values_and_samples_on_gles_3_0() {
 /// Any bits in codebooks whose sizes are powers of two: the reader takes them, and the device says the same of them.
 fn hostile(backend: Backend) {
     let gpu = gles(backend);
-    let answers = BtfQueries::new(&gpu).unwrap();
+    let answers = BtfQueries::new(&gpu, BtfStorage::Nested).unwrap();
     let shape =
         NestedShape { materials: vec![(32, 32, 1)], stages: 3, luma: [64, 128, 256, 128], ..NestedShape::typical() };
     let clean = shape.database(7).to_bytes();
@@ -155,7 +160,7 @@ fn hostile(backend: Backend) {
         let btf = Btf::parse_with(&file, Crc::Skip).unwrap();
         let material = BtfMaterial::upload(&gpu, &btf).unwrap();
         let queries = queries(&btf, 3_000);
-        let found = answers.answer(&gpu, &material, &queries).unwrap();
+        let found = answers.answer(&gpu, &material, &queries.1).unwrap();
         let [value, pdf, sample] = errors(&btf, &queries, &found);
         println!("{backend}, seed {seed}: values {value:.1e}, densities {pdf:.1e}, samples {sample:.1e}");
         assert!(value <= 10.0 * VALUE_TOLERANCE, "{backend}, seed {seed}: {value}");
@@ -171,4 +176,68 @@ fn random_bits_on_vulkan() {
 #[test]
 fn random_bits_on_gles_3_0() {
     hostile(Backend::Gl);
+}
+
+/// A pixel of an image that nothing else looks like.
+fn pixel(light: usize, view: usize, texel: usize) -> [u8; 3] {
+    let number = u32::try_from((light * 81 + view) * 12 + texel).unwrap();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a byte")]
+    [0, 1, 2].map(|c| (255.0 * unit(3 * number + c)) as u8)
+}
+
+/// At measured directions, images are what they are; between two of them, halfway between.
+fn images(backend: Backend) {
+    let gpu = gles(backend);
+    let answers = BtfQueries::new(&gpu, BtfStorage::Images).unwrap();
+    let directions: Vec<Vec3> = bonn().iter().map(|direction| direction.unit()).collect();
+    let images = BtfImages { size: [4, 3], lights: &directions, views: &directions, white: 2.0 };
+    let before = gpu.ledger().bytes();
+    let image = |light, view| (0..12).map(|texel| pixel(light, view, texel)).collect();
+    let material = BtfMaterial::upload_images(&gpu, &images, image).unwrap();
+    assert_eq!(gpu.ledger().bytes() - before, material.gpu_bytes(), "counted");
+    assert!((81 * 81 * 12 * 4..81 * 81 * 12 * 4 + 2_000).contains(&material.gpu_bytes()), "four bytes a pixel");
+
+    let tone = Tone::Display { white: 2.0 };
+    let query = |texel: usize, light: Vec3, view: Vec3| BtfQuery {
+        texel: u32::try_from(texel).unwrap(),
+        light: light.to_array(),
+        view: view.to_array(),
+        random: [0.25, 0.5],
+    };
+    let display = |light, view, texel| pixel(light, view, texel).map(|byte| f32::from(byte) / 255.0);
+    let (mut queries, mut expected) = (Vec::new(), Vec::new());
+    for (light, view) in (0..81).flat_map(|light| (0..81).map(move |view| (light, view))) {
+        let texel = (light * 5 + view) % 12;
+        queries.push(query(texel, directions[light], directions[view]));
+        expected.push(tone.linear(display(light, view, texel)));
+    }
+    // Around the ring at 75°, which has 24 directions from number 57 on; the last and the first are neighbours.
+    for k in 0..24 {
+        let (one, next) = (57 + k, 57 + (k + 1) % 24);
+        let phi = (k as f32 + 0.5) * 15_f32.to_radians();
+        let (sin, cos) = 75_f32.to_radians().sin_cos();
+        queries.push(query(k % 12, directions[20], Vec3::new(sin * phi.cos(), sin * phi.sin(), cos)));
+        let (a, b) = (display(20, one, k % 12), display(20, next, k % 12));
+        expected.push(tone.linear([0, 1, 2].map(|c| 0.5 * (a[c] + b[c]))));
+    }
+    let found = answers.answer(&gpu, &material, &queries).unwrap();
+    let errors = found.iter().zip(&expected).flat_map(|(a, b)| (0..3).map(move |c| (a.value[c] - b[c]).abs()));
+    let worst = errors.fold(0.0, f32::max);
+    println!("{backend}: images are off by {worst:.1e} of 2");
+    assert!(worst <= VALUE_TOLERANCE, "{backend}: {worst}");
+    for answer in &found {
+        let [x, y, z] = answer.sample.light;
+        assert!((x * x + y * y + z * z - 1.0).abs() < 1e-3 && z > 0.0, "a direction above: {answer:?}");
+        assert!((answer.sample.pdf - z / std::f32::consts::PI).abs() < 1e-3, "by its cosine: {answer:?}");
+    }
+}
+
+#[test]
+fn images_on_vulkan() {
+    images(Backend::Vulkan);
+}
+
+#[test]
+fn images_on_gles_3_0() {
+    images(Backend::Gl);
 }

@@ -173,3 +173,91 @@ fn mask(width: u32) -> u32 {
 fn bit(byte: u64) -> u32 {
     u32::try_from(8 * byte).unwrap_or(0)
 }
+
+/// Which texels a pixel shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BtfFiltering {
+    /// The nearest one, of the nearest mipmap level.
+    Nearest,
+    /// Four, linearly, of the nearest mipmap level.
+    Bilinear,
+    /// Four of each of both levels around, linearly.
+    Trilinear,
+}
+
+/// Most mipmap levels of a material.
+pub const MAX_LEVELS: usize = 16;
+
+/// `BtfTexture` of `btf_texture.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct BtfTexture {
+    /// First texel, width and height of each mipmap level, the finest first.
+    pub levels: [[u32; 4]; MAX_LEVELS],
+    /// Number of levels.
+    pub count: u32,
+    /// 0 nearest, 1 bilinear, 2 trilinear.
+    pub filtering: u32,
+    /// Samples of light from all around, for a pixel.
+    pub samples: u32,
+    #[doc(hidden)]
+    pub pad: u32,
+}
+
+impl BtfTexture {
+    /// Of one material of a file, filtered; `None` if there is no such material.
+    #[must_use]
+    pub fn of(btf: &Btf<'_>, material: usize) -> Option<Self> {
+        let of = btf.materials().nth(material)?;
+        let mut levels = [[0; 4]; MAX_LEVELS];
+        for (to, level) in levels.iter_mut().zip(0..of.levels) {
+            let [width, height] = of.size(level);
+            *to = [btf.first_texel(material, level)?.number(), width, height, 0];
+        }
+        Some(Self { levels, count: of.levels.into(), filtering: 2, samples: 0, pad: 0 })
+    }
+
+    /// Of a texture of one level, its texels row by row.
+    #[must_use]
+    pub fn plain([width, height]: [u32; 2]) -> Self {
+        let mut levels = [[0; 4]; MAX_LEVELS];
+        levels[0] = [0, width, height, 0];
+        Self { levels, count: 1, filtering: 2, samples: 0, pad: 0 }
+    }
+
+    /// The same, filtered in another way, with so many samples of light from all around for a pixel.
+    #[must_use]
+    pub fn drawn(self, filtering: BtfFiltering, samples: u32) -> Self {
+        let filtering = match filtering {
+            BtfFiltering::Nearest => 0,
+            BtfFiltering::Bilinear => 1,
+            BtfFiltering::Trilinear => 2,
+        };
+        Self { filtering, samples, ..self }
+    }
+}
+
+/// Most rings of measured directions.
+pub const MAX_RINGS_OF_DIRECTIONS: usize = 16;
+
+/// `BtfImages` of `btf_images.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct BtfImages {
+    /// Rings of lights: angle from the normal in rad, number of directions, number of the first.
+    pub light_rings: [[f32; 4]; MAX_RINGS_OF_DIRECTIONS],
+    /// Likewise of views.
+    pub view_rings: [[f32; 4]; MAX_RINGS_OF_DIRECTIONS],
+    /// Rings of lights and of views.
+    pub rings: [u32; 2],
+    /// Pixels of an image.
+    pub size: [u32; 2],
+    /// Images to a row of a layer.
+    pub tiles: u32,
+    /// Linear value of display white.
+    pub white: f32,
+    /// cos θ of the lowest light.
+    pub cos_light_min: f32,
+    #[doc(hidden)]
+    pub pad: u32,
+}
