@@ -248,6 +248,27 @@ pub(crate) fn parse_btf<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::
     Btf::parse_with(bytes, Crc::Check).map_err(|error| read_error(path, error)).context("not a usable BTF")
 }
 
+/// What a file holds.
+#[derive(Clone, Copy)]
+#[allow(clippy::large_enum_variant, reason = "one at a time")]
+pub(crate) enum Parsed<'a> {
+    /// A translucent material.
+    Bssrdf(Bssrdf<'a>),
+    /// A bidirectional texture function.
+    Btf(Btf<'a>),
+}
+
+/// [`parse`] of either.
+pub(crate) fn parse_any<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Parsed<'a>> {
+    let container =
+        Container::parse(bytes).map_err(|error| read_error(path, error)).context("not a usable material")?;
+    if container.entries().any(|entry| entry.section == Section::BtfHeader) {
+        parse_btf(path, bytes).map(Parsed::Btf)
+    } else {
+        parse(path, bytes).map(Parsed::Bssrdf)
+    }
+}
+
 fn read_error(path: &std::path::Path, source: subsurf_decoder::ReadError) -> subsurf_encoder::Error {
     subsurf_encoder::Error::Read { path: path.to_owned(), source }
 }
