@@ -298,8 +298,8 @@ pub const PRESENT: &str = concat!(
     include_str!("../wgsl/present.wgsl")
 );
 
-/// How a bidirectional texture function is stored on the device; each has the functions `seen_from`, `value_of`,
-/// `sampler_of`, `sampled` and `density_of`.
+/// How a bidirectional texture function is stored on the device; each has the functions `seen_from`, `apparent_of`,
+/// `value_of`, `sampler_of`, `sampled` and `density_of`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BtfStorage {
     /// Nested codebooks: a file as it is.

@@ -147,39 +147,75 @@ fn later_luma(stage: u32, texel: u32, seen: Seen, lit: Lit) -> f32 {
     return sum / select(255.0, 127.0, books.is_signed[stage] == 1u);
 }
 
-// Luma and chroma of a texel, without the fading of low lights.
-fn channels_of(texel: u32, seen: Seen, lit: Lit) -> vec3<f32> {
+// What a texel looks like from a view, under any light: the first stage as far as no light is known.
+struct Apparent {
+    texel: u32,
+    // Of P2 and of I2, at the four nodes of view.
+    rows: vec4<u32>,
+    hues: vec4<u32>,
+    // Of c_P4 c_P3 there, and of c_P6.
+    exponents: vec4<i32>,
+    of_texel: i32,
+    weights: vec4<f32>,
+    // In steps of a code.
+    tint: vec2<f32>,
+}
+
+fn apparent_of(texel: u32, seen: Seen) -> Apparent {
     let of_p6 = books.chains[0];
     let item = bits_at(item_at(of_p6, texel, 0u));
-    let above = item >> of_p6.index_bits;
-    var corners = corners_of(0u, index_of(of_p6, item), exponent_of(of_p6, above), 1.0, seen);
-    let betas = vec2<f32>(1.0 - lit.beta.weight, lit.beta.weight);
-    let light_weights = vec4<f32>((1.0 - lit.alpha.weight) * betas, lit.alpha.weight * betas);
-    var luma_sum = 0.0;
-    var hues = vec2<f32>(0.0);
+    var corners = corners_of(0u, index_of(of_p6, item), 0, 1.0, seen);
+    var rows: vec4<u32>;
+    var hues: vec4<u32>;
     for (var k = 0u; k < 4u; k++) {
-        let rows = merged_row(corners.rows[k]);
-        let lumas = lumas_of(0u, rows.x, corners.exponents[k], corners.weights[k], lit);
-        luma_sum += total(lumas);
-        // Where chroma is divided by luma, the brighter of the nodes count for more.
-        var shares = lumas;
-        if books.is_relative == 0u {
-            shares = corners.weights[k] * light_weights;
-        }
-        hues += hues_of(rows.y, shares, lit);
-    }
-    var luma = luma_sum / 255.0;
-    for (var stage = 1u; stage < min(books.stages, 4u); stage++) {
-        luma += later_luma(stage, texel, seen, lit);
+        let merged = merged_row(corners.rows[k]);
+        rows[k] = merged.x;
+        hues[k] = merged.y;
     }
     var tint = vec2<f32>(0.0);
     if books.tint_count > 0u {
         let number = (item & mask_of(of_p6.width)) >> books.tint_at;
         tint = chroma_codes(books.tints + 16u * min(number, books.tint_count - 1u)) - 128.0;
     }
+    let of_texel = exponent_of(of_p6, item >> of_p6.index_bits);
+    return Apparent(texel, rows, hues, corners.exponents, of_texel, corners.weights, tint);
+}
+
+// Luma and chroma, without the fading of low lights.
+fn channels_of(apparent: Apparent, seen: Seen, lit: Lit) -> vec3<f32> {
+    var copy = apparent;
+    let betas = vec2<f32>(1.0 - lit.beta.weight, lit.beta.weight);
+    let light_weights = vec4<f32>((1.0 - lit.alpha.weight) * betas, lit.alpha.weight * betas);
+    let is_one_hue = all(apparent.hues == apparent.hues.xxxx);
+    var lumas = vec4<f32>(0.0);
+    var hues = vec2<f32>(0.0);
+    for (var k = 0u; k < 4u; k++) {
+        let of_corner = lumas_of(0u, copy.rows[k], apparent.of_texel + copy.exponents[k], copy.weights[k], lit);
+        lumas += of_corner;
+        if !is_one_hue {
+            hues += hues_of(copy.hues[k], shares_of(of_corner, copy.weights[k] * light_weights), lit);
+        }
+    }
+    // Neighbours of one colour are looked up once: their weights add up to 1.
+    if is_one_hue {
+        hues = hues_of(apparent.hues.x, shares_of(lumas, light_weights), lit);
+    }
+    let luma_sum = total(lumas);
+    var luma = luma_sum / 255.0;
+    for (var stage = 1u; stage < min(books.stages, 4u); stage++) {
+        luma += later_luma(stage, apparent.texel, seen, lit);
+    }
     if books.is_relative == 1u {
         let fraction = select(vec2<f32>(0.0), hues / max(luma_sum, 1e-30), luma_sum > 0.0);
-        return vec3<f32>(luma, luma * (books.first + books.step * (fraction + tint)));
+        return vec3<f32>(luma, luma * (books.first + books.step * (fraction + apparent.tint)));
     }
-    return vec3<f32>(luma, books.first + books.step * (hues + tint));
+    return vec3<f32>(luma, books.first + books.step * (hues + apparent.tint));
+}
+
+// Where chroma is divided by luma, the brighter of the nodes count for more.
+fn shares_of(lumas: vec4<f32>, weights: vec4<f32>) -> vec4<f32> {
+    if books.is_relative == 1u {
+        return lumas;
+    }
+    return weights;
 }

@@ -30,6 +30,15 @@ struct Around {
 
 alias Seen = Around;
 
+// What a texel looks like from a view.
+struct Apparent {
+    texel: u32,
+}
+
+fn apparent_of(texel: u32, seen: Seen) -> Apparent {
+    return Apparent(texel);
+}
+
 // Two directions of a ring around an azimuth in turns, 0 to 1, and the weight of the second.
 fn on_ring(ring: vec4<f32>, turns: f32) -> vec3<f32> {
     let at = turns * ring.y;
@@ -73,13 +82,14 @@ fn seen_from(view: vec3<f32>) -> Seen {
     return around(view, false);
 }
 
-// pi times the radiance of a texel under light of unit irradiance on a plane that faces it: white paper has cos theta_i.
-fn value_of(texel: u32, light: vec3<f32>, seen: Seen) -> vec3<f32> {
+// pi times the radiance under light of unit irradiance on a plane that faces it: white paper has cos theta_i.
+fn value_of(apparent: Apparent, light: vec3<f32>, seen: Seen) -> vec3<f32> {
     let above = max(light.z, 0.0);
     // Lights lower than those that were measured fade out.
     let fade = min(above / max(measured.cos_light_min, 1e-6), 1.0);
     var lit = around(light, true);
     var views = seen;
+    let texel = apparent.texel;
     let at = vec2<u32>(texel % measured.size.x, min(texel / measured.size.x, measured.size.y - 1u));
     let last = vec2<u32>(textureDimensions(images)) - 1u;
     var sum = vec3<f32>(0.0);
@@ -99,7 +109,7 @@ struct Sampler {
     unused: u32,
 }
 
-fn sampler_of(texel: u32, seen: Seen) -> Sampler {
+fn sampler_of(apparent: Apparent, seen: Seen) -> Sampler {
     return Sampler(0u);
 }
 

@@ -21,8 +21,9 @@ fn answer(@builtin(position) at: vec4<f32>) -> Answer {
     let view = textureLoad(views, place, 0);
     let seen = seen_from(view.xyz);
     let texel = u32(light.w) | (u32(view.w) << 16u);
-    let value = value_of(texel, light.xyz, seen);
-    let source = sampler_of(texel, seen);
+    let apparent = apparent_of(texel, seen);
+    let value = value_of(apparent, light.xyz, seen);
+    let source = sampler_of(apparent, seen);
     let pdf = density_of(source, light.xyz);
     let drawn = sampled(source, textureLoad(randoms, place, 0).xy);
     return Answer(bitcast<vec4<u32>>(vec4<f32>(value, pdf)), bitcast<vec4<u32>>(drawn));

@@ -1,15 +1,19 @@
 // Lights in proportion to what a texel shows of them (Havran et al. 2010, section 5.2): luma is linear between nodes and
 // d omega = d alpha d(sin beta), so that its integrals have inverses.
 
-// Densities at the nodes of alpha, and from 64 on at those of beta.
-var<private> density: array<f32, 128>;
+// Densities at the nodes of alpha, and from 64 on at those of beta, four at a time.
+var<private> densities: array<vec4<f32>, 32>;
+
+fn density(node: u32) -> f32 {
+    return densities[node >> 2u][node & 3u];
+}
 
 // Share of all draws that fall anywhere with the same density, so that it is nowhere 0.
 const ANYWHERE: f32 = 0.03125;
 
 // A density that is linear between `last` + 1 nodes and constant beyond them.
 struct Line {
-    // Of the first node in `density`.
+    // Of the first node in `densities`.
     base: u32,
     last: u32,
     // Distance of two nodes, and length of the constant piece before the first and after the last.
@@ -44,16 +48,16 @@ fn near(exponent: i32) -> f32 {
     return bitcast<f32>(u32(clamp((exponent << 17u) + 0x3f800000, 0x00800000, 0x7f000000)));
 }
 
-// The line of the values that stand in `density` from `base` on, `count` nodes from -`reach` to `reach` over -`half` to `half`.
+// The line of the values that stand in `densities` from `base` on, `count` nodes from -`reach` to `reach` over -`half` to `half`.
 fn line_of(base: u32, count: u32, reach: f32, half: f32) -> Line {
     let last = min(count, 64u) - 1u;
     let step = 2.0 * reach / f32(last);
     let end = half - reach;
     var sum = 0.0;
     for (var k = 0u; k <= last; k++) {
-        sum += density[base + k];
+        sum += density(base + k);
     }
-    let ends = density[base] + density[base + last];
+    let ends = density(base) + density(base + last);
     let integral = step * (sum - 0.5 * ends) + end * ends;
     let even = 0.5 / half;
     // Nothing but zeros: all places are alike.
@@ -66,7 +70,7 @@ fn line_of(base: u32, count: u32, reach: f32, half: f32) -> Line {
 
 // The place that has the share `part`, 0 to 1, of the density before it.
 fn draw_on(line: Line, part: f32) -> Drawn {
-    let first = density[line.base] + line.floor;
+    let first = density(line.base) + line.floor;
     var rest = part * line.integral - line.end * first;
     if rest < 0.0 {
         return Drawn(Place(0u, 0.0), part * line.integral / first, first / line.integral);
@@ -75,20 +79,20 @@ fn draw_on(line: Line, part: f32) -> Drawn {
     var node = 0u;
     var piece = 0.0;
     for (; node < line.last; node++) {
-        piece = line.step * (0.5 * (density[line.base + node] + density[line.base + node + 1u]) + line.floor);
+        piece = line.step * (0.5 * (density(line.base + node) + density(line.base + node + 1u)) + line.floor);
         if rest < piece {
             break;
         }
         rest -= piece;
     }
     if node >= line.last {
-        let last = density[line.base + line.last] + line.floor;
+        let last = density(line.base + line.last) + line.floor;
         let at = line.end + f32(line.last) * line.step + min(rest / last, line.end);
         return Drawn(Place(line.last - 1u, 1.0), at, last / line.integral);
     }
     // low u + (high - low) u^2 / 2 = rest / step, in the form that subtracts nothing from nothing; of an integral of 1.
-    let low = (density[line.base + node] + line.floor) / line.integral;
-    let slope = (density[line.base + node + 1u] - density[line.base + node]) / line.integral;
+    let low = (density(line.base + node) + line.floor) / line.integral;
+    let slope = (density(line.base + node + 1u) - density(line.base + node)) / line.integral;
     let twice = 2.0 * rest / (line.step * line.integral);
     let weight = clamp(twice / (low + sqrt(max(low * low + slope * twice, 0.0))), 0.0, 1.0);
     return Drawn(Place(node, weight), line.end + (f32(node) + weight) * line.step, low + weight * slope);
@@ -97,62 +101,64 @@ fn draw_on(line: Line, part: f32) -> Drawn {
 // Density at a place, as `draw_on` gives it.
 fn density_at(line: Line, at: f32) -> f32 {
     let place = place_at((at - line.end) / line.step, line.last);
-    let low = density[line.base + place.first];
-    let high = density[line.base + place.first + 1u];
+    let low = density(line.base + place.first);
+    let high = density(line.base + place.first + 1u);
     return (low + place.weight * (high - low) + line.floor) / line.integral;
 }
 
-fn sampler_of(texel: u32, seen: Seen) -> Sampler {
-    let of_p6 = books.chains[0];
+fn sampler_of(apparent: Apparent, seen: Seen) -> Sampler {
     let of_p2 = books.chains[3];
-    // c_P6 is common to all directions.
-    let p4 = index_of(of_p6, bits_at(item_at(of_p6, texel, 0u)));
-    var corners = corners_of(0u, p4, 0, 1.0, seen);
-    var rows: vec4<u32>;
-    for (var k = 0u; k < 4u; k++) {
-        rows[k] = merged_row(corners.rows[k]).x;
-    }
-    // Codes of P2 are those of integrals over slices.
+    var copy = apparent;
+    // Codes of P2 are those of integrals over slices; c_P6 is common to all directions.
     for (var node = 0u; node < min(books.nodes.x, 64u); node += 2u) {
         var integrals = vec2<f32>(0.0);
         for (var k = 0u; k < 4u; k++) {
-            let codes = slices_of(0u, rows[k], node).codes;
-            let low = near(corners.exponents[k] + exponent_of(of_p2, codes.x));
-            let high = near(corners.exponents[k] + exponent_of(of_p2, codes.y));
-            integrals += corners.weights[k] * vec2<f32>(low, high);
+            let codes = slices_of(0u, copy.rows[k], node).codes;
+            let low = near(copy.exponents[k] + exponent_of(of_p2, codes.x));
+            let high = near(copy.exponents[k] + exponent_of(of_p2, codes.y));
+            integrals += copy.weights[k] * vec2<f32>(low, high);
         }
-        density[node] = integrals.x;
-        density[node + 1u] = integrals.y;
+        let at = node >> 2u;
+        if (node & 2u) == 0u {
+            densities[at] = vec4<f32>(integrals, 0.0, 0.0);
+        } else {
+            densities[at] = vec4<f32>(densities[at].xy, integrals);
+        }
     }
     let alpha = line_of(0u, books.nodes.x, books.alpha_max, HALF_PI);
-    return Sampler(rows, corners.exponents, corners.weights, seen.azimuth, alpha);
+    return Sampler(apparent.rows, apparent.exponents, apparent.weights, seen.azimuth, alpha);
+}
+
+// Adds a slice times a factor to the line of beta; what is beyond the last node is not looked at.
+fn add_slice(bit: u32, factor: f32, quads: u32) {
+    let first = bit >> 5u;
+    var low = word(first);
+    for (var k = 0u; k < quads; k++) {
+        let high = word(first + k + 1u);
+        let bytes = vec4<u32>(joined(low, high, bit & 31u)) >> vec4<u32>(0u, 8u, 16u, 24u);
+        densities[16u + k] += factor * vec4<f32>(bytes & vec4<u32>(255u));
+        low = high;
+    }
 }
 
 // Of sin beta, from -1 to 1, by luma between the slices at a node of alpha and the next.
 fn beta_line(source: Sampler, alpha: Place) -> Line {
     let of_p2 = books.chains[3];
-    let count = min(books.nodes.y, 64u);
-    for (var node = 0u; node < count; node++) {
-        density[64u + node] = 0.0;
+    let quads = min((books.nodes.y + 3u) >> 2u, 16u);
+    for (var k = 0u; k < quads; k++) {
+        densities[16u + k] = vec4<f32>(0.0);
     }
     var copy = source;
-    for (var k = 0u; k < 8u; k++) {
-        // Slices at both nodes of alpha, of each node of view.
-        let slices = slices_of(0u, copy.rows[k >> 1u], alpha.first);
-        let is_high = (k & 1u) == 1u;
-        let bit = slice_at(0u, select(slices.rows.x, slices.rows.y, is_high));
-        let code = select(slices.codes.x, slices.codes.y, is_high);
-        let scale = near(copy.exponents[k >> 1u] + exponent_of(of_p2, code) + height_of(bit));
-        let factor = copy.weights[k >> 1u] * select(1.0 - alpha.weight, alpha.weight, is_high) * scale;
-        for (var node = 0u; node < count; node += 4u) {
-            let bytes = bits_at(bit + 8u * node);
-            // What is beyond the last node is not looked at.
-            for (var byte = 0u; byte < 4u; byte++) {
-                density[64u + min(node + byte, 63u)] += factor * f32((bytes >> (8u * byte)) & 255u);
-            }
-        }
+    for (var k = 0u; k < 4u; k++) {
+        let slices = slices_of(0u, copy.rows[k], alpha.first);
+        let low = slice_at(0u, slices.rows.x);
+        let high = slice_at(0u, slices.rows.y);
+        let c_low = near(copy.exponents[k] + exponent_of(of_p2, slices.codes.x) + height_of(low));
+        let c_high = near(copy.exponents[k] + exponent_of(of_p2, slices.codes.y) + height_of(high));
+        add_slice(low, copy.weights[k] * (1.0 - alpha.weight) * c_low, quads);
+        add_slice(high, copy.weights[k] * alpha.weight * c_high, quads);
     }
-    return line_of(64u, count, books.sin_beta_max, 1.0);
+    return line_of(64u, books.nodes.y, books.sin_beta_max, 1.0);
 }
 
 // The light at sine and cosine of alpha and at sin beta, for the azimuth of a view.

@@ -38,8 +38,8 @@ fn chances(pixel: vec2<u32>) -> vec3<f32> {
 // Colbert 2008).
 fn from_all_around(in: Varying, detail: f32, seen: Seen, tangents: Tangents) -> vec3<f32> {
     let chance = chances(vec2<u32>(in.clip.xy));
-    let texel = tap_drawn(in.uv, detail, chance.z);
-    let source = sampler_of(texel, seen);
+    let apparent = apparent_of(tap_drawn(in.uv, detail, chance.z), seen);
+    let source = sampler_of(apparent, seen);
     let count = min(btf_texture.samples, 1024u);
     var sum = vec3<f32>(0.0);
     for (var k = 0u; k < count; k++) {
@@ -49,7 +49,7 @@ fn from_all_around(in: Varying, detail: f32, seen: Seen, tangents: Tangents) -> 
         // GGX of roughness r has most of its reflection within some 4 pi r^4 sr.
         let roughness = min(sqrt(sqrt(1.0 / (f32(count) * drawn.w * 4.0 * PI))), 1.0);
         let towards = drawn.x * tangents.x + drawn.y * tangents.y + drawn.z * tangents.z;
-        sum += value_of(texel, drawn.xyz, seen) * sky_radiance(towards, roughness) / drawn.w;
+        sum += value_of(apparent, drawn.xyz, seen) * sky_radiance(towards, roughness) / drawn.w;
     }
     return sum / f32(max(count, 1u));
 }

@@ -79,7 +79,7 @@ fn textured(uv: vec2<f32>, detail: f32, light: vec3<f32>, seen: Seen) -> vec3<f3
     for (var k = 0u; k < tap_count(); k++) {
         let tap = tap_at(k, uv, detail);
         if tap.weight > 0.0 {
-            sum += tap.weight * value_of(tap.texel, light, seen);
+            sum += tap.weight * value_of(apparent_of(tap.texel, seen), light, seen);
         }
     }
     return sum;

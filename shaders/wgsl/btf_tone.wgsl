@@ -24,11 +24,11 @@ fn linear_of(channels: vec3<f32>, fade: f32) -> vec3<f32> {
     return max(rgb * luminance, vec3<f32>(0.0)) * fade;
 }
 
-// pi times the radiance of a texel under light of unit irradiance on a plane that faces it: white paper has cos theta_i.
-fn value_of(texel: u32, light: vec3<f32>, seen: Seen) -> vec3<f32> {
+// pi times the radiance under light of unit irradiance on a plane that faces it: white paper has cos theta_i.
+fn value_of(apparent: Apparent, light: vec3<f32>, seen: Seen) -> vec3<f32> {
     let lit = lit_from(light, seen.azimuth);
     if lit.fade <= 0.0 {
         return vec3<f32>(0.0);
     }
-    return linear_of(channels_of(texel, seen, lit), lit.fade);
+    return linear_of(channels_of(apparent, seen, lit), lit.fade);
 }
