@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Btf;
@@ -267,6 +267,35 @@ pub(crate) fn draw_btf(
     Ok((picture, facts))
 }
 
+/// What the twin of the shaders wants to know of a mesh.
+pub(crate) struct Textured {
+    uvs: Vec<Vec2>,
+    tangents: Vec<Vec4>,
+}
+
+impl Textured {
+    /// For so many copies of a material along u and v.
+    pub(crate) fn new(mesh: &Mesh, copies: [f32; 2]) -> anyhow::Result<Self> {
+        let down = |uv: &Vec2| Vec2::new(uv.x * copies[0], 1.0 - uv.y * copies[1]);
+        Ok(Self { uvs: mesh.uvs.iter().flatten().map(down).collect(), tangents: mesh.tangents()? })
+    }
+
+    pub(crate) fn triangles<'a>(
+        &'a self,
+        mesh: &'a Mesh,
+        visibilities: &'a [[f32; MAX_LIGHTS]],
+    ) -> cpu::BtfTriangles<'a> {
+        cpu::BtfTriangles {
+            positions: &mesh.positions,
+            normals: &mesh.normals,
+            uvs: &self.uvs,
+            tangents: &self.tangents,
+            visibilities,
+            triangles: &mesh.triangles,
+        }
+    }
+}
+
 /// The same by the twin of the shaders, with the exposure; shadows are known of vertices only.
 fn on_cpu(
     surface: &cpu::BtfSurface<'_>,
@@ -282,16 +311,8 @@ fn on_cpu(
             of_vertex[k] = seen;
         }
     }
-    let down = |uv: &Vec2| Vec2::new(uv.x * copies[0], 1.0 - uv.y * copies[1]);
-    let uvs: Vec<Vec2> = mesh.uvs.iter().flatten().map(down).collect();
-    let triangles = cpu::BtfTriangles {
-        positions: &mesh.positions,
-        normals: &mesh.normals,
-        uvs: &uvs,
-        tangents: &mesh.tangents()?,
-        visibilities: &visibilities,
-        triangles: &mesh.triangles,
-    };
+    let textured = Textured::new(mesh, copies)?;
+    let triangles = textured.triangles(mesh, &visibilities);
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };
     let outline = Outline::of_btf(mesh, copies);
     let draw = |exposure, size| {
