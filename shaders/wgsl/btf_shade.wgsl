@@ -37,10 +37,13 @@ fn chances(pixel: vec2<u32>) -> vec3<f32> {
 // F(light) L(light) / density. Each sample sees L as blurred as its share of all directions is wide (Krivanek and
 // Colbert 2008).
 fn from_all_around(in: Varying, detail: f32, seen: Seen, tangents: Tangents) -> vec3<f32> {
+    let count = min(btf_texture.samples, 4096u);
+    if count == 0u {
+        return vec3<f32>(0.0);
+    }
     let chance = chances(vec2<u32>(in.clip.xy));
     let apparent = apparent_of(tap_drawn(in.uv, detail, chance.z), seen);
     let source = sampler_of(apparent, seen);
-    let count = min(btf_texture.samples, 1024u);
     var sum = vec3<f32>(0.0);
     for (var k = 0u; k < count; k++) {
         // A lattice of rank 1, shifted for each pixel.
@@ -51,7 +54,7 @@ fn from_all_around(in: Varying, detail: f32, seen: Seen, tangents: Tangents) -> 
         let towards = drawn.x * tangents.x + drawn.y * tangents.y + drawn.z * tangents.z;
         sum += value_of(apparent, drawn.xyz, seen) * sky_radiance(towards, roughness) / drawn.w;
     }
-    return sum / f32(max(count, 1u));
+    return sum / f32(count);
 }
 
 @fragment

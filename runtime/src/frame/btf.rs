@@ -17,10 +17,13 @@ use crate::resource::Slot;
 pub struct BtfOptions {
     /// Which texels a pixel shows.
     pub filtering: BtfFiltering,
-    /// Importance samples of light from all around for a pixel, at most 1024; grain falls with their square root. None
-    /// leaves that light out.
+    /// Samples of light from all around for a pixel, at most 1024; grain falls with their square root. None leaves that
+    /// light out. Images, which say nothing of how to sample them, get four times as many, by their cosine.
     pub samples: u32,
 }
+
+/// Most samples of light from all around for a pixel.
+const MAX_SAMPLES: u32 = 1_024;
 
 impl Default for BtfOptions {
     fn default() -> Self {
@@ -63,7 +66,12 @@ impl Buffers {
         material.expect(passes.storage)?;
         let count = material.textures().len();
         let missing = || Error::Device(format!("material {number} of a BTF of {count}; they are counted from 0"));
-        let block = material.textures().get(number).ok_or_else(missing)?.drawn(options.filtering, options.samples);
+        let samples = options.samples.min(MAX_SAMPLES)
+            * match passes.storage {
+                BtfStorage::Nested => 1,
+                BtfStorage::Images => 4,
+            };
+        let block = material.textures().get(number).ok_or_else(missing)?.drawn(options.filtering, samples);
         let texture = gpu.uniform("BTF texture", &block);
         let [of_material, pixels] = material.resources();
         Ok(Self { shade: passes.shade.bind(gpu, 1, &[of_material, pixels, texture.as_entire_binding()])?, texture })
