@@ -173,7 +173,53 @@ fn btfs_from_images_to_judgement() {
     assert_refused(&run(folder, "encode btf leather --target-bytes 1kB"), &["no codebooks are that small"]);
     assert_refused(&run(folder, "encode btf leather --nodes 11,11"), &["--nodes has 2 numbers"]);
     assert_refused(&run(folder, "encode btf nothing"), &["nothing", "a folder of images"]);
-    assert_refused(&run(folder, "render leather.subsurf -o r.png"), &["leather.subsurf", "BSSR"]);
+    draws_btfs(folder);
+}
+
+/// Pictures of the file beside the images, on devices and on the CPU; and what is refused.
+fn draws_btfs(folder: &std::path::Path) {
+    let halves = |name: &str| {
+        let sheet = image::open(folder.join(name)).unwrap().into_rgb8();
+        assert_eq!(sheet.dimensions(), (6 + 80 + 6 + 80 + 6, 6 + 60 + 6), "two pictures with gaps");
+        let half = |left: u32| {
+            let places = (6..66).flat_map(move |y| (left..left + 80).map(move |x| (x, y)));
+            places.map(|(x, y)| sheet.get_pixel(x, y).0).collect::<Vec<_>>()
+        };
+        (half(6), half(92))
+    };
+    for backend in ["vulkan", "gl"] {
+        let args = "--mesh sphere --repeat 4,2 --samples 4 --size 80x60";
+        let args =
+            format!("render leather.subsurf {args} --images leather --backend {backend} -o {backend}.png --json");
+        let report = json(folder, &args);
+        // Each image is 16 × 16 pixels of four bytes.
+        assert!(report["images_gpu_bytes"].as_u64().unwrap() >= 6_561 * 16 * 16 * 4, "{report}");
+        assert!(report["gpu_bytes"].as_u64().unwrap() < 40_000, "{report}");
+        let (file, images) = halves(&format!("{backend}.png"));
+        let light = |picture: &[[u8; 3]]| picture.iter().flatten().map(|c| f64::from(*c)).sum::<f64>();
+        let ratio = light(&file) / light(&images);
+        assert!((0.95..1.05).contains(&ratio), "{backend}: the file is {ratio} times as bright as its images");
+        assert!(file.iter().any(|pixel| pixel[0] > 2 * pixel[2]), "{backend}: leather is brown");
+    }
+    let report = json(folder, "render leather.subsurf --mesh torus --size 80x60 --backend cpu -o cpu.png --json");
+    assert!(report["exposure"].as_f64().unwrap() > 0.0 && report["repeat"][0].as_f64().unwrap() > 1.0, "{report}");
+    succeed(
+        folder,
+        "render both.subsurf --material wood --mesh torus --size 80x60 --samples 0 --backend gl -o wood.png",
+    );
+
+    std::fs::write(folder.join("bare.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    for (args, words) in [
+        ("render leather.subsurf --mesh bare.obj", ["texture coordinates", "UV"]),
+        ("render leather.subsurf --path splat", ["--path", "this file is a BTF"]),
+        ("render leather.subsurf --samples 5000", ["--samples is 5000", "1024"]),
+        ("render both.subsurf --material jade", ["--material jade", "leather, wood"]),
+        ("render leather.subsurf --images nothing --size 40", ["nothing", "a folder of images"]),
+        ("render leather.subsurf --light disc", ["direction", "patches"]),
+    ] {
+        assert_refused(&run(folder, &format!("{args} -o r.png")), &words);
+    }
+    assert!(!folder.join("r.png").exists(), "nothing is written");
 }
 
 /// A driver that does not draw to half floats: the paths that can do without draw the same, the other says why not.

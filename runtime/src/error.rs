@@ -20,6 +20,9 @@ pub enum Error {
     /// The environment's picture is broken or empty.
     #[error("environment: {0}")]
     Environment(String),
+    /// The images of a BTF cannot be drawn as they are.
+    #[error("images of a BTF: {0}")]
+    Images(String),
     /// What is asked for does not fit the budget; nothing was allocated.
     #[error("this takes {need_bytes} bytes on the device, more than the budget of {budget_bytes}")]
     OverBudget {

@@ -2,6 +2,7 @@
 //!
 //! Everything keeps within `Limits::downlevel_webgl2_defaults()`: no compute, no storage buffers, tables in textures.
 
+mod btf;
 mod cascade;
 mod context;
 mod error;
@@ -17,15 +18,17 @@ mod resource;
 pub mod scene;
 mod separable;
 
+pub use btf::{BtfAnswer, BtfImages, BtfMaterial, BtfQueries, BtfQuery};
 pub use context::{Backend, Gpu, OnScreen, PictureTarget, devices};
 pub use error::{Error, Result};
 pub use factors::{SeparableMaterial, SplatMaterial};
-pub use frame::{BACKGROUND, Frame, GpuPoints, Model, Path, Plan, Renderer, RuntimeOptions};
+pub use frame::{BACKGROUND, BtfOptions, Frame, GpuPoints, Model, Path, Plan, Renderer, RuntimeOptions};
 pub use ledger::Ledger;
 pub use material::{Material, storage_of};
 pub use mesh::{GpuMesh, Known};
 pub use patch::{Exitance, PatchLight, PatchRenderer, Region};
 pub use separable::{HomogeneousPatch, HomogeneousRenderer, SeparablePatch, SeparableRenderer};
-pub use subsurf_shaders::Storage;
 pub use subsurf_shaders::source::Keeping;
+pub use subsurf_shaders::uniform::BtfFiltering;
+pub use subsurf_shaders::{BtfStorage, Storage};
 pub use wgpu;

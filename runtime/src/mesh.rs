@@ -1,6 +1,6 @@
 //! A mesh on the device, and passes that draw it.
 
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use wgpu::{
     BindGroup, BindingResource, Buffer, BufferUsages, Color, CommandEncoder, CompareFunction, DepthStencilState,
     IndexFormat, LoadOp, MultisampleState, RenderPassColorAttachment, TextureFormat, TextureView, VertexBufferLayout,
@@ -22,6 +22,8 @@ pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth24Plus;
 pub struct GpuMesh {
     vertices: Tracked<Buffer>,
     indices: Tracked<Buffer>,
+    /// Of a mesh for BTFs.
+    tangents: Option<Tracked<Buffer>>,
     index_count: u32,
     /// As many points as a surface must have whose points the vertices name.
     pub(crate) points: usize,
@@ -48,6 +50,8 @@ pub enum Known<'a> {
     Points(&'a [u32]),
     /// How much light from all around it gets: for all others.
     Sky(&'a [SkyShare]),
+    /// [`Mesh::tangents`]: for BTFs.
+    Tangents(&'a [Vec4]),
 }
 
 /// 0 to 2 in a byte.
@@ -69,7 +73,7 @@ impl GpuMesh {
         };
         let sky = |k: usize| match known {
             Known::Sky(shares) => shares[k],
-            Known::Points(_) => SkyShare { front: [1.0; 3], back: [0.0; 3] },
+            Known::Points(_) | Known::Tangents(_) => SkyShare { front: [1.0; 3], back: [0.0; 3] },
         };
         let vertex = |k: usize| {
             let uv = mesh.uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[k]) * times;
@@ -79,7 +83,7 @@ impl GpuMesh {
                 uv: Vec2::new(uv.x, 1.0 - uv.y),
                 point: match known {
                     Known::Points(points) => points[k],
-                    Known::Sky(_) => 0,
+                    Known::Sky(_) | Known::Tangents(_) => 0,
                 },
                 sky_front: halves(sky(k).front),
                 sky_back: halves(sky(k).back),
@@ -95,21 +99,48 @@ impl GpuMesh {
         Ok(Self {
             vertices: gpu.buffer("vertices", bytemuck::cast_slice(&vertices), BufferUsages::VERTEX),
             indices: gpu.buffer("indices", bytemuck::cast_slice(&mesh.triangles), BufferUsages::INDEX),
+            tangents: match known {
+                Known::Tangents(tangents) => {
+                    Some(gpu.buffer("tangents", bytemuck::cast_slice(tangents), BufferUsages::VERTEX))
+                }
+                Known::Points(_) | Known::Sky(_) => None,
+            },
             index_count: index_count.map_err(|_| Error::Mesh("more than 2³² indices".to_owned()))?,
             points: match known {
                 Known::Points(points) => points.iter().map(|point| *point as usize + 1).max().unwrap_or(0),
-                Known::Sky(_) => 0,
+                Known::Sky(_) | Known::Tangents(_) => 0,
             },
             outline: *outline,
         })
     }
 
+    /// Refuses a mesh that was uploaded without tangents.
+    pub(crate) fn expect_tangents(&self) -> Result<()> {
+        let missing = || Error::Mesh("uploaded without tangents, which a BTF needs".to_owned());
+        self.tangents.as_ref().map(|_| ()).ok_or_else(missing)
+    }
+
     /// Bytes on the device.
     #[must_use]
     pub fn gpu_bytes(&self) -> u64 {
-        self.vertices.bytes() + self.indices.bytes()
+        let tangents = self.tangents.as_ref().map_or(0, Tracked::bytes);
+        self.vertices.bytes() + self.indices.bytes() + tangents
     }
 }
+
+const VERTICES: VertexBufferLayout<'static> = VertexBufferLayout {
+    array_stride: size_of::<Vertex>() as u64,
+    step_mode: VertexStepMode::Vertex,
+    attributes: &vertex_attr_array![
+        0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32, 4 => Unorm8x4, 5 => Unorm8x4
+    ],
+};
+
+const TANGENTS: VertexBufferLayout<'static> = VertexBufferLayout {
+    array_stride: size_of::<Vec4>() as u64,
+    step_mode: VertexStepMode::Vertex,
+    attributes: &vertex_attr_array![6 => Float32x4],
+};
 
 /// A pass that draws meshes.
 #[derive(Debug)]
@@ -140,14 +171,25 @@ impl MeshPass {
         samples: u32,
     ) -> Result<Self> {
         let program = Program { shader, vertex: "project", fragment, groups, targets };
+        Self::with(gpu, &program, &[VERTICES], samples)
+    }
+
+    /// The same for a shader that takes tangents; it draws meshes that have them.
+    pub(crate) fn textured(
+        gpu: &Gpu,
+        shader: &str,
+        fragment: &str,
+        groups: &[&[Slot]],
+        targets: &[TextureFormat],
+        samples: u32,
+    ) -> Result<Self> {
+        let program = Program { shader, vertex: "project", fragment, groups, targets };
+        Self::with(gpu, &program, &[VERTICES, TANGENTS], samples)
+    }
+
+    fn with(gpu: &Gpu, program: &Program<'_>, vertices: &[VertexBufferLayout<'_>], samples: u32) -> Result<Self> {
         let drawing = Drawing {
-            vertices: Some(VertexBufferLayout {
-                array_stride: size_of::<Vertex>() as u64,
-                step_mode: VertexStepMode::Vertex,
-                attributes: &vertex_attr_array![
-                    0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32, 4 => Unorm8x4, 5 => Unorm8x4
-                ],
-            }),
+            vertices,
             depth: Some(DepthStencilState {
                 format: DEPTH,
                 depth_write_enabled: Some(true),
@@ -158,7 +200,7 @@ impl MeshPass {
             multisample: MultisampleState { count: samples, ..Default::default() },
             ..Default::default()
         };
-        Ok(Self(Pipeline::new(gpu, &program, drawing)?))
+        Ok(Self(Pipeline::new(gpu, program, drawing)?))
     }
 
     /// Binds resources, in order, to bind group number `group`.
@@ -178,6 +220,9 @@ impl MeshPass {
         let attachments: Vec<_> = targets.iter().map(|target| Some(target.cleared())).collect();
         let mut pass = self.0.begin(encoder, &attachments, Some(depth), groups);
         pass.set_vertex_buffer(0, mesh.vertices.slice(..));
+        if let Some(tangents) = &mesh.tangents {
+            pass.set_vertex_buffer(1, tangents.slice(..));
+        }
         pass.set_index_buffer(mesh.indices.slice(..), IndexFormat::Uint32);
         pass.draw_indexed(0..mesh.index_count, 0, 0..1);
     }

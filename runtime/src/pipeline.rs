@@ -36,7 +36,7 @@ pub(crate) struct Drawing<'a> {
     pub(crate) topology: PrimitiveTopology,
     /// What is done with what stands there already.
     pub(crate) blend: Option<BlendState>,
-    pub(crate) vertices: Option<VertexBufferLayout<'a>>,
+    pub(crate) vertices: &'a [VertexBufferLayout<'a>],
     pub(crate) depth: Option<DepthStencilState>,
     pub(crate) multisample: MultisampleState,
 }
@@ -61,7 +61,7 @@ impl Pipeline {
                 bind_group_layouts: &bind_group_layouts,
                 immediate_size: 0,
             });
-            let vertices = [drawing.vertices];
+            let vertices: Vec<_> = drawing.vertices.iter().cloned().map(Some).collect();
             let pipeline = gpu.device.create_render_pipeline(&RenderPipelineDescriptor {
                 label,
                 layout: Some(&layout),
@@ -69,7 +69,7 @@ impl Pipeline {
                     module: &module,
                     entry_point: Some(program.vertex),
                     compilation_options: Default::default(),
-                    buffers: if vertices[0].is_some() { &vertices } else { &[] },
+                    buffers: &vertices,
                 },
                 primitive: PrimitiveState { topology: drawing.topology, ..Default::default() },
                 depth_stencil: drawing.depth,

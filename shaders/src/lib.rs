@@ -8,4 +8,4 @@ pub mod separable;
 pub mod source;
 pub mod uniform;
 
-pub use source::Storage;
+pub use source::{BtfStorage, Storage};

@@ -203,6 +203,16 @@ pub enum Encoding {
     There,
 }
 
+/// What all pictures of meshes need, for both encodings, and more files after it.
+macro_rules! lit {
+    ($encoding:expr, $with:ident!($($first:expr)?), $($part:literal),+) => {
+        match $encoding {
+            Encoding::Here => $with!($($first,)? "encode_here.wgsl", "fresnel.wgsl", "scene.wgsl", "coat.wgsl", "tone.wgsl", "light_depth.wgsl", "shadow.wgsl", $($part),+),
+            Encoding::There => $with!($($first,)? "encode_there.wgsl", "fresnel.wgsl", "scene.wgsl", "coat.wgsl", "tone.wgsl", "light_depth.wgsl", "shadow.wgsl", $($part),+),
+        }
+    };
+}
+
 /// A picture's shader for both encodings.
 macro_rules! shading {
     ($encoding:expr, $with:ident!($($first:expr)?), $($part:literal),+) => {
@@ -288,6 +298,54 @@ pub const PRESENT: &str = concat!(
     include_str!("../wgsl/present.wgsl")
 );
 
+/// How a bidirectional texture function is stored on the device; each has the functions `seen_from`, `apparent_of`,
+/// `value_of`, `sampler_of`, `sampled` and `density_of`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BtfStorage {
+    /// Nested codebooks: a file as it is.
+    Nested,
+    /// An image for every pair of a light and a view, uncompressed.
+    Images,
+}
+
+impl BtfStorage {
+    /// Both of them.
+    pub const ALL: [Self; 2] = [Self::Nested, Self::Images];
+}
+
+/// What reads nested codebooks, and more files after it.
+macro_rules! with_nested {
+    ($($part:literal),+) => {
+        joined!(
+            "btf_words.wgsl", "btf_angle.wgsl", "btf_grid.wgsl", "btf_chain.wgsl", "btf_srgb.wgsl", "btf_tone.wgsl",
+            "btf_sampler.wgsl", $($part),+
+        )
+    };
+}
+
+/// What reads images, and more files after it.
+macro_rules! with_images {
+    ($($part:literal),+) => { joined!("btf_angle.wgsl", "btf_srgb.wgsl", "btf_images.wgsl", $($part),+) };
+}
+
+/// Values and samples of a BTF for lists of directions; entry points `cover` and `answer`.
+#[must_use]
+pub const fn btf_query(storage: BtfStorage) -> &'static str {
+    match storage {
+        BtfStorage::Nested => with_nested!("cover.wgsl", "btf_query.wgsl"),
+        BtfStorage::Images => with_images!("cover.wgsl", "btf_query.wgsl"),
+    }
+}
+
+/// Picture of a mesh of a BTF; entry points `project` and `shade`.
+#[must_use]
+pub const fn shade_btf(encoding: Encoding, storage: BtfStorage) -> &'static str {
+    match storage {
+        BtfStorage::Nested => lit!(encoding, with_nested!(), "btf_vertex.wgsl", "btf_texture.wgsl", "btf_shade.wgsl"),
+        BtfStorage::Images => lit!(encoding, with_images!(), "btf_vertex.wgsl", "btf_texture.wgsl", "btf_shade.wgsl"),
+    }
+}
+
 /// Every pass in every variant, by name, complete.
 #[must_use]
 pub fn all() -> Vec<(String, String)> {
@@ -337,5 +395,12 @@ fn passes() -> Vec<(String, &'static str)> {
         ("homogeneous", HOMOGENEOUS),
     ];
     let others = others.into_iter().map(|(name, text)| (name.to_owned(), text));
-    gathers.chain(on_surfaces).chain(separable).chain(others).collect()
+    let btfs = BtfStorage::ALL.into_iter().flat_map(|storage| {
+        [
+            (format!("BTF query, {storage:?}"), btf_query(storage)),
+            (format!("shade BTF, {storage:?}"), shade_btf(Encoding::Here, storage)),
+            (format!("shade BTF there, {storage:?}"), shade_btf(Encoding::There, storage)),
+        ]
+    });
+    gathers.chain(on_surfaces).chain(separable).chain(others).chain(btfs).collect()
 }

@@ -56,6 +56,10 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(Frame: size, texels, exposure);
     assert_layout_of!(Stage as Stage in "blur": weights, axis, sigma, stride, taps, step, sparse, begun);
     assert_layout_of!(Kernel as Stage in "homogeneous": kernel, axis, taps);
+    assert_layout_of!(BtfTable: start, width, row_bits, index_bits, last, code_mask, sign_at, sign_mask, step, offset);
+    assert_layout_of!(BtfBooks: chains, merged, i2, i1, p2_bytes, p1, is_signed, colours, tints, tint_count, tint_at, i2_mask, last_i2, stages, is_relative, first, step, nodes, alpha_max, sin_beta_max, theta_max, cos_light_min, tone, white, octaves, last_word);
+    assert_layout_of!(BtfImages: light_rings, view_rings, rings, size, tiles, white, cos_light_min);
+    assert_layout_of!(BtfTexture: levels, count, filtering, samples);
     assert_layout_of!(ScreenDomain as Domain in "Screen": size, focal_texels, middle_mm, pitch_mm, jitters);
 }
 

@@ -1,5 +1,6 @@
 //! `subsurf bench`: how long things take on this machine.
 
+mod btf;
 mod course;
 mod frames;
 mod load;
@@ -16,6 +17,7 @@ pub(crate) enum Command {
     Load(load::Args),
     Frames(frames::Args),
     Patch(patch::Args),
+    Btf(btf::Args),
     Render(render::Args),
     #[command(hide = true)]
     LoadOne(load_one::Args),
@@ -26,6 +28,7 @@ pub(crate) fn run(command: &Command) -> anyhow::Result<()> {
         Command::Load(args) => load::run(args),
         Command::Frames(args) => frames::run(args),
         Command::Patch(args) => patch::run(args),
+        Command::Btf(args) => btf::run(args),
         Command::Render(args) => render::run(args),
         Command::LoadOne(args) => load_one::run(args),
     }

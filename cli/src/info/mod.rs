@@ -7,12 +7,14 @@ use std::path::PathBuf;
 use anyhow::Context;
 use serde_json::json;
 use subsurf_decoder::bssrdf::{Coding, Model, Profiles};
+use subsurf_decoder::btf::{Catalog, Model as BtfModel};
 use subsurf_decoder::container::{Container, Crc};
-use subsurf_decoder::{Bssrdf, Section};
+use subsurf_decoder::{Bssrdf, Btf, Section};
 use subsurf_encoder::btf::Folder;
 
 pub(crate) use btf::Parts;
 
+use crate::failure::bad_request;
 use crate::memory::human;
 use crate::say::say;
 
@@ -115,13 +117,42 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 
 /// The bytes of an input file.
 pub(crate) fn read_file(path: &std::path::Path) -> anyhow::Result<Vec<u8>> {
-    std::fs::read(path)
-        .map_err(|error| crate::failure::bad_request(format!("{}: {error}; expected a .subsurf file", path.display())))
+    std::fs::read(path).map_err(|error| bad_request(format!("{}: {error}; expected a .subsurf file", path.display())))
 }
 
 /// Parses with all checks, and names the file if it fails.
 pub(crate) fn parse<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Bssrdf<'a>> {
     Bssrdf::parse_with(bytes, Crc::Check).map_err(|error| read_error(path, error)).context("not a usable material")
+}
+
+/// What a file holds that can be drawn.
+#[derive(Clone, Copy)]
+#[allow(clippy::large_enum_variant, reason = "one at a time")]
+pub(crate) enum Parsed<'a> {
+    /// A translucent material.
+    Bssrdf(Bssrdf<'a>),
+    /// A bidirectional texture function.
+    Btf(Btf<'a>),
+}
+
+/// [`parse`] of either.
+pub(crate) fn parse_any<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Parsed<'a>> {
+    let container =
+        Container::parse(bytes).map_err(|error| read_error(path, error)).context("not a usable material")?;
+    if !container.entries().any(|entry| entry.section == Section::BtfHeader) {
+        return parse(path, bytes).map(Parsed::Bssrdf);
+    }
+    parse_btf(path, bytes).map(Parsed::Btf)
+}
+
+/// [`parse`] of a BTF that can be drawn.
+pub(crate) fn parse_btf<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Btf<'a>> {
+    let model = Catalog::parse(bytes, Crc::Check).map(|catalog| catalog.header().model);
+    if matches!(model, Ok(BtfModel::Factored)) {
+        let what = "factors are for the CPU; to draw it, encode the BTF with --method nested";
+        return Err(bad_request(format!("{}: {what}", path.display())));
+    }
+    Btf::parse_with(bytes, Crc::Check).map_err(|error| read_error(path, error)).context("not a usable BTF")
 }
 
 pub(crate) fn read_error(path: &std::path::Path, source: subsurf_decoder::ReadError) -> subsurf_encoder::Error {

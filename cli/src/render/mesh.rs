@@ -13,7 +13,7 @@ use super::{Angles, BRIGHT, MappingArg, PathArg, exposure_for};
 use crate::failure::bad_request;
 
 /// Pictures are drawn this much larger and averaged down, so that edges are smooth.
-const SUPERSAMPLING: u32 = 2;
+pub(super) const SUPERSAMPLING: u32 = 2;
 /// From over the right shoulder.
 pub(super) const DEFAULT_LIGHT: Vec3 = Vec3::new(0.9, 1.1, 0.35);
 
@@ -129,12 +129,25 @@ pub(crate) fn chosen_exposure(
     prepared: &Prepared,
     scene: &Scene,
 ) -> anyhow::Result<f32> {
+    let mut scene = scene.clone();
+    let mut failed = Ok(());
+    let exposure = exposure_of(|dark| {
+        scene.view.exposure = dark;
+        renderer.picture(gpu, frame, &prepared.model(), &scene).unwrap_or_else(|error| {
+            failed = Err(error);
+            Vec::new()
+        })
+    });
+    failed?;
+    Ok(exposure)
+}
+
+/// The same for whatever draws a picture at an exposure.
+pub(super) fn exposure_of(draw: impl FnOnce(f32) -> Vec<[u8; 3]>) -> f32 {
     // So dark that nothing is compressed, which is then undone.
     const DARK: f32 = 0.05;
     const MIDDLE: f32 = 0.5;
-    let mut dark = scene.clone();
-    dark.view.exposure = DARK;
-    let picture = renderer.picture(gpu, frame, &prepared.model(), &dark)?;
+    let picture = draw(DARK);
     let mut values: Vec<f32> = picture
         .iter()
         .filter(|pixel| **pixel != [BACKGROUND; 3])
@@ -142,7 +155,7 @@ pub(crate) fn chosen_exposure(
         .collect();
     values.sort_by(f32::total_cmp);
     let bright = values.get(values.len() * 97 / 100).copied().unwrap_or(0.0);
-    Ok(if bright > 0.0 { DARK * MIDDLE / bright } else { 1.0 })
+    if bright > 0.0 { DARK * MIDDLE / bright } else { 1.0 }
 }
 
 /// Repeats texture coordinates so that the material has its own size on average, a whole number of times.
@@ -191,7 +204,7 @@ fn light_of(pixel: [u8; 3]) -> Rgb {
 }
 
 /// Means of blocks of pixels, taken of light rather than of display values.
-fn average_down(pixels: &[[u8; 3]], size: [u32; 2]) -> RgbImage {
+pub(super) fn average_down(pixels: &[[u8; 3]], size: [u32; 2]) -> RgbImage {
     let light: Vec<f32> = (0..=255_u8).map(|value| light_of([value; 3])[0]).collect();
     let n = SUPERSAMPLING;
     RgbImage::from_fn(size[0] / n, size[1] / n, |x, y| {

@@ -1,5 +1,6 @@
 //! `subsurf render`: a picture of a material, flat or on a mesh.
 
+mod btf;
 mod mesh;
 mod patch;
 mod prepared;
@@ -9,7 +10,9 @@ use std::str::FromStr;
 use std::time::Instant;
 
 use glam::Vec3;
-use serde_json::{Value, json};
+use image::RgbImage;
+use serde_json::{Map, Value, json};
+use subsurf_decoder::Bssrdf;
 use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::Light;
 use subsurf_runtime::scene::Environment;
@@ -18,43 +21,46 @@ use subsurf_shaders::cpu::{self, Rgb};
 
 use crate::devices::{self, BackendArg, check_picture};
 use crate::failure::bad_request;
-use crate::info::{parse, read_file};
+use crate::info::{Parsed, parse_any, read_file};
 use crate::memory::human;
 use crate::mesh::{Up, load};
 use crate::options::Size;
 use crate::picture::write_png;
 use crate::say::say;
 
+pub(crate) use btf::{BtfArgs, Textured, draw_btf, expect_uvs, prepare_btf, read_images, upload_images};
 pub(crate) use mesh::{ROUGHNESS, Shot, choose_mapping, chosen_exposure, draw_mesh};
 pub(crate) use patch::{draw_patch, patch_irradiance};
 pub(crate) use prepared::{Ingredients, Prepared, Ready};
 
-/// Draw a material, flat or on a mesh, by the reference path or by a fast one.
+/// Draw a material: a translucent one flat or on a mesh, by the reference path or by a fast one; a BTF on a mesh.
 #[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     /// The .subsurf file
     file: PathBuf,
     /// The PNG to write
     #[arg(long, short)]
     output: PathBuf,
-    /// Draw it on this mesh: a file (.obj, .ply, .glb, .gltf), or one of knot, bowl, drapery, relief, sphere, torus
+    /// Draw it on this mesh: a file (.obj, .ply, .glb, .gltf), or one of knot, bowl, drapery, relief, sphere, torus; a BTF
+    /// on the knot if not given
     #[arg(long, value_name = "FILE|SHAPE")]
     mesh: Option<PathBuf>,
-    /// Longest side of the mesh in mm: the material has its real size
+    /// Longest side of the mesh in mm: a translucent material has its real size
     #[arg(long, default_value_t = 60.0, value_name = "MM", requires = "mesh")]
     extent: f32,
-    /// How light scatters
-    #[arg(long, value_enum, default_value = "gather")]
-    path: PathArg,
+    /// How light scatters in a translucent material; gather if not given
+    #[arg(long, value_enum)]
+    path: Option<PathArg>,
     /// Shift the taps of the separable path from pixel to pixel: grain instead of bands
     #[arg(long, requires = "mesh")]
     jitter: bool,
     /// Light from all around: an equirectangular picture, .hdr or .png; a dim studio if not given
     #[arg(long, value_name = "FILE", requires = "mesh")]
     environment: Option<PathBuf>,
-    /// How rough the coat is that reflects it, 0 to 1
-    #[arg(long, default_value_t = mesh::ROUGHNESS, requires = "mesh")]
-    roughness: f32,
+    /// How rough the coat of a translucent material is that reflects it, 0 to 1; 0.25 if not given
+    #[arg(long, requires = "mesh")]
+    roughness: Option<f32>,
     /// Which way is up in the mesh
     #[arg(long, value_enum, default_value = "y", requires = "mesh")]
     up: Up,
@@ -79,6 +85,8 @@ pub(crate) struct Args {
     /// Report as JSON
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    btf: BtfArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -127,6 +135,14 @@ impl FromStr for LightArg {
     }
 }
 
+const EXAMPLES: &str = "\
+Examples:
+  subsurf render jade.subsurf -o patch.png --light line
+  subsurf render jade.subsurf -o bunny.png --mesh bunny.ply --path separable
+  subsurf render leather.subsurf -o leather.png
+  subsurf render leather.subsurf -o sofa.png --mesh sofa.glb --repeat 8 --environment room.hdr --samples 32
+  subsurf render leather.subsurf -o both.png --images leather/        the file and the images, side by side";
+
 /// Degrees around the up axis and above the horizon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Angles {
@@ -152,17 +168,55 @@ const BRIGHT: f32 = 0.75;
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     check_target(&args.output)?;
     check_picture(args.size.0)?;
+    args.btf.check()?;
     if let Some(exposure) = args.exposure
         && !(exposure.is_finite() && exposure > 0.0)
     {
         return Err(bad_request(format!("--exposure is {exposure}; it must be positive")));
     }
-    if !(0.0..=1.0).contains(&args.roughness) {
-        return Err(bad_request(format!("--roughness is {}; it must be between 0 and 1", args.roughness)));
+    if let Some(roughness) = args.roughness.filter(|roughness| !(0.0..=1.0).contains(roughness)) {
+        return Err(bad_request(format!("--roughness is {roughness}; it must be between 0 and 1")));
     }
     let bytes = read_file(&args.file)?;
-    let material = parse(&args.file, &bytes)?;
-    let is_separable = matches!(args.path, PathArg::Separable | PathArg::Homogeneous);
+    let start = Instant::now();
+    let (picture, facts, device) = match parse_any(&args.file, &bytes)? {
+        Parsed::Bssrdf(material) => draw_bssrdf(args, &material)?,
+        Parsed::Btf(btf) => {
+            args.refuse_scattering()?;
+            let gpu = args.backend.open()?;
+            let shape = args.mesh.as_deref().unwrap_or(Path::new(BTF_SHAPE));
+            let mesh = load(shape, args.extent, args.up)?;
+            let (picture, facts) = draw_btf(gpu.as_ref(), &btf, &mesh, &args.btf, &args.shot()?)?;
+            (picture, facts, devices::name(gpu.as_ref()))
+        }
+    };
+    write_png(&args.output, &picture)?;
+    let seconds = start.elapsed().as_secs_f64();
+    if args.json {
+        let mut value = json!({ "file": args.output, "device": device, "seconds": seconds });
+        if let Some(value) = value.as_object_mut() {
+            value.extend(facts);
+        }
+        say!("{value:#}");
+    } else {
+        say!("{}: drawn by {device} in {seconds:.1} s", args.output.display());
+        for (fact, what) in [("gpu_bytes", "the material takes"), ("images_gpu_bytes", "its images take")] {
+            if let Some(bytes) = facts.get(fact).and_then(Value::as_u64) {
+                say!("  {what} {} on the device", human(bytes));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What a BTF is drawn on if nothing is said.
+const BTF_SHAPE: &str = "knot";
+
+/// A translucent material, flat or on a mesh; and what drew it.
+fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, Map<String, Value>, String)> {
+    args.btf.expect_none()?;
+    let path = args.path.unwrap_or(PathArg::Gather);
+    let is_separable = matches!(path, PathArg::Separable | PathArg::Homogeneous);
     if args.jitter && !is_separable {
         return Err(bad_request("--jitter is for --path separable and homogeneous; the others have no taps"));
     }
@@ -172,58 +226,59 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         // The CPU does what the device cannot.
         gpu = None;
     }
-    let start = Instant::now();
+    let flat = |light| draw_patch(gpu.as_ref(), material, path, light, args.size.0, args.exposure);
     let (picture, facts) = match (&args.mesh, args.light) {
-        (None, None) => draw_patch(gpu.as_ref(), &material, args.path, Light::Disc, args.size.0, args.exposure)?,
-        (None, Some(LightArg::Pattern(light))) => {
-            draw_patch(gpu.as_ref(), &material, args.path, light, args.size.0, args.exposure)?
-        }
+        (None, None) => flat(Light::Disc)?,
+        (None, Some(LightArg::Pattern(light))) => flat(light)?,
         (None, Some(LightArg::Direction(_))) => {
             return Err(bad_request("--light X,Y,Z is for meshes; on a patch it is uniform, disc or line"));
         }
-        (Some(_), Some(LightArg::Pattern(_))) => {
-            return Err(bad_request(
-                "--light uniform, disc and line are for patches; on a mesh it is a direction X,Y,Z",
-            ));
-        }
-        (Some(path), light) => {
-            let direction = match light {
-                Some(LightArg::Direction(direction)) => direction,
-                _ => mesh::DEFAULT_LIGHT.normalize(),
-            };
-            let mesh = load(path, args.extent, args.up)?;
-            let environment = match &args.environment {
-                Some(path) => read_environment(path)?,
-                None => Environment::studio(),
-            };
-            let shot = Shot {
-                direction,
-                environment,
-                roughness: args.roughness,
-                angles: args.view,
-                size: args.size.0,
-                exposure: args.exposure,
-                options: RuntimeOptions { jitters: args.jitter, ..RuntimeOptions::default() },
-            };
-            draw_mesh(gpu.as_ref(), &material, &mesh, args.mapping, args.path, &shot)?
+        (Some(shape), _) => {
+            let mesh = load(shape, args.extent, args.up)?;
+            draw_mesh(gpu.as_ref(), material, &mesh, args.mapping, path, &args.shot()?)?
         }
     };
-    write_png(&args.output, &picture)?;
-    let seconds = start.elapsed().as_secs_f64();
-    let device = devices::name(gpu.as_ref());
-    if args.json {
-        let mut value = json!({ "file": args.output, "device": device, "seconds": seconds });
-        if let Some(value) = value.as_object_mut() {
-            value.extend(facts);
-        }
-        say!("{value:#}");
-    } else {
-        say!("{}: drawn by {device} in {seconds:.1} s", args.output.display());
-        if let Some(bytes) = facts.get("gpu_bytes").and_then(Value::as_u64) {
-            say!("  the material takes {} on the device", human(bytes));
+    Ok((picture, facts, devices::name(gpu.as_ref())))
+}
+
+impl Args {
+    /// The picture of a mesh that is asked for.
+    fn shot(&self) -> anyhow::Result<Shot> {
+        Ok(Shot {
+            direction: match self.light {
+                None => mesh::DEFAULT_LIGHT.normalize(),
+                Some(LightArg::Direction(direction)) => direction,
+                Some(LightArg::Pattern(_)) => {
+                    return Err(bad_request(
+                        "--light uniform, disc and line are for patches; on a mesh it is a direction X,Y,Z",
+                    ));
+                }
+            },
+            environment: match &self.environment {
+                Some(path) => read_environment(path)?,
+                None => Environment::studio(),
+            },
+            roughness: self.roughness.unwrap_or(mesh::ROUGHNESS),
+            angles: self.view,
+            size: self.size.0,
+            exposure: self.exposure,
+            options: RuntimeOptions { jitters: self.jitter, ..RuntimeOptions::default() },
+        })
+    }
+
+    /// Refuses options that say nothing to a BTF.
+    fn refuse_scattering(&self) -> anyhow::Result<()> {
+        let given = [
+            ("--path", self.path.is_some()),
+            ("--roughness", self.roughness.is_some()),
+            ("--jitter", self.jitter),
+            ("--mapping box", self.mapping == MappingArg::Box),
+        ];
+        match given.iter().find(|(_, is_given)| *is_given) {
+            Some((name, _)) => Err(bad_request(format!("{name} is for translucent materials; this file is a BTF"))),
+            None => Ok(()),
         }
     }
-    Ok(())
 }
 
 /// An equirectangular picture; 8-bit ones are taken as sRGB.

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use subsurf_decoder::Bssrdf;
 use subsurf_runtime::scene::{Mapping, Mesh, Outline, Scene, SkyShare, Surface};
 use subsurf_runtime::{
-    Frame, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions, SeparableMaterial,
-    SplatMaterial,
+    BtfMaterial, Frame, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions,
+    SeparableMaterial, SplatMaterial,
 };
 use subsurf_shaders::separable::{Detail, Factors};
 use subsurf_shaders::uniform::MAX_LIGHTS;
@@ -119,12 +119,16 @@ pub(crate) enum Prepared {
     Gather { mesh: GpuMesh, points: GpuPoints, material: Material },
     Splat { mesh: GpuMesh, material: SplatMaterial },
     Separable { mesh: GpuMesh, material: SeparableMaterial },
+    Btf { mesh: GpuMesh, material: BtfMaterial, number: usize },
 }
 
 impl Prepared {
     pub(crate) fn mesh_bytes(&self) -> u64 {
         match self {
-            Self::Gather { mesh, .. } | Self::Splat { mesh, .. } | Self::Separable { mesh, .. } => mesh.gpu_bytes(),
+            Self::Gather { mesh, .. }
+            | Self::Splat { mesh, .. }
+            | Self::Separable { mesh, .. }
+            | Self::Btf { mesh, .. } => mesh.gpu_bytes(),
         }
     }
 
@@ -133,6 +137,7 @@ impl Prepared {
             Self::Gather { mesh, points, material } => Model::Gather { mesh, points, material },
             Self::Splat { mesh, material } => Model::Splat { mesh, material },
             Self::Separable { mesh, material } => Model::Separable { mesh, material },
+            Self::Btf { mesh, material, number } => Model::Btf { mesh, material, number: *number },
         }
     }
 
@@ -142,6 +147,7 @@ impl Prepared {
             Self::Gather { material, .. } => Path::Gather(material.storage()),
             Self::Splat { material, .. } => Path::Splat(material.planes().storage()),
             Self::Separable { material, .. } => Path::Separable(material.terms()),
+            Self::Btf { material, .. } => Path::Btf(material.storage()),
         }
     }
 
@@ -150,6 +156,7 @@ impl Prepared {
             Self::Gather { material, .. } => material.gpu_bytes(),
             Self::Splat { material, .. } => material.planes().gpu_bytes(),
             Self::Separable { material, .. } => material.gpu_bytes(),
+            Self::Btf { material, .. } => material.gpu_bytes(),
         }
     }
 }

@@ -240,8 +240,9 @@ impl App {
 
 /// Writes what the window shows into this folder, under a name that is not taken.
 fn save(stage: &mut Stage, session: &Session, overlay: &Overlay) -> Message {
-    let (material, path) = (&session.subject.materials[session.settings.material], session.settings.path);
-    let stem = format!("{}-{}-{path:?}", material.name(), session.subject.mesh_name).to_lowercase();
+    let material = &session.subject.materials[session.settings.material];
+    let way = if material.is_btf() { "btf".to_owned() } else { format!("{:?}", session.settings.path) };
+    let stem = format!("{}-{}-{way}", material.name(), session.subject.mesh_name).to_lowercase();
     let names = (1..).map(|number: u32| PathBuf::from(format!("{stem}-{number}.png")));
     let path = names.into_iter().find(|name| !Path::new(name).exists()).unwrap_or_default();
     let size = stage.canvas.size();

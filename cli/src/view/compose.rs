@@ -1,4 +1,4 @@
-//! Puts a picture into the window, or how far it is off.
+//! Puts a picture into the window, how far it is off, or what it is compared with beside it.
 
 use subsurf_runtime::Gpu;
 use subsurf_runtime::wgpu::{
@@ -16,6 +16,8 @@ pub(super) enum Shows {
     Picture,
     /// Ten times the difference of display values.
     Difference,
+    /// The picture on the left, what it is compared with on the right.
+    Split,
 }
 
 /// Pipelines that cover a window of one format.
@@ -23,6 +25,7 @@ pub(super) struct Composer {
     layout: BindGroupLayout,
     picture: RenderPipeline,
     difference: RenderPipeline,
+    split: RenderPipeline,
 }
 
 impl Composer {
@@ -75,8 +78,8 @@ impl Composer {
                 cache: None,
             })
         };
-        let (picture, difference) = (pipeline("plain"), pipeline("difference"));
-        Self { layout, picture, difference }
+        let [picture, difference, split] = ["plain", "difference", "split"].map(pipeline);
+        Self { layout, picture, difference, split }
     }
 
     /// Binds a picture, and what it is compared with.
@@ -93,6 +96,7 @@ impl Composer {
         pass.set_pipeline(match shows {
             Shows::Picture => &self.picture,
             Shows::Difference => &self.difference,
+            Shows::Split => &self.split,
         });
         pass.set_bind_group(0, pictures, &[]);
         pass.draw(0..3, 0..1);

@@ -1,4 +1,4 @@
-// A picture, or ten times what it differs from another by, over the whole window. Both hold display values.
+// A picture, ten times what it differs from another by, or a half of each, over the whole window. Both hold display values.
 
 @group(0) @binding(0) var picture: texture_2d<f32>;
 @group(0) @binding(1) var reference: texture_2d<f32>;
@@ -30,4 +30,16 @@ fn plain(@builtin(position) position: vec4f) -> @location(0) vec4f {
 @fragment
 fn difference(@builtin(position) position: vec4f) -> @location(0) vec4f {
     return given(min(10.0 * abs(texel(picture, position) - texel(reference, position)), vec3f(1.0)));
+}
+
+@fragment
+fn split(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let middle = floor(0.5 * f32(textureDimensions(picture).x));
+    if abs(position.x - middle) < 1.0 {
+        return given(vec3f(0.92));
+    }
+    if position.x < middle {
+        return given(texel(picture, position));
+    }
+    return given(texel(reference, position));
 }

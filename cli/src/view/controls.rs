@@ -23,7 +23,8 @@ In the window:
   1 2 3 4         path: splat, separable, homogeneous, gather
   N               next material
   M               next shape
-  E               ten times the difference to the gather
+  E               ten times the difference to the gather, of a BTF to its images
+  C               a BTF on the left, its images on the right
   L               let the light go around
   X               choose the exposure
   R               view and light as at the beginning
@@ -36,6 +37,7 @@ Examples:
   subsurf view jade.subsurf onyx.subsurf --mesh bunny.ply
   subsurf view jade.subsurf --budget 16MB --backend gl
   subsurf view jade.subsurf --path splat --screenshot jade.png
+  subsurf view leather.subsurf --images leather/ --repeat 6
 
 Exit codes: 3 if there is no display or no device that draws to it.";
 
@@ -46,6 +48,7 @@ pub(super) enum Command {
     NextMaterial,
     NextShape,
     Error,
+    Split,
     TurnLight,
     Expose,
     Reset,
@@ -67,6 +70,7 @@ pub(super) fn command(key: &Key) -> Option<Command> {
         "n" => Command::NextMaterial,
         "m" => Command::NextShape,
         "e" => Command::Error,
+        "c" => Command::Split,
         "l" => Command::TurnLight,
         "x" => Command::Expose,
         "r" => Command::Reset,

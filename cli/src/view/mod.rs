@@ -15,16 +15,17 @@ mod times;
 mod window;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use subsurf_encoder::check_target;
-use subsurf_runtime::{Backend, RuntimeOptions};
+use subsurf_runtime::{Backend, BtfOptions, RuntimeOptions};
 use winit::event_loop::EventLoop;
 
 use crate::devices::check_picture;
 use crate::failure::{NoDisplay, bad_request};
 use crate::mesh::Up;
 use crate::options::{ByteCount, Size};
-use crate::render::{MappingArg, PathArg, ROUGHNESS, Shot, read_environment};
+use crate::render::{BtfArgs, MappingArg, PathArg, ROUGHNESS, Shot, read_environment};
 use app::{App, Wishes};
 use loader::{Answer, Loader};
 use panel::Settings;
@@ -32,7 +33,7 @@ use session::Session;
 use studio::Studio;
 use subject::{Reading, Subject};
 
-/// Look at materials on a mesh in a window: turn it, drag the light, switch paths, see the error.
+/// Look at materials on a mesh in a window: turn it, drag the light, switch paths, see the error; BTFs beside their images.
 #[derive(clap::Args)]
 #[command(after_help = controls::KEYS)]
 pub(crate) struct Args {
@@ -51,10 +52,10 @@ pub(crate) struct Args {
     /// Where the material lies on the mesh
     #[arg(long, value_enum, default_value = "auto")]
     mapping: MappingArg,
-    /// How light scatters, to begin with
+    /// How light scatters in translucent materials, to begin with
     #[arg(long, value_enum, default_value = "separable")]
     path: PathArg,
-    /// Begin with ten times the difference to the gather
+    /// Begin with ten times the difference to the gather, or of a BTF to its images
     #[arg(long)]
     error: bool,
     /// Shift the taps of the separable path from pixel to pixel: grain instead of bands
@@ -78,6 +79,8 @@ pub(crate) struct Args {
     /// For tests: lose the device after so many frames
     #[arg(long, hide = true, value_name = "FRAMES")]
     lose_device_after: Option<u32>,
+    #[command(flatten)]
+    btf: BtfArgs,
 }
 
 /// What draws to a window.
@@ -105,6 +108,8 @@ enum Notice {
 
 /// Samples to a pixel: edges are smooth.
 const SAMPLES: u32 = 4;
+/// Samples of the environment to a pixel of a BTF, so that it can be turned.
+const BTF_SAMPLES: u32 = 4;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     check_picture(args.size.0)?;
@@ -114,7 +119,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if !(args.extent.is_finite() && args.extent > 0.0) {
         return Err(bad_request(format!("--extent is {} mm; it must be positive", args.extent)));
     }
-    let subject = Subject::open(&args.files, &args.mesh, Reading { extent_mm: args.extent, up: args.up })?;
+    args.btf.check()?;
+    let btf = Arc::new(args.btf.clone());
+    let subject = Subject::open(&args.files, &args.mesh, Reading { extent_mm: args.extent, up: args.up }, &btf)?;
     let environment = match &args.environment {
         Some(path) => read_environment(path)?,
         None => Shot::usual(args.size.0).environment,
@@ -138,6 +145,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             roughness: ROUGHNESS,
             exposure: 1.0,
             shows_error: args.error,
+            splits: args.btf.images.is_some() && !args.error,
             turns_light: false,
             is_open: true,
         },
@@ -157,7 +165,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             Api::Vulkan => vec![Backend::Vulkan],
             Api::Gl => vec![Backend::Gl],
         },
-        options: RuntimeOptions { budget_bytes, samples: SAMPLES, jitters: args.jitter, ..RuntimeOptions::default() },
+        options: RuntimeOptions {
+            budget_bytes,
+            samples: SAMPLES,
+            jitters: args.jitter,
+            btf: args.btf.options(BtfOptions { samples: BTF_SAMPLES, ..BtfOptions::default() }),
+            ..RuntimeOptions::default()
+        },
         size: args.size.0,
         screenshot: args.screenshot.clone(),
         loses_device_after: args.lose_device_after,

@@ -14,8 +14,10 @@ pub(super) struct Settings {
     pub(super) material: usize,
     pub(super) roughness: f32,
     pub(super) exposure: f32,
-    /// Ten times the difference to the gather, instead of the picture.
+    /// Ten times the difference to the gather, or of a BTF to its images, instead of the picture.
     pub(super) shows_error: bool,
+    /// A BTF on the left, its images on the right.
+    pub(super) splits: bool,
     /// The light goes around.
     pub(super) turns_light: bool,
     pub(super) is_open: bool,
@@ -24,6 +26,8 @@ pub(super) struct Settings {
 /// What the panel tells.
 pub(super) struct Facts {
     pub(super) device: String,
+    /// Whether the material is a BTF, and whether there are images to compare it with.
+    pub(super) btf: Option<bool>,
     pub(super) materials: Vec<String>,
     pub(super) mesh: String,
     pub(super) size: [u32; 2],
@@ -61,7 +65,7 @@ pub(super) fn show(context: &Context, settings: &mut Settings, facts: &Facts) ->
             ui.set_width(WIDTH);
             choices(ui, settings, facts, &mut commands);
             ui.separator();
-            sliders(ui, settings, &mut commands);
+            sliders(ui, settings, facts, &mut commands);
             ui.separator();
             tell(ui, facts);
         });
@@ -82,17 +86,32 @@ fn choices(ui: &mut Ui, settings: &mut Settings, facts: &Facts, commands: &mut V
         }
     });
     ui.separator();
-    for (key, path, name, meaning) in PATHS {
-        let text = format!("{key}  {name}");
-        ui.selectable_value(&mut settings.path, path, text).on_hover_text(meaning);
+    match facts.btf {
+        None => {
+            for (key, path, name, meaning) in PATHS {
+                let text = format!("{key}  {name}");
+                ui.selectable_value(&mut settings.path, path, text).on_hover_text(meaning);
+            }
+            ui.checkbox(&mut settings.shows_error, "10 × difference to the gather (E)")
+                .on_hover_text("Of display values. The gather follows when the light is let go");
+        }
+        Some(true) => {
+            ui.checkbox(&mut settings.splits, "images on the right (C)")
+                .on_hover_text("On the left the file, on the right the images that it was made from");
+            ui.checkbox(&mut settings.shows_error, "10 × difference to the images (E)")
+                .on_hover_text("Of display values, grain of the environment included");
+        }
+        Some(false) => {
+            ui.label("A BTF. With --images FOLDER, it is compared with the images that it was made from");
+        }
     }
-    ui.checkbox(&mut settings.shows_error, "10 × difference to the gather (E)")
-        .on_hover_text("Of display values. The gather follows when the light is let go");
 }
 
-fn sliders(ui: &mut Ui, settings: &mut Settings, commands: &mut Vec<Command>) {
+fn sliders(ui: &mut Ui, settings: &mut Settings, facts: &Facts, commands: &mut Vec<Command>) {
     ui.spacing_mut().slider_width = 120.0;
-    ui.add(Slider::new(&mut settings.roughness, 0.0..=1.0).text("roughness").max_decimals(2));
+    if facts.btf.is_none() {
+        ui.add(Slider::new(&mut settings.roughness, 0.0..=1.0).text("roughness").max_decimals(2));
+    }
     ui.add(Slider::new(&mut settings.exposure, EXPOSURES).logarithmic(true).text("exposure").max_decimals(3));
     ui.checkbox(&mut settings.turns_light, "the light goes around (L)");
     ui.horizontal(|ui| {

@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::compose::Shows;
 use super::controls::{Command, Drag};
-use super::loader::{Answer, Key, Loader, Order};
+use super::loader::{Answer, Key, Loader, Order, Way};
 use super::panel::{Facts, Message, Settings};
 use super::stage::{Role, Stage};
 use super::studio::Studio;
@@ -42,19 +42,32 @@ impl Session {
     }
 
     fn gathers(&self) -> bool {
-        self.settings.shows_error || self.settings.path == PathArg::Gather
+        !self.is_btf() && (self.settings.shows_error || self.settings.path == PathArg::Gather)
+    }
+
+    fn is_btf(&self) -> bool {
+        self.subject.materials[self.settings.material].is_btf()
+    }
+
+    /// Whether a BTF is to be compared with its images.
+    fn compares_images(&self) -> bool {
+        self.subject.btf.images.is_some() && (self.settings.splits || self.settings.shows_error)
     }
 
     /// What is to be shown, and what it is to be compared with.
     fn wanted(&self, role: Role) -> Option<Key> {
         let Settings { path, material, shows_error, .. } = self.settings;
-        let key = |path: PathArg| {
-            let light = (path == PathArg::Gather).then_some(self.studio.rested);
-            Key { material, mesh: self.subject.mesh_number, path, light }
+        let key = |way: Way| {
+            let light = (way == Way::Path(PathArg::Gather)).then_some(self.studio.rested);
+            Key { material, mesh: self.subject.mesh_number, way, light }
         };
-        match role {
-            Role::Shown => Some(key(path)),
-            Role::Reference => (shows_error && path != PathArg::Gather).then(|| key(PathArg::Gather)),
+        match (role, self.is_btf()) {
+            (Role::Shown, false) => Some(key(Way::Path(path))),
+            (Role::Shown, true) => Some(key(Way::Btf)),
+            (Role::Reference, false) => {
+                (shows_error && path != PathArg::Gather).then(|| key(Way::Path(PathArg::Gather)))
+            }
+            (Role::Reference, true) => self.compares_images().then(|| key(Way::Images)),
         }
     }
 
@@ -76,8 +89,8 @@ impl Session {
                 continue;
             }
             let material = &self.subject.materials[key.material];
-            if let Some(ingredients) = self.loader.find(&key) {
-                match stage.place(role, key, &ingredients, material, &self.subject.mesh) {
+            if let Some(computed) = self.loader.find(&key) {
+                match stage.place(role, key, &computed, material, &self.subject.mesh) {
                     Ok(()) => self.changed(),
                     Err(error) => self.refuse(key, error),
                 }
@@ -87,6 +100,7 @@ impl Session {
                     material: material.clone(),
                     mesh: self.subject.mesh.clone(),
                     mapping: self.mapping,
+                    btf: self.subject.btf.clone(),
                     scene: self.studio.scene(self.studio.rested, &self.settings).clone(),
                 });
             }
@@ -141,7 +155,11 @@ impl Session {
         // The gather itself differs from nothing: it is shown.
         let reference = self.wanted(Role::Reference);
         let is_there = stage.has_picture(Role::Reference) && stage.key(Role::Reference) == reference.as_ref();
-        if is_there { Shows::Difference } else { Shows::Picture }
+        match is_there {
+            false => Shows::Picture,
+            true if self.settings.shows_error => Shows::Difference,
+            true => Shows::Split,
+        }
     }
 
     /// Whether everything that is wanted is shown.
@@ -185,6 +203,7 @@ impl Session {
                 Err(error) => self.fail(error),
             },
             Command::Error => self.settings.shows_error ^= true,
+            Command::Split => self.settings.splits ^= true,
             Command::TurnLight => self.settings.turns_light ^= true,
             Command::Expose => (self.exposes, self.is_stale) = (true, true),
             Command::Reset => {
@@ -259,12 +278,15 @@ impl Session {
 
     /// What the panel tells.
     pub(super) fn facts(&self, stage: &Stage) -> Facts {
-        let busy = self.loader.pending().map(|key| match key.path {
-            PathArg::Gather => "finding which points exchange light ...".to_owned(),
-            _ => "computing what the path needs ...".to_owned(),
+        let busy = self.loader.pending().map(|key| match key.way {
+            Way::Path(PathArg::Gather) => "finding which points exchange light ...".to_owned(),
+            Way::Path(_) => "computing what the path needs ...".to_owned(),
+            Way::Btf => "reading the BTF ...".to_owned(),
+            Way::Images => "reading images ...".to_owned(),
         });
         Facts {
             device: format!("{}, {:?}", stage.gpu.info().name, stage.gpu.info().backend),
+            btf: self.is_btf().then(|| self.subject.btf.images.is_some()),
             materials: self.subject.materials.iter().map(|file| file.name()).collect(),
             mesh: format!("{}, {} triangles", self.subject.mesh_name, self.subject.mesh.triangles.len()),
             size: stage.canvas.size(),

@@ -15,11 +15,11 @@ use winit::window::Window;
 
 use super::Notice;
 use super::compose::{Composer, Shows};
-use super::loader::Key;
+use super::loader::{Computed, Key};
 use super::painter::{Overlay, Painter};
 use super::subject::MaterialFile;
 use super::window::Canvas;
-use crate::render::{Ingredients, Prepared, chosen_exposure};
+use crate::render::{Prepared, chosen_exposure};
 
 /// The picture in the window, and what it is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -165,12 +165,12 @@ impl Stage {
         &mut self,
         role: Role,
         key: Key,
-        ingredients: &Ingredients,
+        computed: &Computed,
         material: &MaterialFile,
         mesh: &Mesh,
     ) -> anyhow::Result<()> {
         self.clear(role);
-        let prepared = ingredients.upload(&self.gpu, &material.read()?, mesh)?;
+        let prepared = computed.upload(&self.gpu, material, mesh)?;
         let path = prepared.path();
         if !self.renderers.iter().any(|(made, _)| *made == path) {
             self.renderers.push((path, Renderer::new(&self.gpu, path, self.options)?));

@@ -3,32 +3,60 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use subsurf_decoder::Bssrdf;
 use subsurf_runtime::scene::Mesh;
 
 use crate::failure::bad_request;
-use crate::info::{parse, read_file};
+use crate::info::{Parsed, parse_any, read_file};
 use crate::mesh::{SHAPES, Up, load, stem};
+use crate::render::BtfArgs;
 
 /// A material file that was found to be in order.
 pub(super) struct MaterialFile {
     path: PathBuf,
-    bytes: Vec<u8>,
+    bytes: Arc<[u8]>,
+    name: String,
+    /// Which material of a BTF.
+    number: usize,
+    is_btf: bool,
 }
 
 impl MaterialFile {
-    pub(super) fn open(path: &Path) -> anyhow::Result<Self> {
-        let bytes = read_file(path)?;
-        parse(path, &bytes)?;
-        Ok(Self { path: path.to_owned(), bytes })
+    /// The material of a file; of a BTF all of its materials, or the one that is asked for.
+    pub(super) fn open(path: &Path, btf_args: &BtfArgs) -> anyhow::Result<Vec<Arc<Self>>> {
+        let bytes: Arc<[u8]> = read_file(path)?.into();
+        let one = |name: String, number, is_btf| {
+            Arc::new(Self { path: path.to_owned(), bytes: bytes.clone(), name, number, is_btf })
+        };
+        match parse_any(path, &bytes)? {
+            Parsed::Bssrdf(_) => Ok(vec![one(stem(path), 0, false)]),
+            Parsed::Btf(btf) => {
+                let names: Vec<String> = btf.materials().map(|material| material.name().to_owned()).collect();
+                let of = |number: usize| match &names[..] {
+                    [_] => one(stem(path), number, true),
+                    names => one(format!("{} {}", stem(path), names[number]), number, true),
+                };
+                Ok(match btf_args.material {
+                    Some(_) => vec![of(btf_args.number(&btf)?)],
+                    None => (0..names.len()).map(of).collect(),
+                })
+            }
+        }
     }
 
     pub(super) fn name(&self) -> String {
-        stem(&self.path)
+        self.name.clone()
     }
 
-    pub(super) fn read(&self) -> anyhow::Result<Bssrdf<'_>> {
-        parse(&self.path, &self.bytes)
+    pub(super) fn number(&self) -> usize {
+        self.number
+    }
+
+    pub(super) fn is_btf(&self) -> bool {
+        self.is_btf
+    }
+
+    pub(super) fn read(&self) -> anyhow::Result<Parsed<'_>> {
+        parse_any(&self.path, &self.bytes)
     }
 }
 
@@ -46,6 +74,7 @@ pub(super) struct Subject {
     pub(super) mesh_name: String,
     /// Tells meshes apart.
     pub(super) mesh_number: u32,
+    pub(super) btf: Arc<BtfArgs>,
     reading: Reading,
 }
 
@@ -58,10 +87,17 @@ pub(super) enum Dropped {
 }
 
 impl Subject {
-    pub(super) fn open(materials: &[PathBuf], mesh: &Path, reading: Reading) -> anyhow::Result<Self> {
-        let open = |path: &PathBuf| MaterialFile::open(path).map(Arc::new);
+    pub(super) fn open(
+        materials: &[PathBuf],
+        mesh: &Path,
+        reading: Reading,
+        btf: &Arc<BtfArgs>,
+    ) -> anyhow::Result<Self> {
+        let open = |path: &PathBuf| MaterialFile::open(path, btf);
+        let files = materials.iter().map(open).collect::<anyhow::Result<Vec<_>>>()?;
         Ok(Self {
-            materials: materials.iter().map(open).collect::<anyhow::Result<_>>()?,
+            materials: files.concat(),
+            btf: btf.clone(),
             mesh: Arc::new(load(mesh, reading.extent_mm, reading.up)?),
             mesh_name: stem(mesh),
             mesh_number: 0,
@@ -74,10 +110,12 @@ impl Subject {
         let extension = path.extension().map_or_else(String::new, |text| text.to_string_lossy().to_ascii_lowercase());
         match extension.as_str() {
             "subsurf" => {
-                let file = Arc::new(MaterialFile::open(path)?);
-                // The same file again replaces nothing: it may have been encoded anew.
-                self.materials.push(file);
-                Ok(Dropped::Material(self.materials.len() - 1))
+                let first = self.materials.len();
+                // What was asked for on the command line was of other files. The same file again replaces nothing: it may
+                // have been encoded anew.
+                let files = MaterialFile::open(path, &BtfArgs::default())?;
+                self.materials.extend(files);
+                Ok(Dropped::Material(first))
             }
             "obj" | "ply" | "glb" | "gltf" => {
                 self.set_mesh(path)?;
@@ -117,7 +155,7 @@ mod tests {
             path
         };
         let reading = Reading { extent_mm: 60.0, up: Up::Y };
-        let mut subject = Subject::open(&[], Path::new("torus"), reading).unwrap();
+        let mut subject = Subject::open(&[], Path::new("torus"), reading, &Arc::default()).unwrap();
         let triangle = file("triangle.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         assert_eq!(subject.drop(&triangle).unwrap(), Dropped::Mesh);
         assert_eq!((subject.mesh_name.as_str(), subject.mesh_number, subject.mesh.triangles.len()), ("triangle", 1, 1));

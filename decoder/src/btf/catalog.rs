@@ -10,6 +10,15 @@ use crate::error::{ReadError, Section};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Texel(pub(super) u32);
 
+impl Texel {
+    /// Its number in the file: texels row by row, level by level, material by material.
+    #[must_use]
+    pub fn number(self) -> u32 {
+        let Self(number) = self;
+        number
+    }
+}
+
 /// Header and materials of a BTF file of any model, checked.
 #[derive(Clone, Copy, Debug)]
 pub struct Catalog<'a> {

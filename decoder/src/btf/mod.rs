@@ -18,6 +18,6 @@ pub use evaluate::Evaluate;
 pub use factored::{Expanded, Factored};
 pub use grid::{Cell, Grid, Place, View};
 pub use layout::{Header, Material, Model};
-pub use nested::{Nested, Sample, Sampler};
+pub use nested::{Codebooks, Nested, PackedTable, Sample, Sampler, StageTables};
 pub use reader::Btf;
 pub use tone::{CHROMA, LUMA, Tone};

@@ -11,6 +11,7 @@ use crate::error::{ReadError, Section};
 /// A checked BTF file of nested codebooks.
 #[derive(Clone, Copy, Debug)]
 pub struct Btf<'a> {
+    file: &'a [u8],
     catalog: Catalog<'a>,
     nested: Nested<'a>,
     /// Of the tone.
@@ -32,6 +33,7 @@ impl<'a> Btf<'a> {
     /// The first thing that is wrong.
     pub fn parse_with(bytes: &'a [u8], crc: Crc) -> Result<Self, ReadError> {
         let container = Container::parse(bytes)?;
+        let file = bytes.get(..container.file_bytes()).unwrap_or(bytes);
         let sections = Sections { container: &container, crc };
         let catalog = Catalog::read(&sections)?;
         let nested = match catalog.header().model {
@@ -42,13 +44,19 @@ impl<'a> Btf<'a> {
             }
         };
         let octaves = catalog.header().tone.octaves();
-        Ok(Self { catalog, nested, octaves })
+        Ok(Self { file, catalog, nested, octaves })
     }
 
     /// Header and materials.
     #[must_use]
     pub fn catalog(&self) -> &Catalog<'a> {
         &self.catalog
+    }
+
+    /// The bytes that it was read from.
+    #[must_use]
+    pub fn file(&self) -> &'a [u8] {
+        self.file
     }
 
     /// What the file says of itself.

@@ -1,5 +1,6 @@
 //! A frame: what lights see, light that scatters by one of the paths, and the picture.
 
+mod btf;
 mod gather;
 mod light_views;
 mod plan;
@@ -10,12 +11,13 @@ use std::time::{Duration, Instant};
 
 use half::f16;
 use subsurf_shaders::source::Encoding;
-use subsurf_shaders::{Storage, uniform};
+use subsurf_shaders::{BtfStorage, Storage, uniform};
 use wgpu::{
     AddressMode, BindGroup, BindingResource, Buffer, Color, CommandEncoder, CommandEncoderDescriptor, FilterMode,
     MipmapFilterMode, SamplerDescriptor, TextureFormat, TextureView,
 };
 
+use crate::btf::BtfMaterial;
 use crate::context::Gpu;
 use crate::error::{Error, Result};
 use crate::factors::{SeparableMaterial, SplatMaterial};
@@ -26,6 +28,7 @@ use crate::resource::{Slot, Surface2d, TextureSpec};
 use crate::scene::{REFLECTION_LEVELS, REFLECTION_SIZE, Scene};
 use light_views::LightViews;
 
+pub use btf::BtfOptions;
 pub use gather::GpuPoints;
 use plan::LEAST_LIGHT_TEXELS;
 pub use plan::Plan;
@@ -39,6 +42,8 @@ pub enum Path {
     Splat(Storage),
     /// Weighted irradiance maps on the screen, blurred by shared Gaussians; of so many terms.
     Separable(usize),
+    /// None: a BTF says what leaves where light enters.
+    Btf(BtfStorage),
 }
 
 /// What a renderer may use and what it draws to.
@@ -56,6 +61,8 @@ pub struct RuntimeOptions {
     /// Whether taps of [`Path::Separable`] are shifted from pixel to pixel: grain instead of bands, where light changes
     /// much within the reach of scattering.
     pub jitters: bool,
+    /// How BTFs are looked up.
+    pub btf: BtfOptions,
     /// Behind the mesh, as the target takes it.
     pub background: Color,
 }
@@ -69,6 +76,7 @@ impl Default for RuntimeOptions {
             samples: 1,
             light_texels: 512,
             jitters: false,
+            btf: BtfOptions::default(),
             background: Color { r: grey, g: grey, b: grey, a: 1.0 },
         }
     }
@@ -103,12 +111,24 @@ pub enum Model<'a> {
         /// Its material.
         material: &'a SeparableMaterial,
     },
+    /// For [`Path::Btf`].
+    Btf {
+        /// The mesh, with tangents.
+        mesh: &'a GpuMesh,
+        /// The file, or images.
+        material: &'a BtfMaterial,
+        /// Which of the file's materials, from 0.
+        number: usize,
+    },
 }
 
 impl Model<'_> {
     fn mesh(&self) -> &GpuMesh {
         match self {
-            Self::Gather { mesh, .. } | Self::Splat { mesh, .. } | Self::Separable { mesh, .. } => mesh,
+            Self::Gather { mesh, .. }
+            | Self::Splat { mesh, .. }
+            | Self::Separable { mesh, .. }
+            | Self::Btf { mesh, .. } => mesh,
         }
     }
 }
@@ -126,6 +146,7 @@ enum Passes {
     Gather(gather::Passes),
     Splat(splat::Passes),
     Separable(separable::Passes),
+    Btf(btf::Passes),
 }
 
 /// Everything that a picture of one size of one model needs on the device.
@@ -147,6 +168,7 @@ enum Buffers {
     Gather(gather::Buffers),
     Splat(splat::Buffers),
     Separable(separable::Buffers),
+    Btf(btf::Buffers),
 }
 
 /// Is told the name of what was recorded, and gives back an encoder to go on with.
@@ -184,6 +206,7 @@ impl Renderer {
             Path::Gather(storage) => Passes::Gather(gather::Passes::new(gpu, storage, format, samples)?),
             Path::Splat(storage) => Passes::Splat(splat::Passes::new(gpu, storage, format, samples)?),
             Path::Separable(terms) => Passes::Separable(separable::Passes::new(gpu, terms, format, samples)?),
+            Path::Btf(storage) => Passes::Btf(btf::Passes::new(gpu, storage, format, samples)?),
         };
         Ok(Self { options, light_view: light_views::pass(gpu)?, passes })
     }
@@ -205,7 +228,7 @@ impl Renderer {
         };
         let outline = &model.mesh().outline;
         let of_path = |plan: &Plan| match &self.passes {
-            Passes::Gather(_) => plan.light_bytes(1),
+            Passes::Gather(_) | Passes::Btf(_) => plan.light_bytes(1),
             Passes::Splat(passes) => passes.bytes(plan, outline),
             Passes::Separable(passes) => passes.bytes(plan),
         };
@@ -214,7 +237,7 @@ impl Renderer {
         let common = Common::new(gpu)?;
         let levels = match &self.passes {
             Passes::Splat(_) => splat::Levels::new(outline, plan.light_texels).count(),
-            Passes::Gather(_) | Passes::Separable(_) => 1,
+            Passes::Gather(_) | Passes::Separable(_) | Passes::Btf(_) => 1,
         };
         let lights = LightViews::new(gpu, &self.light_view, &common.block, &plan, levels)?;
         let (shade, buffers) = match (&self.passes, model) {
@@ -229,6 +252,11 @@ impl Renderer {
             (Passes::Separable(passes), Model::Separable { material, .. }) => {
                 let buffers = separable::Buffers::new(gpu, passes, material, &common, &lights, &plan)?;
                 (&passes.shade, Buffers::Separable(buffers))
+            }
+            (Passes::Btf(passes), Model::Btf { mesh, material, number }) => {
+                mesh.expect_tangents()?;
+                let buffers = btf::Buffers::new(gpu, passes, material, *number, self.options.btf)?;
+                (&passes.shade, Buffers::Btf(buffers))
             }
             _ => return Err(Error::Device("the model is for another path than the renderer".to_owned())),
         };
@@ -328,6 +356,7 @@ impl Renderer {
             (Buffers::Separable(buffers), Passes::Separable(_), _) => {
                 buffers.update(gpu, scene, &block, &plan, self.options.jitters);
             }
+            (Buffers::Btf(_), Passes::Btf(_), Model::Btf { .. }) => mesh.expect_tangents()?,
             _ => return Err(Error::Device("the frame is for another path than the renderer".to_owned())),
         }
         Ok(())
@@ -357,6 +386,7 @@ impl Renderer {
                 (&passes.shade, &buffers.shade)
             }
             (Buffers::Gather(buffers), Passes::Gather(passes)) => (&passes.shade, &buffers.shade),
+            (Buffers::Btf(buffers), Passes::Btf(passes)) => (&passes.shade, &buffers.shade),
             // Refused by `update`.
             _ => return encoder,
         };
@@ -403,7 +433,7 @@ fn divisor(scene: &Scene, model: &Model<'_>, size: [u32; 2], light_texels: u32) 
     #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
     let pixels_per_mm = 0.5 * size[1] as f32 / (0.5 * scene.view.angle).tan() / distance;
     match model {
-        Model::Gather { .. } => 1,
+        Model::Gather { .. } | Model::Btf { .. } => 1,
         Model::Splat { .. } => splat::divisor(outline, light_texels, pixels_per_mm),
         Model::Separable { material, .. } => {
             let narrowest = material.narrowest_pixels() * outline.header.pitch_mm * pixels_per_mm;

@@ -6,11 +6,12 @@ mod mesh;
 mod shapes;
 mod sky;
 mod surface;
+mod tangents;
 
 use glam::Vec3;
 use glam::camera::rh::proj::directx::perspective;
 use glam::camera::rh::view::look_at_mat4;
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::{Addressing, Coding, Header};
 use subsurf_shaders::cpu::diffuse_transmittance;
 use subsurf_shaders::uniform::{self, MAX_LIGHTS};
 
@@ -70,6 +71,26 @@ impl Outline {
         let centre_mm = 0.5 * (low + high);
         let radius_mm = mesh.positions.iter().map(|position| position.distance(centre_mm)).fold(1e-3, f32::max);
         Self { centre_mm, radius_mm, header: *header, mapping }
+    }
+
+    /// Of a mesh made of a BTF, which has no size of its own and lets no light in: copies of it to the unit square of
+    /// texture coordinates, in u and in v.
+    #[must_use]
+    pub fn of_btf(mesh: &Mesh, copies: [f32; 2]) -> Self {
+        let nothing = Header {
+            model: 0,
+            coding: Coding::Exact,
+            addressing: Addressing::Repeat,
+            width: 1,
+            height: 1,
+            window_radius: 1,
+            samples: 2,
+            base_materials: 1,
+            pitch_mm: 1.0,
+            r_max_mm: 1.0,
+            eta: 1.0,
+        };
+        Self::new(mesh, Mapping::Uv(copies), &nothing)
     }
 }
 

@@ -2,18 +2,21 @@
 //!
 //! Colours are linear Rec. 709. Where the GPU stores a result in a half-float texture, the twin keeps f32.
 
+mod btf;
 mod coat;
 mod fresnel;
 mod gather;
 mod irradiance;
 mod mapping;
 mod present;
+mod raster;
 mod scene;
 mod separable;
 mod shade;
 mod surface_gather;
 mod tone;
 
+pub use btf::{BtfSurface, BtfTriangles, shade_btf};
 pub use coat::{Reflections, glint, sheen};
 pub use fresnel::{diffuse_transmittance, fresnel_transmittance};
 pub use gather::{Reflectance, gather};

@@ -1,7 +1,8 @@
-//! Twin of `shade.wgsl`, with the rasteriser that the GPU has built in.
+//! Twin of `shade.wgsl`.
 
-use glam::{Mat4, Vec2, Vec3, Vec4, Vec4Swizzles};
+use glam::{Vec3, Vec4};
 
+use super::raster::rasterise;
 use super::{Reflections, Rgb, display, fresnel_transmittance, glint, incident, neutral, sheen, srgb};
 use crate::uniform::{MAX_LIGHTS, Scene};
 
@@ -32,75 +33,18 @@ pub fn shade(
     size: [u32; 2],
     background: [u8; 3],
 ) -> Vec<[u8; 3]> {
-    let [width, height] = size.map(|n| n as usize);
-    let mut picture = vec![background; width * height];
-    let mut depth = vec![1.0_f32; width * height];
-    let clip_from_world = Mat4::from_cols_array_2d(&scene.clip_from_world);
-    let clip: Vec<Vec4> = mesh.positions.iter().map(|p| clip_from_world * p.extend(1.0)).collect();
-    #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-    let half = Vec2::new(width as f32, height as f32) * 0.5;
-    // Pixels, y down.
-    let screen = |v: Vec4| (v.xy() / v.w * Vec2::new(1.0, -1.0) + 1.0) * half;
-
-    for triangle in mesh.triangles {
-        let corners = triangle.map(|k| k as usize);
-        let clip = corners.map(|k| clip[k]);
-        // Cameras stand outside what they look at: a triangle that reaches behind the eye is not drawn.
-        if clip.iter().any(|v| v.w <= 0.0) {
-            continue;
-        }
-        let [a, b, c] = clip.map(screen);
-        let area = (b - a).perp_dot(c - a);
-        if area == 0.0 {
-            continue;
-        }
-        let low = a.min(b).min(c).max(Vec2::ZERO);
-        let high = a.max(b).max(c).min(2.0 * half - 1.0);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the picture")]
-        let range = |low: f32, high: f32| low.floor() as usize..=high.ceil().max(0.0) as usize;
-        for y in range(low.y, high.y) {
-            for x in range(low.x, high.x) {
-                if x >= width || y >= height {
-                    continue;
-                }
-                #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-                let centre = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
-                let weights = [
-                    (c - b).perp_dot(centre - b) / area,
-                    (a - c).perp_dot(centre - c) / area,
-                    (b - a).perp_dot(centre - a) / area,
-                ];
-                if weights.iter().any(|w| *w < 0.0) {
-                    continue;
-                }
-                // Depth is linear on the screen, everything else after division by w.
-                let z: f32 = weights.iter().zip(clip).map(|(w, v)| w * v.z / v.w).sum();
-                let at = y * width + x;
-                if !(0.0..depth[at]).contains(&z) {
-                    continue;
-                }
-                depth[at] = z;
-                let mut perspective = [0, 1, 2].map(|k| weights[k] / clip[k].w);
-                let sum: f32 = perspective.iter().sum();
-                perspective = perspective.map(|w| w / sum);
-                let blend = |values: &[Vec3]| -> Vec3 {
-                    (0..3).map(|k| values[corners[k]] * perspective[k]).fold(Vec3::ZERO, |sum, v| sum + v)
-                };
-                let exitance: Vec3 = (0..3)
-                    .map(|k| Vec3::from(mesh.exitances[corners[k]]) * perspective[k])
-                    .fold(Vec3::ZERO, |sum, v| sum + v);
-                let visibility = (0..3).fold([0.0; MAX_LIGHTS], |sum, k| {
-                    let of_corner = mesh.visibilities[corners[k]];
-                    std::array::from_fn(|light| sum[light] + of_corner[light] * perspective[k])
-                });
-                let point =
-                    Point { position_mm: blend(mesh.positions), normal: blend(mesh.normals), exitance, visibility };
-                let light = radiance(scene, reflections, &point) * scene.exposure;
-                picture[at] = display(srgb(neutral(light.into())));
-            }
-        }
-    }
-    picture
+    let exitances: Vec<Vec3> = mesh.exitances.iter().map(|exitance| Vec3::from(*exitance)).collect();
+    let visibilities: Vec<Vec4> = mesh.visibilities.iter().map(|seen| Vec4::from(*seen)).collect();
+    rasterise(mesh.positions, mesh.triangles, &scene.clip_from_world, size, background, |covered| {
+        let point = Point {
+            position_mm: covered.blend(mesh.positions),
+            normal: covered.blend(mesh.normals),
+            exitance: covered.blend(&exitances),
+            visibility: covered.blend(&visibilities).to_array(),
+        };
+        let light = radiance(scene, reflections, &point) * scene.exposure;
+        display(srgb(neutral(light.into())))
+    })
 }
 
 /// What is known of a point of the surface.

@@ -1,10 +1,14 @@
 //! Uniform blocks, laid out as in WGSL; `tests/layout.rs` holds them to it.
 
+mod btf;
+
 use bytemuck::{Pod, Zeroable};
 use subsurf_decoder::bssrdf::Header;
 
 use crate::cpu::Rgb;
 use crate::separable::{self, Factors, MAX_GAUSSIANS, MAX_TERMS};
+
+pub use btf::{BTF_ROW, BtfBooks, BtfFiltering, BtfImages, BtfTable, BtfTexture, MAX_LEVELS, MAX_RINGS_OF_DIRECTIONS};
 
 /// `Material` of `material.wgsl`.
 #[repr(C)]
