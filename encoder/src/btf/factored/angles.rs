@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
+use subsurf_decoder::btf::factored::model::MAX_NUMBER;
 
 use super::write;
 
@@ -98,7 +99,7 @@ fn root(energy: f32) -> f32 {
 fn quantise(exact: &DMatrix<f32>, step: f32) -> Vec<i32> {
     let whole = |value: &f32| {
         #[allow(clippy::cast_possible_truncation, reason = "clamped")]
-        let magnitude = (value.abs() / step + ROUNDING).floor().min(32_767.0) as i32;
+        let magnitude = (value.abs() / step + ROUNDING).floor().min(MAX_NUMBER as f32) as i32;
         if *value < 0.0 { -magnitude } else { magnitude }
     };
     exact.iter().map(whole).collect()
@@ -169,10 +170,14 @@ impl Tucker {
             .map(|(matrix, energy)| &core_from_lights * matrix * core_from_views.transpose() * root(*energy))
             .collect();
         let quantised = |step: f32| exact.par_iter().map(|matrix| quantise(matrix, step)).collect::<Vec<_>>();
+        // Finer steps would cut the largest numbers.
+        let largest = exact.iter().map(DMatrix::amax).fold(0.0_f32, f32::max);
+        let least = largest / (MAX_NUMBER as f32 - 1.0);
         let step = match fineness.core {
             CoreSize::Step(step) => step,
             CoreSize::Bytes(most) => finest(|step| write::core(&quantised(step), fineness.axes[1]).len() <= most),
-        };
+        }
+        .max(least);
         let core = quantised(step);
         let core_steps: Vec<f32> = energies.iter().map(|energy| step / root(*energy)).collect();
         let mut tucker = Self {
