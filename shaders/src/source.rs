@@ -337,12 +337,39 @@ pub const fn btf_query(storage: BtfStorage) -> &'static str {
     }
 }
 
-/// Picture of a mesh of a BTF; entry points `project` and `shade`.
+/// Files of a picture of a mesh of a BTF, with light from all around or without.
+macro_rules! btf_picture {
+    ($encoding:expr, $with:ident, $has_surroundings:expr) => {
+        if $has_surroundings {
+            lit!(
+                $encoding,
+                $with!(),
+                "btf_vertex.wgsl",
+                "btf_texture.wgsl",
+                "btf_tangents.wgsl",
+                "btf_surroundings.wgsl",
+                "btf_shade.wgsl"
+            )
+        } else {
+            lit!(
+                $encoding,
+                $with!(),
+                "btf_vertex.wgsl",
+                "btf_texture.wgsl",
+                "btf_tangents.wgsl",
+                "btf_dark.wgsl",
+                "btf_shade.wgsl"
+            )
+        }
+    };
+}
+
+/// Picture of a mesh of a BTF, with samples of light from all around or without; entry points `project` and `shade`.
 #[must_use]
-pub const fn shade_btf(encoding: Encoding, storage: BtfStorage) -> &'static str {
+pub const fn shade_btf(encoding: Encoding, storage: BtfStorage, has_surroundings: bool) -> &'static str {
     match storage {
-        BtfStorage::Nested => lit!(encoding, with_nested!(), "btf_vertex.wgsl", "btf_texture.wgsl", "btf_shade.wgsl"),
-        BtfStorage::Images => lit!(encoding, with_images!(), "btf_vertex.wgsl", "btf_texture.wgsl", "btf_shade.wgsl"),
+        BtfStorage::Nested => btf_picture!(encoding, with_nested, has_surroundings),
+        BtfStorage::Images => btf_picture!(encoding, with_images, has_surroundings),
     }
 }
 
@@ -398,8 +425,10 @@ fn passes() -> Vec<(String, &'static str)> {
     let btfs = BtfStorage::ALL.into_iter().flat_map(|storage| {
         [
             (format!("BTF query, {storage:?}"), btf_query(storage)),
-            (format!("shade BTF, {storage:?}"), shade_btf(Encoding::Here, storage)),
-            (format!("shade BTF there, {storage:?}"), shade_btf(Encoding::There, storage)),
+            (format!("shade BTF, {storage:?}"), shade_btf(Encoding::Here, storage, true)),
+            (format!("shade BTF there, {storage:?}"), shade_btf(Encoding::There, storage, true)),
+            (format!("shade BTF in the dark, {storage:?}"), shade_btf(Encoding::Here, storage, false)),
+            (format!("shade BTF in the dark there, {storage:?}"), shade_btf(Encoding::There, storage, false)),
         ]
     });
     gathers.chain(on_surfaces).chain(separable).chain(others).chain(btfs).collect()

@@ -177,10 +177,14 @@ fn texture_loads_are_accounted_for() {
             ("BTF query, Nested", 4),
             ("shade BTF, Nested", 2),
             ("shade BTF there, Nested", 2),
+            ("shade BTF in the dark, Nested", 2),
+            ("shade BTF in the dark there, Nested", 2),
             // Pixels of images clamped to their size, tiles and layers to the texture's.
             ("BTF query, Images", 4),
             ("shade BTF, Images", 2),
             ("shade BTF there, Images", 2),
+            ("shade BTF in the dark, Images", 2),
+            ("shade BTF in the dark there, Images", 2),
         ]
     );
 }

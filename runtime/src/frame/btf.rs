@@ -2,9 +2,9 @@
 
 use subsurf_shaders::uniform::BtfFiltering;
 use subsurf_shaders::{BtfStorage, source};
-use wgpu::{BindGroup, Buffer, TextureFormat};
+use wgpu::{BindGroup, Buffer};
 
-use super::{COMMON, encoding_of};
+use super::{COMMON, RuntimeOptions, encoding_of};
 use crate::btf::{BtfMaterial, slots};
 use crate::context::Gpu;
 use crate::error::{Error, Result};
@@ -47,10 +47,11 @@ pub(crate) struct Buffers {
 }
 
 impl Passes {
-    pub(crate) fn new(gpu: &Gpu, storage: BtfStorage, format: TextureFormat, samples: u32) -> Result<Self> {
+    pub(crate) fn new(gpu: &Gpu, storage: BtfStorage, options: &RuntimeOptions) -> Result<Self> {
         let [block, texture] = slots(storage);
         let of_btf = [block, texture, Slot::Uniform];
-        let shader = source::shade_btf(encoding_of(format), storage);
+        let RuntimeOptions { format, samples, btf, .. } = *options;
+        let shader = source::shade_btf(encoding_of(format), storage, btf.samples > 0);
         Ok(Self { storage, shade: MeshPass::textured(gpu, shader, "shade", &[&COMMON, &of_btf], &[format], samples)? })
     }
 }

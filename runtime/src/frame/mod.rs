@@ -206,7 +206,7 @@ impl Renderer {
             Path::Gather(storage) => Passes::Gather(gather::Passes::new(gpu, storage, format, samples)?),
             Path::Splat(storage) => Passes::Splat(splat::Passes::new(gpu, storage, format, samples)?),
             Path::Separable(terms) => Passes::Separable(separable::Passes::new(gpu, terms, format, samples)?),
-            Path::Btf(storage) => Passes::Btf(btf::Passes::new(gpu, storage, format, samples)?),
+            Path::Btf(storage) => Passes::Btf(btf::Passes::new(gpu, storage, &options)?),
         };
         Ok(Self { options, light_view: light_views::pass(gpu)?, passes })
     }

@@ -1,0 +1,19 @@
+// The material's own directions, in the world: along its rows, down its columns, and away from it.
+struct Tangents {
+    x: vec3<f32>,
+    y: vec3<f32>,
+    z: vec3<f32>,
+}
+
+// The side that is seen, whichever way the triangle winds: `plane` is any normal of it.
+fn tangents_of(in: Varying, plane: vec3<f32>, to_eye: vec3<f32>) -> Tangents {
+    let normal = normalize(in.normal);
+    let x = normalize(in.tangent.xyz - normal * dot(in.tangent.xyz, normal));
+    let y = cross(normal, x) * select(-1.0, 1.0, in.tangent.w >= 0.0);
+    let side = dot(normal, plane) * dot(plane, to_eye);
+    return Tangents(x, y, normal * select(-1.0, 1.0, side >= 0.0));
+}
+
+fn into_material(tangents: Tangents, direction: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(dot(direction, tangents.x), dot(direction, tangents.y), dot(direction, tangents.z));
+}
