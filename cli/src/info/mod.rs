@@ -149,7 +149,7 @@ pub(crate) fn parse_any<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::
 pub(crate) fn parse_btf<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Btf<'a>> {
     let model = Catalog::parse(bytes, Crc::Check).map(|catalog| catalog.header().model);
     if matches!(model, Ok(BtfModel::Factored)) {
-        let what = "factors are for the CPU; to draw it, encode the BTF with --method nested";
+        let what = "a BTF of factors, which only the library evaluates; encode it with --method nested to draw it";
         return Err(bad_request(format!("{}: {what}", path.display())));
     }
     Btf::parse_with(bytes, Crc::Check).map_err(|error| read_error(path, error)).context("not a usable BTF")

@@ -26,7 +26,7 @@ pub(crate) enum MethodArg {
     /// further stages add what is left. Drawn as they stand in the file, on the GPU too
     Nested,
     /// Texels of residual codewords times a Tucker-coded angular basis: the fewest bytes for a quality; expanded to 1 to
-    /// 3 MB when loaded
+    /// 4 MB when loaded
     Factored,
     /// Nested codebooks by pruning, as the paper does: to compare with
     Paper,

@@ -66,6 +66,8 @@ impl Report<'_> {
                 error.psnr_db,
                 error.pairs
             );
+        } else {
+            say!("  not judged: structural similarity needs images of 11 × 11 pixels at least");
         }
         say!("  {:.1} s, {} of memory", self.seconds, human(resident().unwrap_or_default().peak));
     }

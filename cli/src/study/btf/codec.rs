@@ -1,9 +1,11 @@
 //! What is compared, and at how many bytes.
 
+use subsurf_encoder::Error;
 use subsurf_encoder::btf::baseline::{
     Baseline, local_pca, local_pca_bytes, one_level, one_level_bytes, pca, pca_bytes,
 };
 use subsurf_encoder::btf::nested::Sizes;
+use subsurf_encoder::btf::rate::{self, Target};
 use subsurf_encoder::btf::{Images, Survey};
 
 use super::{SEED, surveyed};
@@ -15,6 +17,8 @@ use crate::progress::Bars;
 pub(super) enum Codec {
     Nested,
     Paper,
+    /// Nested codebooks with half the bytes of the paper's encoder.
+    NestedAsPaper,
     Factored,
     /// One-level vector quantisation with the bytes of nested codebooks.
     OneLevelAsNested,
@@ -42,9 +46,10 @@ impl Made {
 const CLUSTERS: [usize; 4] = [2, 3, 4, 6];
 
 impl Codec {
-    pub(super) const ALL: [Self; 7] = [
+    pub(super) const ALL: [Self; 8] = [
         Self::Nested,
         Self::Paper,
+        Self::NestedAsPaper,
         Self::Factored,
         Self::OneLevelAsNested,
         Self::OneLevelAsFactored,
@@ -56,6 +61,7 @@ impl Codec {
         match self {
             Self::Nested => "nested",
             Self::Paper => "paper",
+            Self::NestedAsPaper => "nested-as-paper",
             Self::Factored => "factored",
             Self::OneLevelAsNested => "one-level-as-nested",
             Self::OneLevelAsFactored => "one-level",
@@ -68,6 +74,7 @@ impl Codec {
         match self {
             Self::Nested => "nested",
             Self::Paper => "the paper's encoder",
+            Self::NestedAsPaper => "nested, half the paper's bytes",
             Self::Factored => "factored",
             Self::OneLevelAsNested => "one-level VQ, bytes of nested",
             Self::OneLevelAsFactored => "one-level VQ, bytes of factored",
@@ -80,6 +87,7 @@ impl Codec {
     pub(super) fn budget_of(self) -> Option<Self> {
         match self {
             Self::Nested | Self::Paper | Self::Factored => None,
+            Self::NestedAsPaper => Some(Self::Paper),
             Self::OneLevelAsNested => Some(Self::Nested),
             Self::OneLevelAsFactored | Self::Pca | Self::LocalPca => Some(Self::Factored),
         }
@@ -109,6 +117,17 @@ impl Codec {
             Self::Nested => {
                 let prepared = common(MethodArg::Nested)?.nested(images, survey);
                 vec![Made::File(prepared.encode(&Sizes::stages(512, 1), &Bars::new())?.to_bytes())]
+            }
+            Self::NestedAsPaper => {
+                let prepared = common(MethodArg::Nested)?.nested(images, survey);
+                let encode = |sizes: &Vec<Sizes>| Ok(prepared.encode(sizes, &Bars::new())?.to_bytes());
+                let ladder = Sizes::LADDER.map(|(p4, stages)| (String::new(), Sizes::stages(p4, stages)));
+                match rate::walk(images, &ladder, Target::Bytes(budget / 2), &Bars::new(), encode, |_| ()) {
+                    Ok(walked) => vec![Made::File(walked.points[walked.best].bytes.clone())],
+                    // No codebooks are that small.
+                    Err(Error::Request(_)) => Vec::new(),
+                    Err(error) => return Err(error.into()),
+                }
             }
             Self::Factored => {
                 let prepared = common(MethodArg::Factored)?.factored(images, survey)?;

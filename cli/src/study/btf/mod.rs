@@ -29,7 +29,7 @@ use crate::simulate::btf::{Request, SampleArg};
 ///
 /// Writes DIR/btf.html, a page with tables and pictures that needs nothing beside it, and DIR/btf.csv. Images, files and
 /// judgements are kept in DIR: a study that was interrupted goes on where it was. At 128 × 128 texels a material takes
-/// about ten minutes on two cores, most of it for the paper's own method, and 0.4 GB on disk.
+/// about ten minutes on two cores, and 0.4 GB on disk.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The folder
@@ -71,7 +71,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let images = vec![images(args, *sample)?];
         let mut survey = None;
         let subject = Subject { name: sample.name(), images: &images, folder: &args.dir, every: args.every };
-        for codec in Codec::ALL.into_iter().filter(|codec| !(args.no_paper && *codec == Codec::Paper)) {
+        let of_paper = |codec: &Codec| [Codec::Paper, Codec::NestedAsPaper].contains(codec);
+        for codec in Codec::ALL.into_iter().filter(|codec| !(args.no_paper && of_paper(codec))) {
             if let Some(record) = subject.record(codec, &mut survey)? {
                 say!("  {}", record.line());
                 records.push(record);
