@@ -36,8 +36,6 @@ pub(super) struct Hues<'a> {
     pub(super) node_weights: &'a [f32],
     /// Energy of luma of all texels.
     pub(super) energies: &'a [f32],
-    /// How much errors of texels count.
-    pub(super) weights: &'a [f32],
     /// Whether chroma is divided by luma.
     pub(super) is_relative: bool,
 }
@@ -97,15 +95,14 @@ impl Hues<'_> {
         let chain = &built.chain;
         // Chroma relative to luma grows with g, absolute chroma does not.
         let of_gain = |g: f32| if self.is_relative { g } else { g * g };
-        // v̄ = Σ g v / Σ g² of the texels of each entry of P4 (Σ g² v / Σ g² of absolute chroma), and Σ g², all with weights.
+        // v̄ = Σ g v / Σ g² of the texels of each entry of P4 (Σ g² v / Σ g² of absolute chroma), and Σ g².
         let entries = chain.p4.len() / n_phi;
         let mut means = DMatrix::<f32>::zeros(self.texels.nrows(), entries);
         let mut weights4 = vec![0.0_f32; entries];
         for (texel, item) in chain.texels.iter().enumerate() {
             let (entry, g) = (item.index as usize, gain(chain.scales[0], item.code, false));
-            let weight = self.weights[texel];
-            weights4[entry] += weight * g * g;
-            means.column_mut(entry).axpy(weight * of_gain(g), &self.texels.column(texel), 1.0);
+            weights4[entry] += g * g;
+            means.column_mut(entry).axpy(of_gain(g), &self.texels.column(texel), 1.0);
         }
         for (mut mean, weight) in means.column_iter_mut().zip(&weights4) {
             mean /= weight.max(f32::MIN_POSITIVE);
@@ -163,8 +160,7 @@ impl Hues<'_> {
         if self.ratios.iter().flatten().all(|ratio| *ratio == 0.0) {
             return (Vec::new(), Vec::new());
         }
-        let weights: Vec<f32> =
-            self.energies.iter().zip(self.weights).flat_map(|(energy, weight)| [energy * weight; 2]).collect();
+        let weights: Vec<f32> = self.energies.iter().flat_map(|energy| [*energy; 2]).collect();
         let all = Weighted { dimensions: 2, values: self.ratios.as_flattened(), weights: &weights };
         let mean_luma = 0.4;
         let mut count = 1;

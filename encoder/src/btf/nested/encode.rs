@@ -10,7 +10,6 @@ use super::luma::{STEPS, Sizes, Space};
 use super::write::Database;
 use crate::btf::mipmaps::Mipmaps;
 use crate::btf::resample::{Measured, Resampler};
-use crate::btf::survey::{FLAT_VARIANCE, FOLLOWING};
 use crate::btf::{Images, Survey};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
@@ -40,8 +39,6 @@ pub struct Prepared<'a> {
     /// Coefficients of luma and chroma of all texels of all levels, and their ρ.
     texels: [DMatrix<f32>; 2],
     ratios: Vec<[f32; 2]>,
-    /// How much errors of texels count.
-    weights: Vec<f32>,
 }
 
 impl<'a> Prepared<'a> {
@@ -59,8 +56,7 @@ impl<'a> Prepared<'a> {
             fitted(&resampler, survey, &survey.chroma.basis.select_rows(&rows))
         };
         let tables = [fitted(&resampler, survey, &survey.luma.basis), channel(0), channel(1)];
-        let weights = texel_weights(survey, &mipmaps);
-        Self { survey, options, measured, tables, texels, ratios, weights }
+        Self { survey, options, measured, tables, texels, ratios }
     }
 
     /// Builds codebooks of at most these sizes, a stage each.
@@ -83,7 +79,6 @@ impl<'a> Prepared<'a> {
             weights: &survey.weights,
             basis: &survey.luma.basis,
             tables: of_luma,
-            texels: &self.weights,
         };
         let mut left = luma.clone();
         let mut built = Vec::new();
@@ -102,7 +97,6 @@ impl<'a> Prepared<'a> {
             tables: [of_a, of_b],
             node_weights: &node_weights,
             energies: &energies,
-            weights: &self.weights,
             is_relative: matches!(survey.tone, Tone::Display { .. }),
         };
         let chroma = hues.build(&mut built[0], options.chroma);
@@ -114,31 +108,6 @@ impl<'a> Prepared<'a> {
             chroma,
         })
     }
-}
-
-/// Weights of texels: those of materials that differ little from texel to texel count for more, as far as weights of
-/// pairs do. They are 1 on average.
-fn texel_weights(survey: &Survey, mipmaps: &Mipmaps) -> Vec<f32> {
-    let mut first = 0;
-    // For each material, the texel after its last, and its weight.
-    let mut of_materials: Vec<(usize, f32)> = Vec::new();
-    for [width, height] in &survey.sizes {
-        let count = (width * height) as usize;
-        let texels = survey.luma.texels.columns(first, count);
-        let mean = texels.column_mean();
-        let spread: f32 = texels.column_iter().map(|texel| (texel - &mean).norm_squared()).sum();
-        let variance = spread / (count * survey.weights.len()) as f32;
-        first += count;
-        of_materials.push((first, (variance + 0.5 * FLAT_VARIANCE).powf(-FOLLOWING)));
-    }
-    let of_texel = |covered: &Vec<u32>| {
-        let material =
-            of_materials.iter().find(|(end, _)| covered.first().is_some_and(|texel| (*texel as usize) < *end));
-        material.map_or(1.0, |(_, weight)| *weight)
-    };
-    let weights: Vec<f32> = mipmaps.covered().iter().map(of_texel).collect();
-    let mean = weights.iter().sum::<f32>() / weights.len() as f32;
-    weights.iter().map(|weight| weight / mean).collect()
 }
 
 /// Tables of components at nodes, without the weights of pairs.

@@ -73,8 +73,6 @@ pub(super) struct Space<'a> {
     pub(super) basis: &'a DMatrix<f32>,
     /// Components at nodes, without weights.
     pub(super) tables: &'a DMatrix<f32>,
-    /// How much errors of texels count.
-    pub(super) texels: &'a [f32],
 }
 
 /// A chain and what it decodes to.
@@ -148,7 +146,7 @@ impl Space<'_> {
             [self.grid.n_phi, self.grid.n_theta, self.grid.n_alpha, self.grid.n_beta].map(usize::from);
         let roots = self.roots();
         let slice_weights: Vec<f32> = roots.two.iter().map(|root| root * root).collect();
-        let of_texels = Samples::new(texels.clone(), self.texels.to_vec(), is_signed);
+        let of_texels = Samples::new(texels.clone(), vec![1.0; texels.ncols()], is_signed);
         // 4-D: shapes of whole apparent BRDFs, in components.
         let mut shapes4 = of_texels.cluster(sizes.p4, ROUNDS, seed);
         let mut matches6 = of_texels.search(&shapes4);
@@ -158,7 +156,7 @@ impl Space<'_> {
         for _ in 0..LOOPS {
             // Each level's vectors are the parts of the codewords above, and count as much as these.
             let tables = product(self.tables, &shapes4);
-            let weights4 = counts(&matches6, self.texels, shapes4.ncols());
+            let weights4 = counts(&matches6, &vec![1.0; texels.ncols()], shapes4.ncols());
             let weights: Vec<f32> = weights4.iter().flat_map(|weight| vec![*weight; n_phi]).collect();
             let level3 = Samples::new(parts(&tables, n_phi, &roots.three), weights, is_signed);
             let shapes3 = match &before {

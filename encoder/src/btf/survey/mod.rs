@@ -42,12 +42,12 @@ pub struct Detail {
 }
 
 /// (0.03)², the constant of structural similarity that keeps flat images from counting more and more.
-pub(super) const FLAT_VARIANCE: f32 = 9e-4;
+const FLAT_VARIANCE: f32 = 9e-4;
 /// Side of the squares whose variances stand for local contrast, as large as the window of structural similarity.
 const SQUARE: usize = 11;
 /// How far weights follow structural similarity, whose loss is err² / (2 σ² + C₂): 1 would be all the way, and gives
 /// away more dB than it gains.
-pub(super) const FOLLOWING: f32 = 0.6;
+const FOLLOWING: f32 = 0.6;
 
 /// The tone that fits all materials, which were measured in the same directions.
 pub(super) fn common_tone(materials: &[Images]) -> Result<Tone> {
