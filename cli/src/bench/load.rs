@@ -14,7 +14,9 @@ use subsurf_encoder::Progress;
 use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
 use subsurf_encoder::synthetic::{Shape, capture_row};
 use subsurf_encoder::{Unfinished, write_bytes};
+use tempfile::TempDir;
 
+use super::load_btf;
 use super::timing::{Steps, Storage};
 use crate::devices::{self, BackendArg};
 use crate::failure::bad_request;
@@ -26,24 +28,30 @@ use crate::say::say;
 ///
 /// Each is read, parsed with all checks, uploaded, and drawn once (64 × 64 pixels), again and again, in a process of its
 /// own, with the file in the page cache and without. Times are medians in microseconds. The materials are synthetic:
-/// for timing their numbers do not matter.
+/// for timing their numbers do not matter. With --btf, a file of yours is timed beside its images.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// WIDTHxHEIGHT,WINDOW,M,S; more than once for several. The last of the usual ones has the size of the paper's onyx
     #[arg(long = "case", value_name = "WxH,D,M,S")]
     cases: Vec<CaseArg>,
+    /// A BTF of nested codebooks instead, beside its images in one uncompressed array
+    #[arg(long, value_name = "FILE", requires = "images", conflicts_with = "cases")]
+    btf: Option<PathBuf>,
+    /// The folder of images of the BTF
+    #[arg(long, value_name = "FOLDER", requires = "btf")]
+    images: Option<PathBuf>,
     /// Runs of each, warm and cold
     #[arg(long, default_value_t = 20)]
-    runs: usize,
+    pub(super) runs: usize,
     /// What draws
     #[arg(long, value_enum, default_value = "auto")]
-    backend: BackendArg,
+    pub(super) backend: BackendArg,
     /// Folder for the files, which are deleted at the end; the last case needs a gigabyte
     #[arg(long, value_name = "DIR")]
     dir: Option<PathBuf>,
     /// Report as JSON
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,14 +99,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if args.runs == 0 {
         return Err(bad_request("--runs is 0; a median needs one at least, and 20 to be steady"));
     }
+    if let (Some(btf), Some(images)) = (&args.btf, &args.images) {
+        return load_btf::run(args, btf, images);
+    }
     let usual = || USUAL.iter().map(|text| text.parse::<CaseArg>()).collect::<Result<Vec<_>, _>>();
     let cases = if args.cases.is_empty() { usual().map_err(anyhow::Error::msg)? } else { args.cases.clone() };
-    let folder = match &args.dir {
-        Some(dir) => tempfile::tempdir_in(dir),
-        None => tempfile::tempdir(),
-    };
-    let folder =
-        folder.map_err(|error| bad_request(format!("no folder for the files, name one with --dir: {error}")))?;
+    let folder = args.folder()?;
     let _goes_when_interrupted = Unfinished::new(folder.path());
     let mut results = Vec::new();
     for CaseArg(shape) in cases {
@@ -119,7 +125,18 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn device(backend: BackendArg) -> anyhow::Result<String> {
+impl Args {
+    /// A folder for files, which goes with its value.
+    pub(super) fn folder(&self) -> anyhow::Result<TempDir> {
+        let folder = match &self.dir {
+            Some(dir) => tempfile::tempdir_in(dir),
+            None => tempfile::tempdir(),
+        };
+        folder.map_err(|error| bad_request(format!("no folder for the files, name one with --dir: {error}")))
+    }
+}
+
+pub(super) fn device(backend: BackendArg) -> anyhow::Result<String> {
     Ok(devices::name(backend.open()?.as_ref()))
 }
 
@@ -169,7 +186,7 @@ pub(crate) fn measure(case: &Case, runs: usize, backend: BackendArg) -> anyhow::
     bars.begin(&format!("loading {} × {} pixels", case.size[0], case.size[1]), 3);
     let mut storages = Vec::new();
     for file in &case.files {
-        storages.push(load_one(file, runs, backend)?);
+        storages.push(load_one(file, None, runs, backend)?);
         bars.advance(1);
     }
     let [capture, profiles, bmpp] = &storages[..] else {
@@ -205,13 +222,20 @@ pub(crate) fn measure(case: &Case, runs: usize, backend: BackendArg) -> anyhow::
     }))
 }
 
-fn load_one(file: &Path, runs: usize, backend: BackendArg) -> anyhow::Result<Storage> {
+/// Loads one file in a process of its own: of a BTF, with the folder of its images.
+pub(super) fn load_one(
+    file: &Path,
+    images: Option<&Path>,
+    runs: usize,
+    backend: BackendArg,
+) -> anyhow::Result<Storage> {
     let backend = clap::ValueEnum::to_possible_value(&backend).context("backends have names")?;
-    let output = Command::new(std::env::current_exe()?)
-        .args(["bench", "load-one", "--runs", &runs.to_string(), "--backend", backend.get_name()])
-        .arg(file)
-        .stderr(Stdio::piped())
-        .output()?;
+    let mut command = Command::new(std::env::current_exe()?);
+    command.args(["bench", "load-one", "--runs", &runs.to_string(), "--backend", backend.get_name()]).arg(file);
+    if let Some(images) = images {
+        command.arg("--images").arg(images);
+    }
+    let output = command.stderr(Stdio::piped()).output()?;
     if !output.status.success() {
         std::io::stderr().write_all(&output.stderr)?;
         bail!("{}: loading failed, see above", file.display());
@@ -278,7 +302,7 @@ pub(crate) fn markdown(result: &Value) -> String {
 }
 
 /// Microseconds for people.
-fn micros(us: f64) -> String {
+pub(super) fn micros(us: f64) -> String {
     match us {
         us if us >= 1e6 => format!("{:.2} s", us / 1e6),
         us if us >= 1e3 => format!("{:.2} ms", us / 1e3),

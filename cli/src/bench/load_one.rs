@@ -14,6 +14,7 @@ use subsurf_encoder::capture::{Capture, Overrides};
 use subsurf_runtime::{Gpu, Material, PatchLight, PatchRenderer, Region, Storage as GpuStorage, storage_of};
 use subsurf_shaders::cpu::{self, Reflectance, Rgb};
 
+use super::load_btf;
 use super::timing::{Steps, Storage, median, medians};
 use crate::devices::BackendArg;
 use crate::memory::resident;
@@ -23,6 +24,9 @@ use crate::say::say;
 #[derive(clap::Args)]
 pub(crate) struct Args {
     file: PathBuf,
+    /// The images of a BTF
+    #[arg(long)]
+    images: Option<PathBuf>,
     #[arg(long)]
     runs: usize,
     #[arg(long, value_enum)]
@@ -36,12 +40,28 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let gpu = args.backend.open()?;
     // What there is before anything of the file is: the driver.
     let baseline = resident().map_or(0, |memory| memory.peak);
+    if let Some(images) = &args.images {
+        let bench = load_btf::Bench::new(gpu.as_ref(), &args.file, images)?;
+        return report(args, baseline, || bench.once(), || Ok(BTreeMap::new()));
+    }
     let is_capture = args.file.extension().is_some_and(|extension| extension == "npy");
     let (header, storage) = describe(&args.file, is_capture)?;
     let bench = Bench::new(gpu.as_ref(), &args.file, header, storage)?;
+    let parts =
+        || Ok(if is_capture { BTreeMap::new() } else { parts_of_parse(&std::fs::read(&args.file)?, args.runs) });
+    report(args, baseline, || bench.once(), parts)
+}
+
+/// Runs, warm and cold, and says what they took.
+fn report(
+    args: &Args,
+    baseline: u64,
+    bench: impl Fn() -> anyhow::Result<(Steps, u64)>,
+    parts_us: impl FnOnce() -> anyhow::Result<BTreeMap<String, f64>>,
+) -> anyhow::Result<()> {
     // One run that does not count: driver caches, page cache.
-    let (_, gpu_bytes) = bench.once()?;
-    let once = || bench.once().map(|(steps, _)| steps);
+    let (_, gpu_bytes) = bench()?;
+    let once = || bench().map(|(steps, _)| steps);
     let warm: Vec<Steps> = (0..args.runs).map(|_| once()).collect::<anyhow::Result<_>>()?;
     let mut cold = Vec::new();
     for _ in 0..args.runs {
@@ -51,7 +71,6 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         cold.push(once()?);
     }
     let peak_rss_bytes = resident().map_or(0, |memory| memory.peak);
-    let parts_us = if is_capture { BTreeMap::new() } else { parts_of_parse(&std::fs::read(&args.file)?, args.runs) };
     let result = Storage {
         bytes: std::fs::metadata(&args.file)?.len(),
         gpu_bytes,
@@ -59,7 +78,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         baseline_rss_bytes: baseline,
         warm_us: medians(&warm),
         cold_us: (!cold.is_empty()).then(|| medians(&cold)),
-        parts_us,
+        parts_us: parts_us()?,
     };
     say!("{}", serde_json::to_string(&result)?);
     Ok(())
@@ -204,14 +223,14 @@ impl Reflectance for Entries<'_> {
 }
 
 /// Microseconds from lap to lap.
-struct Clock(Instant);
+pub(super) struct Clock(Instant);
 
 impl Clock {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self(Instant::now())
     }
 
-    fn lap(&mut self) -> f64 {
+    pub(super) fn lap(&mut self) -> f64 {
         let now = Instant::now();
         let lap = now.duration_since(self.0).as_secs_f64() * 1e6;
         self.0 = now;

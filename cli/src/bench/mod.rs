@@ -4,6 +4,7 @@ mod btf;
 mod course;
 mod frames;
 mod load;
+mod load_btf;
 mod load_one;
 mod patch;
 mod render;
