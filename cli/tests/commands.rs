@@ -157,7 +157,7 @@ fn btfs_from_images_to_judgement() {
     assert_eq!(files(&folder.join("pictures")), ["comparison.png"]);
     let info = json(folder, "info leather.subsurf --json");
     assert_eq!((&info["materials"][0]["name"], &info["materials"][0]["levels"]), (&"leather".into(), &5.into()));
-    assert_eq!(info["codebooks"][0]["entries"], 16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1);
+    assert_eq!(info["parts"][0]["entries"], 16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1);
 
     // Two materials share codebooks.
     let both = json(folder, "encode btf leather wood --p4 64 -o both.subsurf --json");
@@ -170,8 +170,25 @@ fn btfs_from_images_to_judgement() {
 
     let small = json(folder, "encode btf leather --target-bytes 12kB -o small.subsurf --json");
     assert!(small["bytes"].as_u64().unwrap() <= 12_000, "{small}");
-    assert_refused(&run(folder, "encode btf leather --target-bytes 1kB"), &["no codebooks are that small"]);
+    assert_refused(&run(folder, "encode btf leather --target-bytes 1kB"), &["no file is that small"]);
     assert_refused(&run(folder, "encode btf leather --nodes 11,11"), &["--nodes has 2 numbers"]);
+
+    // Factors are judged, and not drawn.
+    let factored = json(folder, "encode btf wood --method factored -o factors.subsurf --json");
+    let judgement = json(folder, "compare wood factors.subsurf --every 61 --json");
+    assert_eq!(judgement["mssim"], factored["error"]["mssim"], "encode and compare agree");
+    let of = |key: &str| judgement.pointer(key).and_then(serde_json::Value::as_f64).unwrap();
+    assert!(of("/mssim/mean") > 0.95 && of("/psnr_db") > 35.0, "{judgement}");
+    assert!(json(folder, "info factors.subsurf --json")["parts"]["expanded_bytes"].as_u64().unwrap() > 100_000);
+    assert_refused(&run(folder, "render factors.subsurf -o factors.png"), &["factors", "--method nested"]);
+    // The paper's encoder writes files as nested ones are.
+    let paper = json(folder, "encode btf wood --method paper -o paper.subsurf --json");
+    assert!(paper["error"]["mssim"]["mean"].as_f64().unwrap() > 0.7, "{paper}");
+
+    let load = json(folder, "bench load --btf leather.subsurf --images leather --runs 2 --dir . --json");
+    assert_eq!(load["storage"]["images"]["bytes"], 3 * 16 * 16 * 6_561);
+    assert_eq!(load["storage"]["file"]["bytes"], file.len());
+    assert!(load["images_over_file"]["load_warm"].as_f64().unwrap() > 0.0, "{load}");
     assert_refused(&run(folder, "encode btf nothing"), &["nothing", "a folder of images"]);
     draws_btfs(folder);
 }
