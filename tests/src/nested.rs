@@ -7,6 +7,18 @@ use subsurf_decoder::btf::layout::Scales;
 use subsurf_decoder::btf::{Grid, Tone};
 use subsurf_encoder::btf::nested::Database;
 
+/// Few nodes, each axis with another number of them, that reach less far than hemispheres.
+pub const ODD_GRID: Grid = Grid {
+    n_alpha: 7,
+    n_beta: 9,
+    n_theta: 2,
+    n_phi: 1,
+    alpha_max: 1.3,
+    sin_beta_max: 0.9,
+    theta_max: 1.2,
+    cos_light_min: 0.2,
+};
+
 /// Node and weight of the two nodes around a place.
 type Nodes = [(usize, f64); 2];
 

@@ -8,7 +8,7 @@ use subsurf_encoder::btf::bonn;
 use subsurf_encoder::synthetic::{NestedShape, unit};
 use subsurf_runtime::{Backend, BtfAnswer, BtfImages, BtfMaterial, BtfQueries, BtfQuery, BtfStorage, Gpu};
 use subsurf_tests::frames::device;
-use subsurf_tests::nested::{direction, single};
+use subsurf_tests::nested::{ODD_GRID, direction, single};
 
 /// Of the larger of a value and a hundredth of the material's brightest. Directions are off by 1e-6 rad, nodes 0.3 rad
 /// apart; logarithmic tones turn 1e-6 of a step into some 1e-5, and so do powers in display tones.
@@ -20,16 +20,6 @@ const SAMPLE_TOLERANCE: f32 = 1e-3;
 fn files() -> Vec<(&'static str, Vec<u8>)> {
     let typical = NestedShape { materials: vec![(32, 32, 1)], ..NestedShape::typical() };
     let small = NestedShape::small();
-    let odd = Grid {
-        n_alpha: 7,
-        n_beta: 9,
-        n_theta: 2,
-        n_phi: 1,
-        alpha_max: 1.3,
-        sin_beta_max: 0.9,
-        theta_max: 1.2,
-        cos_light_min: 0.2,
-    };
     let large = Grid { n_alpha: 64, n_beta: 63, n_theta: 5, n_phi: 64, ..Grid::PAPER };
     let bright = Tone::LogLuv { toe: 0.01, peak: 20.0 };
     let shapes = [
@@ -39,7 +29,7 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
         ("LogLuv", NestedShape { tone: bright, ..typical.clone() }),
         ("three stages", NestedShape { stages: 3, luma: [512, 1024, 1024, 512], ..typical.clone() }),
         ("four stages", NestedShape { stages: 4, tints: 5, materials: vec![(5, 3, 3), (1, 7, 2)], ..small.clone() }),
-        ("odd grid", NestedShape { grid: odd, tone: bright, is_relative: true, tints: 1, ..small.clone() }),
+        ("odd grid", NestedShape { grid: ODD_GRID, tone: bright, is_relative: true, tints: 1, ..small.clone() }),
         ("wide codes", NestedShape { scale_bits: 10, ..small.clone() }),
         ("large grid", NestedShape { grid: large, ..small }),
     ];

@@ -4,28 +4,18 @@ use subsurf_decoder::Btf;
 use subsurf_decoder::btf::{Grid, Tone};
 use subsurf_encoder::btf::nested::Database;
 use subsurf_encoder::synthetic::{NestedShape, unit};
-use subsurf_tests::nested::{angles, direction, single, value};
+use subsurf_tests::nested::{ODD_GRID, angles, direction, single, value};
 
 /// Files of every kind.
 fn databases() -> Vec<Database> {
-    let odd = Grid {
-        n_alpha: 7,
-        n_beta: 9,
-        n_theta: 2,
-        n_phi: 1,
-        alpha_max: 1.3,
-        sin_beta_max: 0.9,
-        theta_max: 1.2,
-        cos_light_min: 0.2,
-    };
     let small = NestedShape::small();
     let bright = Tone::LogLuv { toe: 0.01, peak: 9.0 };
     let shapes = [
         small.clone(),
         NestedShape { stages: 4, tints: 5, materials: vec![(5, 3, 3), (1, 7, 2)], ..small.clone() },
         NestedShape { is_relative: true, tints: 3, stages: 2, ..small.clone() },
-        NestedShape { grid: odd, tone: bright, ..small.clone() },
-        NestedShape { chroma: [7, 1, 1, 1], grid: odd, is_relative: true, ..small.clone() },
+        NestedShape { grid: ODD_GRID, tone: bright, ..small.clone() },
+        NestedShape { chroma: [7, 1, 1, 1], grid: ODD_GRID, is_relative: true, ..small.clone() },
         // Codes of P2 of more than a byte.
         NestedShape { scale_bits: 10, ..small },
         NestedShape { materials: vec![(16, 16, 1)], ..NestedShape::typical() },

@@ -20,7 +20,7 @@ use crate::failure::bad_request;
 use crate::info::parse_btf;
 use crate::memory::human;
 use crate::progress::Bars;
-use crate::render::{Shot, read_images};
+use crate::render::{Shot, in_bytes, read_images};
 use crate::say::say;
 
 /// Pixels to a side of the first frame.
@@ -99,10 +99,8 @@ fn write_array(path: &Path, images: &Images) -> anyhow::Result<()> {
     let bars = Bars::new();
     bars.begin("writing the images as an array", images.pairs() as u64);
     let mut file = std::io::BufWriter::new(std::fs::File::create(path)?);
-    let mut image = vec![[0_u8; 3]; images.texels()];
     for pair in 0..images.pairs() {
-        images.each(pair, |texel, rgb| image[texel] = subsurf_shaders::cpu::display(rgb));
-        file.write_all(image.as_flattened())?;
+        file.write_all(in_bytes(images, pair).as_flattened())?;
         bars.advance(1);
     }
     file.flush()?;

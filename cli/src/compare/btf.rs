@@ -10,7 +10,7 @@ use subsurf_encoder::metrics::btf::{BtfError, compare, decode, with_file};
 use super::Args;
 use crate::encode::btf::load;
 use crate::failure::bad_request;
-use crate::info::{Parts, read_error, read_file};
+use crate::info::{Parts, material_number, read_error, read_file};
 use crate::memory::human;
 use crate::picture::{display, montage, write_png};
 use crate::progress::Bars;
@@ -66,28 +66,48 @@ fn material_of(args: &Args, file: &Catalog<'_>) -> anyhow::Result<usize> {
             .or((names.len() == 1).then_some(0))
             .ok_or_else(|| bad_request(format!("--material is needed: the file has {}", names.join(", "))));
     };
-    let number = names.iter().position(|name| name == asked);
-    let number = number.or_else(|| asked.parse().ok().filter(|number| *number < names.len()));
-    number.ok_or_else(|| bad_request(format!("no material {asked}: the file has {}", names.join(", "))))
+    material_number(&names, asked)
+        .ok_or_else(|| bad_request(format!("no material {asked}: the file has {}", names.join(", "))))
+}
+
+/// Structural similarities as JSON has them.
+pub(crate) fn mssim_json(error: &BtfError) -> Value {
+    let [luma, cr, cb] = error.mssim;
+    json!({ "y": luma, "cr": cr, "cb": cb, "mean": error.mean_mssim() })
+}
+
+/// The same for people.
+pub(crate) fn mssim(error: &BtfError) -> String {
+    let [luma, cr, cb] = error.mssim;
+    format!("MSSIM {:.4} (Y {luma:.4}, Cr {cr:.4}, Cb {cb:.4})", error.mean_mssim())
 }
 
 fn to_json(error: &BtfError, parts: &Parts, images: &Images, bytes: usize) -> Value {
-    let [luma, cr, cb] = error.mssim;
     json!({
-        "mssim": { "y": luma, "cr": cr, "cb": cb, "mean": error.mean_mssim() }, "psnr_db": error.psnr_db,
+        "mssim": mssim_json(error), "psnr_db": error.psnr_db,
         "pairs": error.pairs, "bytes": bytes, "raw_bytes": images.bytes(), "parts": parts.to_json(),
     })
 }
 
 fn print(args: &Args, error: &BtfError, parts: &Parts, images: &Images, bytes: usize) {
-    let [luma, cr, cb] = error.mssim;
     say!("{} against {}", args.file.display(), args.capture.display());
     #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
     let ratio = images.bytes() as f64 / bytes as f64;
     say!("  {} of {}: 1:{ratio:.0}", human(bytes as u64), human(images.bytes()));
-    say!("  MSSIM {:.4} (Y {luma:.4}, Cr {cr:.4}, Cb {cb:.4}) over {} pairs", error.mean_mssim(), error.pairs);
+    say!("  {} over {} pairs", mssim(error), error.pairs);
     say!("  PSNR  {:.1} dB", error.psnr_db);
     parts.print();
+}
+
+/// The pair of directions at a share of all of them, 0 to below 1.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "a pair of some thousands"
+)]
+pub(crate) fn pair_at(images: &Images, share: f64) -> usize {
+    (share * images.pairs() as f64) as usize
 }
 
 fn pictures(folder: &Path, images: &Images, file: &(dyn Evaluate + Sync), material: usize) -> anyhow::Result<()> {
@@ -102,15 +122,8 @@ fn pictures(folder: &Path, images: &Images, file: &(dyn Evaluate + Sync), materi
     };
     let mut rows = Vec::new();
     for share in PICTURED {
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            clippy::cast_precision_loss,
-            reason = "a pair"
-        )]
-        let pair = (share * images.pairs() as f64) as usize;
-        let mut original = vec![[0.0; 3]; images.texels()];
-        images.each(pair, |texel, rgb| original[texel] = rgb);
+        let pair = pair_at(images, share);
+        let original = images.image(pair);
         let decoded = decode(images, file, material, pair);
         let difference: Vec<[f32; 3]> =
             original.iter().zip(&decoded).map(|(a, b)| [0, 1, 2].map(|c| MAGNIFIED * (a[c] - b[c]).abs())).collect();

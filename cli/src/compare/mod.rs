@@ -10,6 +10,8 @@ use subsurf_encoder::Progress;
 use subsurf_encoder::capture::Capture;
 use subsurf_encoder::metrics::{self, Comparison, Light};
 
+pub(crate) use btf::{mssim, mssim_json, pair_at};
+
 use crate::failure::bad_request;
 use crate::info::{parse, read_file};
 use crate::memory::human;

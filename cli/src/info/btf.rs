@@ -48,6 +48,12 @@ pub(super) fn info(args: &Args, bytes: &[u8], container: &Container<'_>) -> anyh
     Ok(())
 }
 
+/// The material that is asked for by its name, or else by its number from 0.
+pub(crate) fn material_number(names: &[String], asked: &str) -> Option<usize> {
+    let by_number = || asked.parse().ok().filter(|number| *number < names.len());
+    names.iter().position(|name| name == asked).or_else(by_number)
+}
+
 /// What a file is made of.
 pub(crate) enum Parts {
     /// Nested codebooks.

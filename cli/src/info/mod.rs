@@ -12,7 +12,7 @@ use subsurf_decoder::container::{Container, Crc};
 use subsurf_decoder::{Bssrdf, Btf, Section};
 use subsurf_encoder::btf::Folder;
 
-pub(crate) use btf::Parts;
+pub(crate) use btf::{Parts, material_number};
 
 use crate::failure::bad_request;
 use crate::memory::human;
@@ -147,12 +147,14 @@ pub(crate) fn parse_any<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::
 
 /// [`parse`] of a BTF that can be drawn.
 pub(crate) fn parse_btf<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Btf<'a>> {
-    let model = Catalog::parse(bytes, Crc::Check).map(|catalog| catalog.header().model);
-    if matches!(model, Ok(BtfModel::Factored)) {
-        let what = "a BTF of factors, which only the library evaluates; encode it with --method nested to draw it";
-        return Err(bad_request(format!("{}: {what}", path.display())));
-    }
-    Btf::parse_with(bytes, Crc::Check).map_err(|error| read_error(path, error)).context("not a usable BTF")
+    Btf::parse_with(bytes, Crc::Check).or_else(|error| {
+        let model = Catalog::parse(bytes, Crc::Check).map(|catalog| catalog.header().model);
+        if matches!(model, Ok(BtfModel::Factored)) {
+            let what = "a BTF of factors, which only the library evaluates; encode it with --method nested to draw it";
+            return Err(bad_request(format!("{}: {what}", path.display())));
+        }
+        Err(read_error(path, error)).context("not a usable BTF")
+    })
 }
 
 pub(crate) fn read_error(path: &std::path::Path, source: subsurf_decoder::ReadError) -> subsurf_encoder::Error {

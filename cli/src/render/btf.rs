@@ -18,6 +18,7 @@ use subsurf_shaders::uniform::MAX_LIGHTS;
 use super::mesh::{SUPERSAMPLING, Shot, average_down, exposure_of};
 use super::prepared::{Prepared, Ready};
 use crate::failure::bad_request;
+use crate::info::material_number;
 use crate::mesh::visibility;
 use crate::picture::montage;
 use crate::progress::Bars;
@@ -119,8 +120,7 @@ impl BtfArgs {
             return Ok(0);
         };
         let names: Vec<String> = btf.materials().map(|material| material.name().to_owned()).collect();
-        let by_number = || asked.parse().ok().filter(|number| *number < names.len());
-        names.iter().position(|name| name == asked).or_else(by_number).ok_or_else(|| {
+        material_number(&names, asked).ok_or_else(|| {
             bad_request(format!("--material {asked}: the file has {}, and 0 to {}", names.join(", "), names.len() - 1))
         })
     }
@@ -185,6 +185,11 @@ pub(crate) fn read_images(folder: &Path) -> anyhow::Result<Images> {
     Ok(Images::load(&found, &Bars::new())?)
 }
 
+/// The image of a pair, in bytes.
+pub(crate) fn in_bytes(images: &Images, pair: usize) -> Vec<[u8; 3]> {
+    images.image(pair).into_iter().map(cpu::display).collect()
+}
+
 /// Brings images to a device.
 pub(crate) fn upload_images(gpu: &Gpu, images: &Images) -> anyhow::Result<BtfMaterial> {
     let white = match images.tone() {
@@ -193,12 +198,7 @@ pub(crate) fn upload_images(gpu: &Gpu, images: &Images) -> anyhow::Result<BtfMat
     };
     let views = images.views().len();
     let description = BtfImages { size: images.size(), lights: images.lights(), views: images.views(), white };
-    let image = |light: usize, view: usize| {
-        let mut pixels = vec![[0; 3]; images.texels()];
-        images.each(light * views + view, |texel, rgb| pixels[texel] = cpu::display(rgb));
-        pixels
-    };
-    Ok(BtfMaterial::upload_images(gpu, &description, image)?)
+    Ok(BtfMaterial::upload_images(gpu, &description, |light, view| in_bytes(images, light * views + view))?)
 }
 
 /// A mesh and a material on a device.

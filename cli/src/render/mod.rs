@@ -28,7 +28,7 @@ use crate::options::Size;
 use crate::picture::write_png;
 use crate::say::say;
 
-pub(crate) use btf::{BtfArgs, Textured, draw_btf, expect_uvs, prepare_btf, read_images, upload_images};
+pub(crate) use btf::{BtfArgs, Textured, draw_btf, expect_uvs, in_bytes, prepare_btf, read_images, upload_images};
 pub(crate) use mesh::{ROUGHNESS, Shot, choose_mapping, chosen_exposure, draw_mesh};
 pub(crate) use patch::{draw_patch, patch_irradiance};
 pub(crate) use prepared::{Ingredients, Prepared, Ready};

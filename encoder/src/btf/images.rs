@@ -230,6 +230,14 @@ impl Images {
         }
     }
 
+    /// All pixels of a pair, row by row.
+    #[must_use]
+    pub fn image(&self, pair: usize) -> Vec<[f32; 3]> {
+        let mut pixels = vec![[0.0; 3]; self.texels()];
+        self.each(pair, |texel, rgb| pixels[texel] = rgb);
+        pixels
+    }
+
     /// Hands over all pixels of a pair, as images have them, with their numbers.
     pub fn each(&self, pair: usize, mut with: impl FnMut(usize, [f32; 3])) {
         let image = 3 * self.texels();

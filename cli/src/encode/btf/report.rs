@@ -7,6 +7,7 @@ use subsurf_encoder::btf::rate::Point;
 use subsurf_encoder::metrics::btf::BtfError;
 
 use super::methods::Made;
+use crate::compare::{mssim, mssim_json};
 use crate::memory::{human, resident};
 use crate::say::say;
 
@@ -21,22 +22,13 @@ pub(super) struct Report<'a> {
 
 /// One file that was tried.
 pub(super) fn line(point: &Point) -> String {
-    let [luma, cr, cb] = point.error.mssim;
-    format!(
-        "  {:>8}  {:<14}  MSSIM {:.4} (Y {luma:.4}, Cr {cr:.4}, Cb {cb:.4})  PSNR {:.1} dB",
-        human(point.bytes.len() as u64),
-        point.name,
-        point.error.mean_mssim(),
-        point.error.psnr_db,
-    )
+    let size = human(point.bytes.len() as u64);
+    format!("  {size:>8}  {:<14}  {}  PSNR {:.1} dB", point.name, mssim(&point.error), point.error.psnr_db)
 }
 
 impl Report<'_> {
     pub(super) fn json(&self) {
-        let of_error = |error: &BtfError| {
-            let [luma, cr, cb] = error.mssim;
-            json!({ "mssim": { "y": luma, "cr": cr, "cb": cb, "mean": error.mean_mssim() }, "psnr_db": error.psnr_db })
-        };
+        let of_error = |error: &BtfError| json!({ "mssim": mssim_json(error), "psnr_db": error.psnr_db });
         let points = self.made.walked.as_ref().map(|walked| {
             let point = |(number, point): (usize, &Point)| {
                 let error = of_error(&point.error);
@@ -59,13 +51,7 @@ impl Report<'_> {
         let (size, raw) = (human(bytes as u64), human(self.raw_bytes));
         say!("{}: {size} from {raw}, 1:{ratio:.0}; {}", self.output.display(), self.made.name);
         if let Some(error) = self.error {
-            let [luma, cr, cb] = error.mssim;
-            say!(
-                "  MSSIM {:.4} (Y {luma:.4}, Cr {cr:.4}, Cb {cb:.4}), PSNR {:.1} dB over {} pairs of directions",
-                error.mean_mssim(),
-                error.psnr_db,
-                error.pairs
-            );
+            say!("  {}, PSNR {:.1} dB over {} pairs of directions", mssim(&error), error.psnr_db, error.pairs);
         } else {
             say!("  not judged: structural similarity needs images of 11 × 11 pixels at least");
         }

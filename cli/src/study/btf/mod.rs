@@ -68,20 +68,24 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     for (number, sample) in samples.iter().enumerate() {
         say!("{} ({} of {})", sample.name(), number + 1, samples.len());
-        let images = vec![images(args, *sample)?];
-        let mut survey = None;
-        let subject = Subject { name: sample.name(), images: &images, folder: &args.dir, every: args.every };
+        let mut subject = Subject {
+            name: sample.name(),
+            side: args.size,
+            folder: &args.dir,
+            every: args.every,
+            images: Vec::new(),
+            survey: None,
+        };
         let of_paper = |codec: &Codec| [Codec::Paper, Codec::NestedAsPaper].contains(codec);
         for codec in Codec::ALL.into_iter().filter(|codec| !(args.no_paper && of_paper(codec))) {
-            if let Some(record) = subject.record(codec, &mut survey)? {
+            if let Some(record) = subject.record(codec, || images(args, *sample))? {
                 say!("  {}", record.line());
                 records.push(record);
             }
         }
     }
     let shared = if samples.len() > 1 {
-        let all = samples.iter().map(|sample| images(args, *sample)).collect::<anyhow::Result<Vec<_>>>()?;
-        Some(shared::shared(&args.dir, &samples, &all)?)
+        Some(shared::shared(&args.dir, &samples, args.size, |sample| images(args, sample))?)
     } else {
         None
     };

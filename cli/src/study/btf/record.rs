@@ -12,6 +12,7 @@ use subsurf_encoder::write_bytes;
 
 use super::codec::{Codec, Made};
 use super::size;
+use crate::compare::pair_at;
 use crate::failure::bad_request;
 use crate::info::Parts;
 use crate::picture::{display, write_png};
@@ -54,15 +55,18 @@ impl Record {
 /// A material of the study.
 pub(super) struct Subject<'a> {
     pub(super) name: &'a str,
-    pub(super) images: &'a [Images],
+    /// Pixels of its images in x and in y.
+    pub(super) side: u32,
     pub(super) folder: &'a Path,
     pub(super) every: usize,
+    /// Its images, and what the codecs share, once something is not kept.
+    pub(super) images: Vec<Images>,
+    pub(super) survey: Option<Survey>,
 }
 
 impl Subject<'_> {
     fn kept(&self, codec: Codec) -> PathBuf {
-        let side = self.images[0].size()[0];
-        self.folder.join("files").join(format!("{}-{side}-{}.json", self.name, codec.label()))
+        self.folder.join("files").join(format!("{}-{}-{}.json", self.name, self.side, codec.label()))
     }
 
     fn read(&self, codec: Codec) -> Option<Record> {
@@ -70,14 +74,21 @@ impl Subject<'_> {
     }
 
     /// The record of a codec, the kept one if it is still the answer; none if it cannot be as small as it may be.
-    pub(super) fn record(&self, codec: Codec, survey: &mut Option<Survey>) -> anyhow::Result<Option<Record>> {
+    pub(super) fn record(
+        &mut self,
+        codec: Codec,
+        load: impl FnOnce() -> anyhow::Result<Images>,
+    ) -> anyhow::Result<Option<Record>> {
         let budget = codec.budget_of().and_then(|other| self.read(other)).map_or(0, |record| record.bytes);
         let request = format!("{} {codec:?} {budget} every {}", env!("CARGO_PKG_VERSION"), self.every);
         if let Some(kept) = self.read(codec).filter(|kept| kept.request == request) {
             return Ok(Some(kept));
         }
+        if self.images.is_empty() {
+            self.images.push(load()?);
+        }
         let start = Instant::now();
-        let made = codec.make(self.name, self.images, survey, budget)?;
+        let made = codec.make(self.name, &self.images, &mut self.survey, budget)?;
         let seconds = start.elapsed().as_secs_f64();
         let judged = made.into_iter().map(|made| Ok((self.judge(&made)?, made)));
         let judged: Vec<(BtfError, Made)> = judged.collect::<anyhow::Result<_>>()?;
@@ -125,29 +136,18 @@ impl Subject<'_> {
     fn draw(&self, codec: Codec, made: &Made) -> anyhow::Result<()> {
         let images = &self.images[0];
         for (number, share) in PICTURED.iter().enumerate() {
-            let pair = pictured_pair(images, *share);
+            let pair = pair_at(images, *share);
             let decoded = match made {
                 Made::File(bytes) => with_file(bytes, |file| decode(images, file, 0, pair))?,
                 Made::Baseline(baseline) => baseline.image(pair),
             };
             let width = images.size()[0];
             write_png(&picture_path(self.folder, self.name, codec.label(), number), &display(&decoded, width, None))?;
-            let mut original = vec![[0.0; 3]; images.texels()];
-            images.each(pair, |texel, rgb| original[texel] = rgb);
-            write_png(&picture_path(self.folder, self.name, "original", number), &display(&original, width, None))?;
+            let original = display(&images.image(pair), width, None);
+            write_png(&picture_path(self.folder, self.name, "original", number), &original)?;
         }
         Ok(())
     }
-}
-
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    clippy::cast_precision_loss,
-    reason = "a pair of 6,561"
-)]
-fn pictured_pair(images: &Images, share: f64) -> usize {
-    (share * images.pairs() as f64) as usize
 }
 
 pub(super) fn picture_path(folder: &Path, material: &str, label: &str, number: usize) -> PathBuf {

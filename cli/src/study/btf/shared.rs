@@ -32,30 +32,35 @@ const APART: usize = 512;
 const SHARES: [usize; 6] = [30, 40, 50, 60, 75, 90];
 
 /// The smallest shared file whose mean structural similarity is not below that of files apart, over a sample of pairs.
-pub(super) fn shared(folder: &Path, samples: &[Sample], images: &[Images]) -> anyhow::Result<Shared> {
+pub(super) fn shared(
+    folder: &Path,
+    samples: &[Sample],
+    side: u32,
+    load: impl Fn(Sample) -> anyhow::Result<Images>,
+) -> anyhow::Result<Shared> {
     let names: Vec<String> = samples.iter().map(|sample| sample.name().to_owned()).collect();
-    let request = format!("{} {} {:?}", env!("CARGO_PKG_VERSION"), names.join(" "), images[0].size());
+    let request = format!("{} {} {:?}", env!("CARGO_PKG_VERSION"), names.join(" "), [side; 2]);
     let path = folder.join("files").join("shared.json");
     let kept = std::fs::read(&path).ok().and_then(|bytes| serde_json::from_slice::<Shared>(&bytes).ok());
     if let Some(kept) = kept.filter(|kept| kept.request == request) {
         return Ok(kept);
     }
+    let images = samples.iter().map(|sample| load(*sample)).collect::<anyhow::Result<Vec<_>>>()?;
     let mut apart = (0, 0.0);
-    for (name, images) in names.iter().zip(images) {
-        let side = images.size()[0];
+    for (name, images) in names.iter().zip(&images) {
         let bytes = std::fs::read(folder.join("files").join(format!("{name}-{side}-nested.subsurf")))?;
         apart.0 += bytes.len() as u64;
         let images = std::slice::from_ref(images);
         apart.1 += judge(images, &bytes, &Bars::new())?.mean_mssim() / names.len() as f64;
     }
-    let survey = Survey::new(images, detail(images.len()), SEED, &Bars::new())?;
+    let survey = Survey::new(&images, detail(images.len()), SEED, &Bars::new())?;
     let grid = grid(&images[0], &usual_nodes(MethodArg::Nested, &images[0]))?;
-    let prepared = Common { grid, names, has_mipmaps: false, seed: SEED }.nested(images, &survey);
+    let prepared = Common { grid, names, has_mipmaps: false, seed: SEED }.nested(&images, &survey);
     let mut found = None;
     for share in SHARES {
         let p4 = share * APART * samples.len() / 100;
         let bytes = prepared.encode(&Sizes::stages(p4, 1), &Bars::new())?.to_bytes();
-        let together = (bytes.len() as u64, judge(images, &bytes, &Bars::new())?.mean_mssim());
+        let together = (bytes.len() as u64, judge(&images, &bytes, &Bars::new())?.mean_mssim());
         say!(
             "  shared, P4 = {p4}: {} bytes, MSSIM {:.4}; apart {} bytes, {:.4}",
             together.0,

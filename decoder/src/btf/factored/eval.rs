@@ -23,12 +23,6 @@ impl<'b> Expanded<'b> {
         Self { file: *file, table, words }
     }
 
-    /// The file.
-    #[must_use]
-    pub fn file(&self) -> &Factored<'b> {
-        &self.file
-    }
-
     /// Header and materials.
     #[must_use]
     pub fn catalog(&self) -> &Catalog<'b> {
@@ -39,12 +33,6 @@ impl<'b> Expanded<'b> {
     #[must_use]
     pub fn table(&self) -> &'b [i8] {
         self.table
-    }
-
-    /// All codewords, `[stage][codeword][coefficient]`, in steps.
-    #[must_use]
-    pub fn words(&self) -> &'b [i16] {
-        self.words
     }
 
     /// Value of a texel at a place of the grid; see [`Evaluate::eval_cell`](crate::btf::Evaluate::eval_cell).

@@ -8,7 +8,6 @@ mod clusters;
 mod whole;
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use subsurf_decoder::btf::{Grid, Tone};
 
 use super::resample::{Measured, Resampler};
@@ -35,13 +34,7 @@ struct Part {
 }
 
 impl Baseline {
-    /// Images at pairs of directions, as images have them: not clipped.
-    #[must_use]
-    pub fn images(&self, pairs: &[usize]) -> Vec<Vec<[f32; 3]>> {
-        pairs.par_iter().map(|pair| self.image(*pair)).collect()
-    }
-
-    /// One of [`Self::images`].
+    /// The image of a pair of directions, as images have it: not clipped.
     #[must_use]
     pub fn image(&self, pair: usize) -> Vec<[f32; 3]> {
         let rows: Vec<DMatrix<f32>> =

@@ -24,12 +24,8 @@ impl<'a> Whole<'a> {
         });
         // Products of all functions: B of luma in each channel, and Q of chroma in both of its own.
         let mut products = DMatrix::identity(all, all);
-        let basis = |channel: usize| {
-            let rows: Vec<usize> = (0..survey.weights.len()).map(|pair| 2 * pair + channel).collect();
-            survey.chroma.basis.select_rows(&rows)
-        };
         for channel in 0..2 {
-            let cross = survey.luma.basis.tr_mul(&basis(channel));
+            let cross = survey.luma.basis.tr_mul(&survey.chroma_basis(channel));
             products.view_mut(((1 + channel) * luma, 3 * luma), (luma, chroma)).copy_from(&cross);
             products.view_mut((3 * luma, (1 + channel) * luma), (chroma, luma)).copy_from(&cross.transpose());
         }

@@ -9,7 +9,7 @@ use super::space::{Components, Space};
 use super::texels::{quantise, steps};
 use super::write::Contents;
 use crate::btf::mipmaps::Mipmaps;
-use crate::btf::nested::material;
+use crate::btf::nested::materials;
 use crate::btf::resample::{Measured, Resampler};
 use crate::btf::{Images, Survey};
 use crate::error::{Error, Result};
@@ -59,11 +59,7 @@ impl<'a> Prepared<'a> {
         let mipmaps = Mipmaps::new(&survey.sizes, options.has_mipmaps);
         let texels = [&survey.luma.texels, &survey.chroma.texels].map(|texels| mipmaps.of(texels));
         let ratios = mipmaps.of_ratios(&survey.ratios, &survey.luma.texels);
-        let channel = |channel: usize| {
-            let rows: Vec<usize> = (0..survey.weights.len()).map(|pair| 2 * pair + channel).collect();
-            survey.chroma.basis.select_rows(&rows)
-        };
-        let bases = [vec![survey.luma.basis.clone()], vec![channel(0), channel(1)]];
+        let bases = [vec![survey.luma.basis.clone()], vec![survey.chroma_basis(0), survey.chroma_basis(1)]];
         let space = Space { measured: &measured, weights: &survey.weights };
         let components = [0, 1].map(|k| space.components(&resampler, &bases[k], &texels[k]));
         let squares: Vec<f32> = survey.weights.iter().map(|weight| weight * weight).collect();
@@ -89,8 +85,7 @@ impl<'a> Prepared<'a> {
     pub fn encode(&self, sizes: &Sizes, progress: &impl Progress) -> Result<Vec<u8>> {
         sizes.check()?;
         let (survey, options) = (self.survey, &self.options);
-        let count = u8::try_from(survey.sizes.len()).ok().filter(|count| *count > 0);
-        let count = count.ok_or_else(|| Error::Request(format!("{} materials in one file", survey.sizes.len())))?;
+        let (count, materials) = materials(&survey.sizes, &options.names, options.has_mipmaps)?;
         progress.begin("factors", steps(sizes.stages.len()));
         let [of_luma, of_chroma] =
             [(0, sizes.luma), (1, sizes.chroma)].map(|(k, most)| most.min(self.components[k].count()));
@@ -116,10 +111,9 @@ impl<'a> Prepared<'a> {
         let coefficient_step = |column: usize| if column < of_luma { sizes.word_step } else { chroma_step };
         let factors: Vec<f32> =
             tucker.steps.iter().enumerate().map(|(column, step)| step * coefficient_step(column)).collect();
-        let named = |(size, name): (&[u32; 2], &String)| material(*size, name, options.has_mipmaps);
         Ok(Contents {
             header: Header { model: Model::Factored, tone: survey.tone, materials: count, grid: *grid },
-            materials: &survey.sizes.iter().zip(&options.names).map(named).collect::<Result<Vec<_>>>()?,
+            materials: &materials,
             components: [of_luma, of_chroma],
             tucker: &tucker,
             texels: &texels,

@@ -21,11 +21,3 @@ pub fn expanded<'m>(file: &Factored<'m>, memory: &'m mut Memory) -> Expanded<'m>
     let buffers = Buffers { table: &mut memory.table, words: &mut memory.words, scratch: &mut scratch };
     file.expand(buffers).expect("buffers are as long as the file says")
 }
-
-impl Memory {
-    /// Bytes of all of it.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
-        self.table.len() + 2 * self.words.len()
-    }
-}

@@ -51,11 +51,8 @@ impl<'a> Prepared<'a> {
         let mipmaps = Mipmaps::new(&survey.sizes, options.has_mipmaps);
         let texels = [&survey.luma.texels, &survey.chroma.texels].map(|texels| mipmaps.of(texels));
         let ratios = mipmaps.of_ratios(&survey.ratios, &survey.luma.texels);
-        let channel = |channel: usize| {
-            let rows: Vec<usize> = (0..survey.weights.len()).map(|pair| 2 * pair + channel).collect();
-            fitted(&resampler, survey, &survey.chroma.basis.select_rows(&rows))
-        };
-        let tables = [fitted(&resampler, survey, &survey.luma.basis), channel(0), channel(1)];
+        let tables = [&survey.luma.basis, &survey.chroma_basis(0), &survey.chroma_basis(1)]
+            .map(|basis| fitted(&resampler, survey, basis));
         Self { survey, options, measured, tables, texels, ratios }
     }
 
@@ -68,8 +65,7 @@ impl<'a> Prepared<'a> {
         if stages.is_empty() || stages.len() > MAX_STAGES {
             return Err(Error::Request(format!("{} stages of codebooks; 1 to 4 are possible", stages.len())));
         }
-        let count = u8::try_from(survey.sizes.len()).ok().filter(|count| *count > 0);
-        let count = count.ok_or_else(|| Error::Request(format!("{} materials in one file", survey.sizes.len())))?;
+        let (count, materials) = materials(&survey.sizes, &options.names, options.has_mipmaps)?;
         progress.begin("codebooks", STEPS * stages.len() as u64);
         let [luma, chroma] = &self.texels;
         let [of_luma, of_a, of_b] = &self.tables;
@@ -100,10 +96,9 @@ impl<'a> Prepared<'a> {
             is_relative: matches!(survey.tone, Tone::Display { .. }),
         };
         let chroma = hues.build(&mut built[0], options.chroma);
-        let named = |(size, name): (&[u32; 2], &String)| material(*size, name, options.has_mipmaps);
         Ok(Database {
             header: Header { model: Model::Nested, tone: survey.tone, materials: count, grid: options.grid },
-            materials: survey.sizes.iter().zip(&options.names).map(named).collect::<Result<_>>()?,
+            materials,
             stages: built.into_iter().map(|stage| stage.chain).collect(),
             chroma,
         })
@@ -128,7 +123,19 @@ fn mean_over_views(values: &[f32], light: usize) -> Vec<f32> {
     (0..light).map(|k| values[k..].iter().step_by(light).sum::<f32>() / count).collect()
 }
 
-pub(in crate::btf) fn material([width, height]: [u32; 2], name: &str, has_mipmaps: bool) -> Result<Material> {
+/// What a file says of materials, and how many there are.
+pub(in crate::btf) fn materials(
+    sizes: &[[u32; 2]],
+    names: &[String],
+    has_mipmaps: bool,
+) -> Result<(u8, Vec<Material>)> {
+    let count = u8::try_from(sizes.len()).ok().filter(|count| *count > 0);
+    let count = count.ok_or_else(|| Error::Request(format!("{} materials in one file", sizes.len())))?;
+    let all = sizes.iter().zip(names).map(|(size, name)| material(*size, name, has_mipmaps));
+    Ok((count, all.collect::<Result<_>>()?))
+}
+
+fn material([width, height]: [u32; 2], name: &str, has_mipmaps: bool) -> Result<Material> {
     let side =
         |side: u32| u16::try_from(side).map_err(|_| Error::Request(format!("{name}: {side} texels wide or high")));
     let levels = if has_mipmaps { 1 + width.max(height).ilog2() } else { 1 };

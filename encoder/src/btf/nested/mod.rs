@@ -11,7 +11,7 @@ pub(super) mod slices;
 mod write;
 
 pub use chroma::ChromaSizes;
-pub(super) use encode::material;
+pub(super) use encode::materials;
 pub use encode::{Options, Prepared};
 pub use luma::Sizes;
 pub use write::{Chain, Chroma, Database, Item, slice_mean};

@@ -12,9 +12,9 @@ use super::quantise::{Quantised, quantised};
 use super::similarity::{Allowed, Similarity};
 use crate::btf::Images;
 use crate::btf::mipmaps::Mipmaps;
-use crate::btf::nested::{Database, material};
+use crate::btf::nested::{self, Database};
 use crate::btf::survey::common_tone;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::progress::Progress;
 
 /// What the paper's encoder is told.
@@ -68,12 +68,11 @@ const BLOCK: usize = 1024;
 /// Builds the codebooks of materials.
 ///
 /// # Errors
-/// [`Error::Request`] if the materials do not go into one file.
+/// [`Error::Request`](crate::Error::Request) if the materials do not go into one file.
 pub fn encode(materials: &[Images], options: &Options, progress: &impl Progress) -> Result<Database> {
     let tone = common_tone(materials)?;
-    let count = u8::try_from(materials.len());
-    let count = count.map_err(|_| Error::Request(format!("{} materials in one file", materials.len())))?;
     let sizes: Vec<[u32; 2]> = materials.iter().map(Images::size).collect();
+    let (count, named) = nested::materials(&sizes, &options.names, options.has_mipmaps)?;
     let mipmaps = Mipmaps::new(&sizes, options.has_mipmaps);
     let functions = Functions::new(materials, tone, options.grid);
     let measure = Measure::new(&options.similarity, &options.grid, tone);
@@ -108,10 +107,9 @@ pub fn encode(materials: &[Images], options: &Options, progress: &impl Progress)
         texels.par_extend(functions.means(groups).par_iter().map(find));
     }
     (chain.scales[0], chain.texels) = quantised(&texels, 8);
-    let named = |(size, name): (&[u32; 2], &String)| material(*size, name, options.has_mipmaps);
     Ok(Database {
         header: Header { model: Model::Nested, tone, materials: count, grid: options.grid },
-        materials: sizes.iter().zip(&options.names).map(named).collect::<Result<_>>()?,
+        materials: named,
         stages: vec![chain],
         chroma,
     })

@@ -2,6 +2,7 @@
 
 mod svd;
 
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 use subsurf_decoder::btf::Tone;
 
@@ -158,6 +159,12 @@ fn local_variance(plane: &[f32], width: usize) -> f32 {
 }
 
 impl Survey {
+    /// q · w of one channel of chroma, `[pair × component]`.
+    pub(super) fn chroma_basis(&self, channel: usize) -> DMatrix<f32> {
+        let rows: Vec<usize> = (0..self.weights.len()).map(|pair| 2 * pair + channel).collect();
+        self.chroma.basis.select_rows(&rows)
+    }
+
     /// Looks at all images of all materials a few times.
     ///
     /// # Errors
