@@ -24,10 +24,10 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-/// Measured heterogeneous translucency, small enough for a phone.
+/// Measured translucent and textured materials, small enough for a phone.
 ///
-/// A capture (NAME.npy) or a simulation becomes a .subsurf file of 48 bits per pixel, which a no_std decoder reads and
-/// a GLES 3.0 device draws.
+/// A capture (NAME.npy) or a simulation becomes a .subsurf file of 48 bits per pixel, and the images of a rough surface (a
+/// BTF) one of some 100 kB, which a no_std decoder reads and a GLES 3.0 device draws.
 #[derive(Parser)]
 #[command(name = "subsurf", version, after_help = EXAMPLES)]
 struct Cli {
@@ -43,6 +43,10 @@ Try it:
   subsurf compare onyx.npy onyx.subsurf --images out      how far off, in numbers and pictures
   subsurf render onyx.subsurf --mesh bunny.ply -o b.png   draw it
   subsurf view onyx.subsurf --mesh bunny.ply              look at it from all around
+
+  subsurf simulate btf leather -o leather                 6,561 images of a rough surface, from all sides
+  subsurf encode btf leather -o leather.subsurf           the same in some 110 kB
+  subsurf render leather.subsurf --images leather -o l.png  both on a knot, beside each other
 
 Exit codes:
   0   done

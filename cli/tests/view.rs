@@ -51,24 +51,28 @@ fn a_window_draws_and_survives_the_loss_of_its_device() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     material(folder);
-    for backend in ["vulkan", "gl"] {
-        let picture = format!("{backend}.png");
+    succeed(folder, "simulate btf wood --size 16 -o wood");
+    succeed(folder, "encode btf wood --p4 64 -o wood.subsurf");
+    for (file, backend) in
+        ["a.subsurf", "wood.subsurf"].into_iter().flat_map(|file| ["vulkan", "gl"].map(|on| (file, on)))
+    {
+        let picture = format!("{file}-{backend}.png");
         let mut xvfb = without_display(Command::new("xvfb-run"));
-        xvfb.current_dir(folder).args(["-a", env!("CARGO_BIN_EXE_subsurf"), "view", "a.subsurf", "--mesh", "torus"]);
+        xvfb.current_dir(folder).args(["-a", env!("CARGO_BIN_EXE_subsurf"), "view", file, "--mesh", "torus"]);
         // Small, for a processor may have to draw it.
         xvfb.args(["--size", "560x240", "--budget", "12MB", "--lose-device-after", "3"]);
         xvfb.args(["--backend", backend, "--screenshot", &picture]);
         let run = finish(&mut xvfb);
         if run.code == 3 {
-            println!("{backend} skipped: {}", run.err);
+            println!("{file} {backend} skipped: {}", run.err);
             continue;
         }
-        assert_eq!(run.code, 0, "{backend}: {}{}", run.out, run.err);
-        assert!(run.err.contains("the device was lost and opened anew"), "{backend}: {}", run.err);
+        assert_eq!(run.code, 0, "{file} {backend}: {}{}", run.out, run.err);
+        assert!(run.err.contains("the device was lost and opened anew"), "{file} {backend}: {}", run.err);
         let picture = image::open(folder.join(picture)).unwrap().into_rgb8();
         assert_eq!(picture.dimensions(), (560, 240));
         // Right of the panel: the torus before a dark background.
         let bright = picture.enumerate_pixels().filter(|(x, _, pixel)| *x > 330 && pixel.0.iter().all(|c| *c > 90));
-        assert!(bright.count() > 500, "{backend}: the torus is not seen");
+        assert!(bright.count() > 500, "{file} {backend}: the torus is not seen");
     }
 }

@@ -28,7 +28,7 @@ use crate::say::say;
 /// Of a BTF: MSSIM of Y, Cr and Cb and PSNR over its pairs of directions, and the sizes of its codebooks.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The capture, .npy; a folder of BTF images or a .btf file
+    /// The capture, .npy; a folder of BTF images, a .btf file or an isotropic BRDF of MERL (.binary)
     capture: PathBuf,
     /// The .subsurf file
     file: PathBuf,

@@ -14,6 +14,14 @@ pub enum Target {
     Bytes(u64),
 }
 
+/// Sizes along which files grow.
+pub trait Rung: Clone {
+    /// What it is called in tables.
+    fn name(&self) -> String;
+    /// What lies between it and a larger one, `part` of the way, 0 to 1; none if there is nothing, or no one way.
+    fn between(&self, next: &Self, part: f64) -> Option<Self>;
+}
+
 /// One file that was tried.
 #[derive(Clone, Debug)]
 pub struct Point {
@@ -28,7 +36,7 @@ pub struct Point {
 /// Files that were tried, by size, and the one to take.
 #[derive(Clone, Debug)]
 pub struct Walked {
-    /// In the order of the ladder.
+    /// By their bytes.
     pub points: Vec<Point>,
     /// Number of the best.
     pub best: usize,
@@ -36,56 +44,138 @@ pub struct Walked {
 
 /// Every so many pairs are compared; prime, and thus of all lights and views.
 pub const PAIR_STEP: usize = 61;
+/// Files between two rungs that are tried.
+const BETWEEN: usize = 3;
+/// A file that takes this much of the bytes it may is large enough.
+const ENOUGH: f64 = 0.97;
 
 /// Encodes one rung of `ladder` after the other, smaller files first, until the target is reached, or all that are small
-/// enough; hands each point to `said` as it comes.
+/// enough; then a few between the last that stayed below the target and the next; hands each point to `said` as it comes.
 ///
 /// # Errors
 /// As `encode`; [`Error::Request`] if not even the first rungs are small enough, or images are smaller than the window of
 /// structural similarity.
-pub fn walk<S>(
+pub fn walk<R: Rung>(
     materials: &[Images],
-    ladder: &[(String, S)],
+    ladder: &[R],
     target: Target,
     progress: &impl Progress,
-    encode: impl Fn(&S) -> Result<Vec<u8>>,
-    mut said: impl FnMut(&Point),
+    encode: impl Fn(&R) -> Result<Vec<u8>>,
+    said: impl FnMut(&Point),
 ) -> Result<Walked> {
-    let mut points: Vec<Point> = Vec::new();
-    let mut too_large = Vec::new();
-    for (name, sizes) in ladder {
-        let bytes = encode(sizes)?;
-        if let Target::Bytes(limit) = target
-            && bytes.len() as u64 > limit
-        {
-            too_large.push(bytes.len());
-            // Bytes grow along the ladder, but now and then a rung is smaller than the one before.
-            if too_large.len() == 2 {
-                break;
-            }
+    let mut walk = Walk { materials, target, progress, encode, said, points: Vec::new() };
+    // Bytes of rungs that are too large.
+    let mut too_large: Vec<(R, usize)> = Vec::new();
+    for rung in ladder {
+        // What is larger still is too large as well.
+        if too_large.iter().any(|(smaller, _)| smaller.between(rung, 0.5).is_some()) {
             continue;
         }
-        let error = judge(materials, &bytes, progress)?;
-        let point = Point { name: name.clone(), bytes, error };
-        said(&point);
-        points.push(point);
-        let reached = matches!(target, Target::Ssim(least) if error.mean_mssim() >= least);
+        if let Err(bytes) = walk.look(rung)? {
+            too_large.push((rung.clone(), bytes));
+        }
+        let reached = walk.points.last().is_some_and(|(_, point)| walk.reaches(point));
         if reached || progress.stopped() {
             break;
         }
     }
-    let quality = |number: &usize| points[*number].error.mean_mssim();
-    let highest = (0..points.len()).max_by(|a, b| quality(a).total_cmp(&quality(b)));
-    let best = match target {
-        Target::Bytes(_) => highest,
-        Target::Ssim(least) => (0..points.len()).find(|number| quality(number) >= least).or(highest),
+    let Some(best) = walk.best() else {
+        let least = too_large.into_iter().map(|(_, bytes)| bytes).min().unwrap_or(0);
+        return Err(Error::Request(format!("no file is that small; the least takes {least} bytes")));
     };
-    match best {
-        Some(best) => Ok(Walked { points, best }),
-        None => {
-            let least = too_large.into_iter().min().unwrap_or(0);
-            Err(Error::Request(format!("no file is that small; the least takes {least} bytes")))
+    match target {
+        Target::Bytes(limit) => walk.fill(limit, best, &too_large)?,
+        Target::Ssim(least) => walk.shrink(least, best)?,
+    }
+    walk.points.sort_by_key(|(_, point)| point.bytes.len());
+    let best = walk.best().unwrap_or(0);
+    Ok(Walked { points: walk.points.into_iter().map(|(_, point)| point).collect(), best })
+}
+
+/// A walk under way.
+struct Walk<'a, R, P, E, S> {
+    materials: &'a [Images],
+    target: Target,
+    progress: &'a P,
+    encode: E,
+    said: S,
+    /// With their rungs, as they came.
+    points: Vec<(R, Point)>,
+}
+
+impl<R: Rung, P: Progress, E: Fn(&R) -> Result<Vec<u8>>, S: FnMut(&Point)> Walk<'_, R, P, E, S> {
+    /// Adds a point, or tells the bytes of a file that is too large.
+    fn look(&mut self, rung: &R) -> Result<std::result::Result<(), usize>> {
+        let bytes = (self.encode)(rung)?;
+        if matches!(self.target, Target::Bytes(limit) if bytes.len() as u64 > limit) {
+            return Ok(Err(bytes.len()));
         }
+        let error = judge(self.materials, &bytes, self.progress)?;
+        let point = Point { name: rung.name(), bytes, error };
+        (self.said)(&point);
+        self.points.push((rung.clone(), point));
+        Ok(Ok(()))
+    }
+
+    fn reaches(&self, point: &Point) -> bool {
+        matches!(self.target, Target::Ssim(least) if point.error.mean_mssim() >= least)
+    }
+
+    /// The smallest that reaches a quality, or else the best of all.
+    fn best(&self) -> Option<usize> {
+        let all = || 0..self.points.len();
+        let point = |number: &usize| &self.points[*number].1;
+        let quality = |number: &usize| point(number).error.mean_mssim();
+        let smallest =
+            all().filter(|number| self.reaches(point(number))).min_by_key(|number| point(number).bytes.len());
+        smallest.or_else(|| all().max_by(|a, b| quality(a).total_cmp(&quality(b))))
+    }
+
+    /// Tries files of as many bytes as there may be, from the best to the first that is too large.
+    fn fill(&mut self, limit: u64, best: usize, too_large: &[(R, usize)]) -> Result<()> {
+        let (mut low, point) = self.points[best].clone();
+        let mut low_bytes = point.bytes.len() as f64;
+        let Some((mut high, high_bytes)) = too_large.iter().find(|(rung, _)| low.between(rung, 0.5).is_some()).cloned()
+        else {
+            return Ok(());
+        };
+        let (limit, mut high_bytes) = (limit as f64, high_bytes as f64);
+        for _ in 0..BETWEEN {
+            let wanted = 0.5 * (1.0 + ENOUGH) * limit;
+            let part = (wanted - low_bytes) / (high_bytes - low_bytes);
+            let rung = if low_bytes < ENOUGH * limit { low.between(&high, part) } else { None };
+            let Some(rung) = rung.filter(|_| !self.progress.stopped()) else { break };
+            match self.look(&rung)? {
+                Ok(()) => (low, low_bytes) = (rung, self.points[self.points.len() - 1].1.bytes.len() as f64),
+                Err(bytes) => (high, high_bytes) = (rung, bytes as f64),
+            }
+        }
+        Ok(())
+    }
+
+    /// Tries smaller files of the quality, from the last below it to the best.
+    fn shrink(&mut self, least: f64, best: usize) -> Result<()> {
+        let quality = |point: &Point| point.error.mean_mssim();
+        let (mut high, point) = self.points[best].clone();
+        let mut high_quality = quality(&point);
+        let below = self.points[..best].iter().rev().find(|(rung, _)| rung.between(&high, 0.5).is_some());
+        let Some((mut low, point)) = below.cloned() else { return Ok(()) };
+        let mut low_quality = quality(&point);
+        for _ in 0..BETWEEN {
+            // A little more than should do.
+            let part = 0.1 + 0.9 * (least - low_quality) / (high_quality - low_quality);
+            let rung = if high_quality >= least { low.between(&high, part) } else { None };
+            let Some(rung) = rung.filter(|_| !self.progress.stopped()) else { break };
+            // Any size will do, so there is a point.
+            let _ = self.look(&rung)?;
+            let found = quality(&self.points[self.points.len() - 1].1);
+            if found >= least {
+                (high, high_quality) = (rung, found);
+            } else {
+                (low, low_quality) = (rung, found);
+            }
+        }
+        Ok(())
     }
 }
 

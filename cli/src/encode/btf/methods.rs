@@ -1,8 +1,8 @@
 //! The three ways to make a file.
 
 use subsurf_decoder::btf::Grid;
-use subsurf_encoder::btf::nested::{ChromaSizes, Sizes};
-use subsurf_encoder::btf::rate::{self, Point, Target, Walked};
+use subsurf_encoder::btf::nested::{ChromaSizes, Extent};
+use subsurf_encoder::btf::rate::{self, Point, Rung, Target, Walked};
 use subsurf_encoder::btf::{Detail, Images, Survey, factored, nested, paper};
 
 use super::Args;
@@ -89,44 +89,78 @@ impl Common {
 pub(super) fn nested(args: &Args, materials: &[Images], common: Common) -> anyhow::Result<Made> {
     let survey = Survey::new(materials, detail(materials.len()), args.seed, &Bars::new())?;
     let prepared = common.nested(materials, &survey);
-    let sized = |(p4, stages): (usize, usize)| (format!("P4 = {p4} × {stages}"), Sizes::stages(p4, stages));
-    let encode = |stages: &Vec<Sizes>| -> Encoded { Ok(prepared.encode(stages, &Bars::new())?.to_bytes()) };
-    choose(args, materials, sized((args.p4.max(1), args.stages)), &Sizes::LADDER.map(sized), encode)
+    let encode = |extent: &Extent| -> Encoded { Ok(prepared.encode(&extent.sizes(), &Bars::new())?.to_bytes()) };
+    let usual = Extent { p4: args.p4.max(1), stages: args.stages };
+    choose(args, materials, &usual, &Extent::LADDER, encode)
+}
+
+/// Thresholds of pruning in the usual ones.
+#[derive(Clone, Copy)]
+struct Looseness(f32);
+
+impl Rung for Looseness {
+    fn name(&self) -> String {
+        format!("thresholds × {:.3}", self.0)
+    }
+
+    #[allow(clippy::cast_possible_truncation, reason = "from 0 to 1")]
+    fn between(&self, next: &Self, part: f64) -> Option<Self> {
+        let factor = (next.0 / self.0).powf(part as f32);
+        // Thresholds that are closer make no difference.
+        ((self.0 / next.0).ln().abs() > 0.05).then_some(Self(self.0 * factor))
+    }
+}
+
+/// Bytes of factors at most.
+#[derive(Clone, Copy)]
+struct AtMost(u64);
+
+impl Rung for AtMost {
+    fn name(&self) -> String {
+        format!("at most {}", human(self.0))
+    }
+
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_precision_loss,
+        clippy::cast_sign_loss,
+        reason = "millions, not negative"
+    )]
+    fn between(&self, next: &Self, part: f64) -> Option<Self> {
+        let (low, high) = (self.0 as f64, next.0 as f64);
+        (high > 1.02 * low).then_some(Self((low + part * (high - low)) as u64))
+    }
 }
 
 pub(super) fn paper(args: &Args, materials: &[Images], common: &Common) -> anyhow::Result<Made> {
-    let rung = |looseness: f32| (format!("thresholds × {looseness}"), looseness);
-    let encode = |looseness: &f32| common.clone().paper(materials, *looseness);
-    choose(args, materials, rung(1.0), &LOOSENESS.map(rung), encode)
+    let encode = |Looseness(factor): &Looseness| common.clone().paper(materials, *factor);
+    choose(args, materials, &Looseness(1.0), &LOOSENESS.map(Looseness), encode)
 }
 
 pub(super) fn factored(args: &Args, materials: &[Images], common: Common) -> anyhow::Result<Made> {
     let survey = Survey::new(materials, detail(materials.len()), args.seed, &Bars::new())?;
     let prepared = common.factored(materials, &survey)?;
-    let encode = |bytes: &u64| -> Encoded {
+    let encode = |AtMost(bytes): &AtMost| -> Encoded {
         Ok(prepared.encode_to(usize::try_from(*bytes).unwrap_or(usize::MAX), &Bars::new())?.0)
     };
-    let sized = |bytes: u64| (format!("at most {}", human(bytes)), bytes);
-    match args.target() {
+    let ladder = match args.target() {
         // One file of that size; no other can be better.
-        Some(Target::Bytes(bytes)) => choose(args, materials, sized(bytes), &[sized(bytes)], encode),
-        _ => {
-            let ladder = RATIOS.map(|ratio| sized(survey.raw_bytes / ratio));
-            choose(args, materials, sized(usual_bytes(&survey)), &ladder, encode)
-        }
-    }
+        Some(Target::Bytes(bytes)) => vec![AtMost(bytes)],
+        _ => RATIOS.map(|ratio| AtMost(survey.raw_bytes / ratio)).to_vec(),
+    };
+    choose(args, materials, &AtMost(usual_bytes(&survey)), &ladder, encode)
 }
 
 /// The usual sizes, or those of the ladder that reach the target.
-fn choose<S>(
+fn choose<R: Rung>(
     args: &Args,
     materials: &[Images],
-    (name, usual): (String, S),
-    ladder: &[(String, S)],
-    encode: impl Fn(&S) -> Encoded,
+    usual: &R,
+    ladder: &[R],
+    encode: impl Fn(&R) -> Encoded,
 ) -> anyhow::Result<Made> {
     let Some(target) = args.target() else {
-        return Ok(Made { bytes: encode(&usual)?, name, walked: None });
+        return Ok(Made { bytes: encode(usual)?, name: usual.name(), walked: None });
     };
     let said = |point: &Point| {
         if !args.json {

@@ -4,7 +4,7 @@ use subsurf_encoder::Error;
 use subsurf_encoder::btf::baseline::{
     Baseline, local_pca, local_pca_bytes, one_level, one_level_bytes, pca, pca_bytes,
 };
-use subsurf_encoder::btf::nested::Sizes;
+use subsurf_encoder::btf::nested::Extent;
 use subsurf_encoder::btf::rate::{self, Target};
 use subsurf_encoder::btf::{Images, Survey};
 
@@ -116,13 +116,12 @@ impl Codec {
         Ok(match self {
             Self::Nested => {
                 let prepared = common(MethodArg::Nested)?.nested(images, survey);
-                vec![Made::File(prepared.encode(&Sizes::stages(512, 1), &Bars::new())?.to_bytes())]
+                vec![Made::File(prepared.encode(&Extent { p4: 512, stages: 1 }.sizes(), &Bars::new())?.to_bytes())]
             }
             Self::NestedAsPaper => {
                 let prepared = common(MethodArg::Nested)?.nested(images, survey);
-                let encode = |sizes: &Vec<Sizes>| Ok(prepared.encode(sizes, &Bars::new())?.to_bytes());
-                let ladder = Sizes::LADDER.map(|(p4, stages)| (String::new(), Sizes::stages(p4, stages)));
-                match rate::walk(images, &ladder, Target::Bytes(budget / 2), &Bars::new(), encode, |_| ()) {
+                let encode = |extent: &Extent| Ok(prepared.encode(&extent.sizes(), &Bars::new())?.to_bytes());
+                match rate::walk(images, &Extent::LADDER, Target::Bytes(budget / 2), &Bars::new(), encode, |_| ()) {
                     Ok(walked) => vec![Made::File(walked.points[walked.best].bytes.clone())],
                     // No codebooks are that small.
                     Err(Error::Request(_)) => Vec::new(),

@@ -20,7 +20,7 @@ pub(super) struct Study<'a> {
     pub(super) folder: &'a Path,
     pub(super) materials: &'a [&'a str],
     pub(super) records: &'a [Record],
-    pub(super) shared: Option<&'a Shared>,
+    pub(super) shared: &'a [Shared],
     pub(super) args: &'a Args,
 }
 
@@ -43,9 +43,8 @@ impl Study<'_> {
         out.push_str(&self.claims());
         out.push_str("<h2>Ratios, similarity and times (their table 2)</h2>");
         out.push_str(&self.rates());
-        if let Some(shared) = self.shared {
-            out.push_str(&sharing(shared, self.materials.len()));
-        }
+        out.push_str("<h2>Several materials in one file, nested (their C.R.⁵)</h2>");
+        out.push_str(&sharing(self.shared));
         out.push_str("<h2>Codebooks: vectors that an entry stands for (their table 3)</h2>");
         out.push_str(&self.books());
         out.push_str("<h2>Evaluations in a second on one core, texel, light and view at random</h2>");
@@ -236,21 +235,23 @@ impl Study<'_> {
     }
 }
 
-fn sharing(shared: &Shared, materials: usize) -> String {
-    let ((apart, of_apart), (together, of_together)) = (shared.apart, shared.together);
-    #[allow(clippy::cast_precision_loss, reason = "a percentage")]
-    let saved = 100.0 * (1.0 - together as f64 / apart.max(1) as f64);
-    let holds = saved >= 14.0 && of_together >= of_apart;
-    let rows = [
-        vec![format!("{materials} files"), human(apart), format!("{of_apart:.4}"), NONE.to_owned()],
+fn sharing(shared: &[Shared]) -> String {
+    let row = |shared: &Shared| {
+        let ((apart, of_apart), (together, of_together)) = (shared.apart, shared.together);
+        #[allow(clippy::cast_precision_loss, reason = "a percentage")]
+        let saved = 100.0 * (1.0 - together as f64 / apart.max(1) as f64);
+        let said = if saved < 0.0 { format!("{:.0} % more", -saved) } else { format!("{saved:.0} % less") };
         vec![
-            format!("one file, P4 = {}", shared.p4),
-            human(together),
-            format!("{of_together:.4}"),
-            mark(holds, &format!("{saved:.0} % less")),
-        ],
-        vec![other("theirs, 13 LDR materials"), other(NONE), other(NONE), other("14 % less")],
-    ];
-    let titles = ["", "bytes", "mean MSSIM, every 61st pair", "saved"].map(str::to_owned);
-    format!("<h2>Several materials in one file, nested (their C.R.⁵)</h2>{}", table(&titles, &rows))
+            shared.title.clone(),
+            format!("{}, {of_apart:.4}", human(apart)),
+            format!("{}, {of_together:.4}", human(together)),
+            shared.p4.to_string(),
+            mark(saved >= 14.0 && of_together >= of_apart, &said),
+        ]
+    };
+    let mut rows: Vec<Vec<String>> = shared.iter().map(row).collect();
+    rows.push(vec![other("theirs, 13 LDR materials"), other(NONE), other(NONE), other(NONE), other("14 % less")]);
+    let titles =
+        ["", "files apart, mean MSSIM of every 61st pair", "one file", "its P4", "saved at no less similarity"];
+    table(&titles.map(str::to_owned), &rows)
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use subsurf_encoder::btf::nested::Sizes;
+use subsurf_encoder::btf::nested::{Extent, Prepared, Sizes};
 use subsurf_encoder::btf::rate::judge;
 use subsurf_encoder::btf::{Images, Survey};
 use subsurf_encoder::simulate::btf::Sample;
@@ -14,10 +14,51 @@ use crate::encode::btf::{Common, MethodArg, detail, grid, usual_nodes};
 use crate::progress::Bars;
 use crate::say::say;
 
+/// A sample, and the seed that it is simulated with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Member {
+    pub(super) sample: Sample,
+    pub(super) seed: u64,
+}
+
+impl Member {
+    /// As its images and files are called.
+    pub(super) fn name(self) -> String {
+        let name = self.sample.name();
+        if self.seed == SEED { name.to_owned() } else { format!("{name}-{}", self.seed) }
+    }
+}
+
+/// Materials that may share a file.
+pub(super) struct Set {
+    /// As its files are called.
+    pub(super) label: String,
+    pub(super) title: String,
+    pub(super) members: Vec<Member>,
+}
+
+/// Members of a family.
+const FAMILY: u64 = 4;
+
+impl Set {
+    /// All materials, which have little in common.
+    pub(super) fn all(samples: &[Sample]) -> Self {
+        let members: Vec<Member> = samples.iter().map(|sample| Member { sample: *sample, seed: SEED }).collect();
+        Self { label: "all".to_owned(), title: format!("{} different materials", members.len()), members }
+    }
+
+    /// Pieces of one material, no two of which show the same.
+    pub(super) fn family(sample: Sample) -> Self {
+        let members = (SEED..SEED + FAMILY).map(|seed| Member { sample, seed }).collect();
+        Self { label: sample.name().to_owned(), title: format!("{FAMILY} pieces of {}", sample.name()), members }
+    }
+}
+
 /// What sharing saves.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct Shared {
     request: String,
+    pub(super) title: String,
     /// Sum of the files apart, and their mean structural similarity over a sample of pairs.
     pub(super) apart: (u64, f64),
     /// The shared file, likewise.
@@ -29,47 +70,55 @@ pub(super) struct Shared {
 /// Entries of P4 of a file for one material.
 const APART: usize = 512;
 /// Entries of P4 that are tried, in percent of what the files have apart.
-const SHARES: [usize; 6] = [30, 40, 50, 60, 75, 90];
+const SHARES: [usize; 7] = [25, 30, 40, 50, 60, 75, 90];
 
 /// The smallest shared file whose mean structural similarity is not below that of files apart, over a sample of pairs.
 pub(super) fn shared(
     folder: &Path,
-    samples: &[Sample],
+    set: &Set,
     side: u32,
-    load: impl Fn(Sample) -> anyhow::Result<Images>,
+    load: impl Fn(Member) -> anyhow::Result<Images>,
 ) -> anyhow::Result<Shared> {
-    let names: Vec<String> = samples.iter().map(|sample| sample.name().to_owned()).collect();
+    let names: Vec<String> = set.members.iter().map(|member| member.name()).collect();
     let request = format!("{} {} {:?}", env!("CARGO_PKG_VERSION"), names.join(" "), [side; 2]);
-    let path = folder.join("files").join("shared.json");
+    let files = folder.join("files");
+    let path = files.join(format!("shared-{}-{side}.json", set.label));
     let kept = std::fs::read(&path).ok().and_then(|bytes| serde_json::from_slice::<Shared>(&bytes).ok());
     if let Some(kept) = kept.filter(|kept| kept.request == request) {
         return Ok(kept);
     }
-    let images = samples.iter().map(|sample| load(*sample)).collect::<anyhow::Result<Vec<_>>>()?;
+    let images = set.members.iter().map(|member| load(*member)).collect::<anyhow::Result<Vec<_>>>()?;
     let mut apart = (0, 0.0);
     for (name, images) in names.iter().zip(&images) {
-        let bytes = std::fs::read(folder.join("files").join(format!("{name}-{side}-nested.subsurf")))?;
-        apart.0 += bytes.len() as u64;
         let images = std::slice::from_ref(images);
+        let path = files.join(format!("{name}-{side}-nested.subsurf"));
+        let bytes = match std::fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(_) => {
+                let survey = surveyed(images)?;
+                prepared(std::slice::from_ref(name), images, &survey)?.encode(&of(APART), &Bars::new())?.to_bytes()
+            }
+        };
+        apart.0 += bytes.len() as u64;
         apart.1 += judge(images, &bytes, &Bars::new())?.mean_mssim() / names.len() as f64;
     }
-    let survey = Survey::new(&images, detail(images.len()), SEED, &Bars::new())?;
-    let grid = grid(&images[0], &usual_nodes(MethodArg::Nested, &images[0]))?;
-    let prepared = Common { grid, names, has_mipmaps: false, seed: SEED }.nested(&images, &survey);
+    let survey = surveyed(&images)?;
+    let prepared = prepared(&names, &images, &survey)?;
     let mut found = None;
     for share in SHARES {
-        let p4 = share * APART * samples.len() / 100;
-        let bytes = prepared.encode(&Sizes::stages(p4, 1), &Bars::new())?.to_bytes();
+        let p4 = share * APART * names.len() / 100;
+        let bytes = prepared.encode(&of(p4), &Bars::new())?.to_bytes();
         let together = (bytes.len() as u64, judge(&images, &bytes, &Bars::new())?.mean_mssim());
         say!(
-            "  shared, P4 = {p4}: {} bytes, MSSIM {:.4}; apart {} bytes, {:.4}",
+            "  {}, shared, P4 = {p4}: {} bytes, MSSIM {:.4}; apart {} bytes, {:.4}",
+            set.title,
             together.0,
             together.1,
             apart.0,
             apart.1
         );
-        write_bytes(&folder.join("files").join("shared.subsurf"), &bytes)?;
-        found = Some(Shared { request: request.clone(), apart, together, p4 });
+        write_bytes(&files.join(format!("shared-{}-{side}.subsurf", set.label)), &bytes)?;
+        found = Some(Shared { request: request.clone(), title: set.title.clone(), apart, together, p4 });
         if together.1 >= apart.1 {
             break;
         }
@@ -77,4 +126,17 @@ pub(super) fn shared(
     let found = found.ok_or_else(|| crate::failure::bad_request("no shared file was tried"))?;
     write_bytes(&path, format!("{:#}\n", serde_json::to_value(&found)?).as_bytes())?;
     Ok(found)
+}
+
+fn of(p4: usize) -> Vec<Sizes> {
+    Extent { p4, stages: 1 }.sizes()
+}
+
+fn surveyed(images: &[Images]) -> subsurf_encoder::Result<Survey> {
+    Survey::new(images, detail(images.len()), SEED, &Bars::new())
+}
+
+fn prepared<'a>(names: &[String], images: &[Images], survey: &'a Survey) -> anyhow::Result<Prepared<'a>> {
+    let grid = grid(&images[0], &usual_nodes(MethodArg::Nested, &images[0]))?;
+    Ok(Common { grid, names: names.to_vec(), has_mipmaps: false, seed: SEED }.nested(images, survey))
 }

@@ -6,7 +6,8 @@ use subsurf_decoder::btf::layout::{MAX_STAGES, NAME_BYTES};
 use subsurf_decoder::btf::{Grid, Header, Material, Model, Tone};
 
 use super::chroma::{ChromaSizes, Hues};
-use super::luma::{STEPS, Sizes, Space};
+use super::luma::{STEPS, Space};
+use super::sizes::Sizes;
 use super::write::Database;
 use crate::btf::mipmaps::Mipmaps;
 use crate::btf::resample::{Measured, Resampler};

@@ -7,48 +7,11 @@ use subsurf_decoder::btf::layout::Scales;
 
 use super::clusters::{Match, Samples, product};
 use super::scales::{Fineness, code, gain, scales};
+use super::sizes::Sizes;
 use super::slices::{Slices, from_bytes, to_bytes};
 use super::write::{Chain, Item};
 use crate::btf::resample::Measured;
 use crate::progress::Progress;
-
-/// Most entries of the codebooks of a stage.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sizes {
-    /// Of P4, 4-D.
-    pub p4: usize,
-    /// Of P3, 3-D.
-    pub p3: usize,
-    /// Of P2, 2-D.
-    pub p2: usize,
-    /// Of P1, 1-D.
-    pub p1: usize,
-}
-
-impl Sizes {
-    /// Entries of P4 and stages, by the bytes they take. What gains more, larger codebooks or a second stage, depends on
-    /// the material: smooth ones take to stages.
-    pub const LADDER: [(usize, usize); 12] = [
-        (64, 1),
-        (128, 1),
-        (128, 2),
-        (256, 1),
-        (256, 2),
-        (512, 1),
-        (512, 2),
-        (1024, 1),
-        (1024, 2),
-        (2048, 1),
-        (2048, 2),
-        (4096, 1),
-    ];
-
-    /// The codebooks of a number of stages, by the entries of P4.
-    #[must_use]
-    pub fn stages(p4: usize, count: usize) -> Vec<Self> {
-        vec![Self { p4, p3: 2 * p4, p2: 2 * p4, p1: (2 * p4).min(512) }; count]
-    }
-}
 
 /// Of P6, P4, P3 and P2.
 const FINENESS: [Fineness; 4] = [Fineness { bits: 8, step: 1 }, FINE, FINE, FINE];

@@ -7,11 +7,12 @@ mod heights;
 mod luma;
 mod means;
 pub(super) mod scales;
+mod sizes;
 pub(super) mod slices;
 mod write;
 
 pub use chroma::ChromaSizes;
 pub(super) use encode::materials;
 pub use encode::{Options, Prepared};
-pub use luma::Sizes;
+pub use sizes::{Extent, Sizes};
 pub use write::{Chain, Chroma, Database, Item, slice_mean};
