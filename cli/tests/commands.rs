@@ -134,6 +134,27 @@ fn simulates_btfs() {
     assert_eq!(files(folder), ["leather", "wood"], "nothing is left of what was refused");
 }
 
+/// A BRDF of MERL is a BTF of one texel.
+#[test]
+fn brdfs_are_encoded_and_judged() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    // Red paint without gloss, in their units.
+    let mut file: Vec<u8> = [90_i32, 90, 180].iter().flat_map(|count| count.to_le_bytes()).collect();
+    for (albedo, unit) in [(0.6, 1.0), (0.2, 1.15), (0.1, 1.66)] {
+        let value: f64 = albedo / std::f64::consts::PI * 1500.0 / unit;
+        file.extend(value.to_le_bytes().repeat(90 * 90 * 180));
+    }
+    std::fs::write(folder.join("paint.binary"), file).unwrap();
+    let report = json(folder, "encode btf paint.binary --p4 1 -o paint.subsurf --json");
+    let judgement = json(folder, "compare paint.binary paint.subsurf --json");
+    assert!(report["error"]["mssim"].is_null() && judgement["mssim"].is_null(), "one texel: {judgement}");
+    assert!(judgement["psnr_db"].as_f64().unwrap() > 35.0, "{judgement}");
+    let told = succeed(folder, "compare paint.binary paint.subsurf --every 61");
+    assert!(told.out.contains("smaller than 11 × 11"), "{}", told.out);
+    assert_refused(&run(folder, "encode btf paint.binary --target-ssim 0.9"), &["11 × 11 pixels", "give sizes"]);
+}
+
 /// Images of two BTFs to one file, to targets, and back.
 #[test]
 fn btfs_from_images_to_judgement() {

@@ -40,8 +40,7 @@ fn compare_with(args: &Args, file: &(dyn Evaluate + Sync), parts: &Parts, bytes:
         )));
     }
     let pairs: Vec<usize> = (0..images.pairs()).step_by(args.every.max(1)).collect();
-    let error = compare(&images, file, material, &pairs, &Bars::new())
-        .ok_or_else(|| bad_request("structural similarity needs images of 11 × 11 pixels at least"))?;
+    let error = compare(&images, file, material, &pairs, &Bars::new());
     if args.json {
         say!("{:#}", to_json(&error, parts, &images, bytes));
     } else {
@@ -70,16 +69,18 @@ fn material_of(args: &Args, file: &Catalog<'_>) -> anyhow::Result<usize> {
         .ok_or_else(|| bad_request(format!("no material {asked}: the file has {}", names.join(", "))))
 }
 
-/// Structural similarities as JSON has them.
+/// Structural similarities as JSON has them; null if there are none.
 pub(crate) fn mssim_json(error: &BtfError) -> Value {
-    let [luma, cr, cb] = error.mssim;
-    json!({ "y": luma, "cr": cr, "cb": cb, "mean": error.mean_mssim() })
+    let of = |[luma, cr, cb]: [f64; 3]| json!({ "y": luma, "cr": cr, "cb": cb, "mean": error.mean_mssim() });
+    error.mssim.map_or(Value::Null, of)
 }
 
 /// The same for people.
 pub(crate) fn mssim(error: &BtfError) -> String {
-    let [luma, cr, cb] = error.mssim;
-    format!("MSSIM {:.4} (Y {luma:.4}, Cr {cr:.4}, Cb {cb:.4})", error.mean_mssim())
+    match (error.mssim, error.mean_mssim()) {
+        (Some([luma, cr, cb]), Some(mean)) => format!("MSSIM {mean:.4} (Y {luma:.4}, Cr {cr:.4}, Cb {cb:.4})"),
+        _ => "MSSIM - (images smaller than 11 × 11 pixels)".to_owned(),
+    }
 }
 
 fn to_json(error: &BtfError, parts: &Parts, images: &Images, bytes: usize) -> Value {

@@ -112,7 +112,8 @@ impl Judgement {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    if args.capture.is_dir() || args.capture.extension().is_some_and(|extension| extension == "btf") {
+    let is_btf = args.capture.extension().is_some_and(|extension| extension == "btf" || extension == "binary");
+    if args.capture.is_dir() || is_btf {
         return btf::run(args);
     }
     let capture = Capture::open(&args.capture, &args.facts.overrides())?;

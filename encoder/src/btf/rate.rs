@@ -2,7 +2,7 @@
 
 use super::Images;
 use crate::error::{Error, Result};
-use crate::metrics::btf::{BtfError, compare, with_file};
+use crate::metrics::btf::{BtfError, compare, mean, with_file};
 use crate::progress::Progress;
 
 /// What a file has to reach.
@@ -110,7 +110,11 @@ impl<R: Rung, P: Progress, E: Fn(&R) -> Result<Vec<u8>>, S: FnMut(&Point)> Walk<
         if matches!(self.target, Target::Bytes(limit) if bytes.len() as u64 > limit) {
             return Ok(Err(bytes.len()));
         }
-        let error = judge(self.materials, &bytes, self.progress)?;
+        let error = judge(self.materials, &bytes, self.progress);
+        if error.mssim.is_none() {
+            let what = "structural similarity needs images of 11 × 11 pixels at least; give sizes yourself";
+            return Err(Error::Request(what.to_owned()));
+        }
         let point = Point { name: rung.name(), bytes, error };
         (self.said)(&point);
         self.points.push((rung.clone(), point));
@@ -118,14 +122,14 @@ impl<R: Rung, P: Progress, E: Fn(&R) -> Result<Vec<u8>>, S: FnMut(&Point)> Walk<
     }
 
     fn reaches(&self, point: &Point) -> bool {
-        matches!(self.target, Target::Ssim(least) if point.error.mean_mssim() >= least)
+        matches!(self.target, Target::Ssim(least) if quality(point) >= least)
     }
 
     /// The smallest that reaches a quality, or else the best of all.
     fn best(&self) -> Option<usize> {
         let all = || 0..self.points.len();
         let point = |number: &usize| &self.points[*number].1;
-        let quality = |number: &usize| point(number).error.mean_mssim();
+        let quality = |number: &usize| quality(point(number));
         let smallest =
             all().filter(|number| self.reaches(point(number))).min_by_key(|number| point(number).bytes.len());
         smallest.or_else(|| all().max_by(|a, b| quality(a).total_cmp(&quality(b))))
@@ -155,7 +159,6 @@ impl<R: Rung, P: Progress, E: Fn(&R) -> Result<Vec<u8>>, S: FnMut(&Point)> Walk<
 
     /// Tries smaller files of the quality, from the last below it to the best.
     fn shrink(&mut self, least: f64, best: usize) -> Result<()> {
-        let quality = |point: &Point| point.error.mean_mssim();
         let (mut high, point) = self.points[best].clone();
         let mut high_quality = quality(&point);
         let below = self.points[..best].iter().rev().find(|(rung, _)| rung.between(&high, 0.5).is_some());
@@ -179,28 +182,26 @@ impl<R: Rung, P: Progress, E: Fn(&R) -> Result<Vec<u8>>, S: FnMut(&Point)> Walk<
     }
 }
 
+/// Mean structural similarity; every point has one.
+fn quality(point: &Point) -> f64 {
+    point.error.mean_mssim().unwrap_or(0.0)
+}
+
 /// The mean error of all materials over a sample of pairs.
-///
-/// # Errors
-/// [`Error::Request`] if images are smaller than the window of structural similarity.
 ///
 /// # Panics
 /// If the decoder refuses the file.
-pub fn judge(materials: &[Images], bytes: &[u8], progress: &impl Progress) -> Result<BtfError> {
-    let mut sum = BtfError { mssim: [0.0; 3], psnr_db: 0.0, pairs: 0 };
-    for (number, images) in materials.iter().enumerate() {
+pub fn judge(materials: &[Images], bytes: &[u8], progress: &impl Progress) -> BtfError {
+    let of = |(number, images): (usize, &Images)| {
         let pairs: Vec<usize> = (0..images.pairs()).step_by(PAIR_STEP).collect();
-        let error = with_file(bytes, |file| compare(images, file, number, &pairs, progress))
-            .expect("the decoder reads what was just written");
-        let error = error.ok_or_else(|| {
-            Error::Request(format!("{}: images are smaller than 11 × 11 pixels; give sizes yourself", images.label()))
-        })?;
-        let share = 1.0 / materials.len() as f64;
-        for c in 0..3 {
-            sum.mssim[c] += share * error.mssim[c];
-        }
-        sum.psnr_db += share * error.psnr_db;
-        sum.pairs += error.pairs;
+        with_file(bytes, |file| compare(images, file, number, &pairs, progress))
+            .expect("the decoder reads what was just written")
+    };
+    let errors: Vec<BtfError> = materials.iter().enumerate().map(of).collect();
+    let count = errors.len() as f64;
+    BtfError {
+        mssim: mean(errors.iter().map(|error| error.mssim)),
+        psnr_db: errors.iter().map(|error| error.psnr_db).sum::<f64>() / count,
+        pairs: errors.iter().map(|error| error.pairs).sum(),
     }
-    Ok(sum)
 }

@@ -13,8 +13,8 @@ use crate::progress::Progress;
 /// Means over pairs of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BtfError {
-    /// Structural similarity of luma and both chroma channels.
-    pub mssim: [f64; 3],
+    /// Structural similarity of luma and both chroma channels; none of images smaller than its window, 11 × 11 pixels.
+    pub mssim: Option<[f64; 3]>,
     /// Peak signal-to-noise ratio in dB over all pixels: of RGB display values, or of l where images are linear.
     pub psnr_db: f64,
     /// Pairs that were compared.
@@ -24,8 +24,8 @@ pub struct BtfError {
 impl BtfError {
     /// Mean of the three channels' structural similarities, as Havran et al. 2010 report it.
     #[must_use]
-    pub fn mean_mssim(&self) -> f64 {
-        self.mssim.iter().sum::<f64>() / 3.0
+    pub fn mean_mssim(&self) -> Option<f64> {
+        self.mssim.map(|mssim| mssim.iter().sum::<f64>() / 3.0)
     }
 }
 
@@ -43,8 +43,8 @@ pub fn with_file<R>(bytes: &[u8], then: impl FnOnce(&(dyn Evaluate + Sync)) -> R
     }
 }
 
-/// Compares images with the full-size level of a material at some pairs of directions; `None` for images smaller than
-/// the window of structural similarity. Channels are those of the file's tone, Cr and Cb around ½ as images store them.
+/// Compares images with the full-size level of a material at some pairs of directions. Channels are those of the file's
+/// tone, Cr and Cb around ½ as images store them.
 ///
 /// # Panics
 /// If the file has no such material.
@@ -55,7 +55,7 @@ pub fn compare(
     material: usize,
     pairs: &[usize],
     progress: &impl Progress,
-) -> Option<BtfError> {
+) -> BtfError {
     let tone = file.catalog().header().tone;
     compare_images(images, tone, pairs, |pair| decode(images, file, material, pair), progress)
 }
@@ -68,24 +68,26 @@ pub fn compare_images(
     pairs: &[usize],
     decode: impl Fn(usize) -> Vec<[f32; 3]> + Sync,
     progress: &impl Progress,
-) -> Option<BtfError> {
+) -> BtfError {
     progress.begin("comparing", pairs.len() as u64);
     let width = images.size()[0] as usize;
-    let each: Vec<([f64; 3], f64)> = pairs
+    let each: Vec<(Option<[f64; 3]>, f64)> = pairs
         .par_iter()
         .map(|pair| {
             let found = of_pair(images, &decode(*pair), *pair, tone, width);
             progress.advance(1);
             found
         })
-        .collect::<Option<_>>()?;
+        .collect();
     let count = each.len() as f64;
     let mse = each.iter().map(|(_, mse)| mse).sum::<f64>() / count;
-    Some(BtfError {
-        mssim: [0, 1, 2].map(|c: usize| each.iter().map(|(mssim, _)| mssim[c]).sum::<f64>() / count),
-        psnr_db: -10.0 * mse.log10(),
-        pairs: pairs.len(),
-    })
+    BtfError { mssim: mean(each.iter().map(|(mssim, _)| *mssim)), psnr_db: -10.0 * mse.log10(), pairs: pairs.len() }
+}
+
+/// Mean of similarities, if all are known.
+pub(crate) fn mean(mssim: impl Iterator<Item = Option<[f64; 3]>>) -> Option<[f64; 3]> {
+    let all: Vec<[f64; 3]> = mssim.collect::<Option<_>>()?;
+    Some([0, 1, 2].map(|c: usize| all.iter().map(|mssim| mssim[c]).sum::<f64>() / all.len() as f64))
 }
 
 /// The image of a pair as a file has it.
@@ -105,7 +107,7 @@ pub fn decode(images: &Images, file: &(impl Evaluate + ?Sized), material: usize,
 }
 
 /// Structural similarities, and mean squared error.
-fn of_pair(images: &Images, decoded: &[[f32; 3]], pair: usize, tone: Tone, width: usize) -> Option<([f64; 3], f64)> {
+fn of_pair(images: &Images, decoded: &[[f32; 3]], pair: usize, tone: Tone, width: usize) -> (Option<[f64; 3]>, f64) {
     let centre = match tone {
         Tone::Display { .. } => [0.0, 0.5, 0.5],
         Tone::LogLuv { .. } => [0.0; 3],
@@ -129,5 +131,6 @@ fn of_pair(images: &Images, decoded: &[[f32; 3]], pair: usize, tone: Tone, width
         }
     });
     let of = |c: usize| ssim_of_planes(&planes[c], &planes[3 + c], width);
-    Some(([of(0)?, of(1)?, of(2)?], squares / decoded.len() as f64))
+    let mssim = of(0).zip(of(1)).zip(of(2)).map(|((luma, first), second)| [luma, first, second]);
+    (mssim, squares / decoded.len() as f64)
 }

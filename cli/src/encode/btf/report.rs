@@ -17,7 +17,7 @@ pub(super) struct Report<'a> {
     pub(super) made: &'a Made,
     pub(super) raw_bytes: u64,
     pub(super) seconds: f64,
-    pub(super) error: Option<BtfError>,
+    pub(super) error: BtfError,
 }
 
 /// One file that was tried.
@@ -38,7 +38,7 @@ impl Report<'_> {
         });
         let value = json!({
             "file": self.output, "sizes": self.made.name, "bytes": self.made.bytes.len(), "raw_bytes": self.raw_bytes,
-            "error": self.error.as_ref().map(of_error), "curve": points, "seconds": self.seconds,
+            "error": of_error(&self.error), "curve": points, "seconds": self.seconds,
             "peak_rss_bytes": resident().unwrap_or_default().peak,
         });
         say!("{value:#}");
@@ -50,11 +50,8 @@ impl Report<'_> {
         let ratio = self.raw_bytes as f64 / bytes as f64;
         let (size, raw) = (human(bytes as u64), human(self.raw_bytes));
         say!("{}: {size} from {raw}, 1:{ratio:.0}; {}", self.output.display(), self.made.name);
-        if let Some(error) = self.error {
-            say!("  {}, PSNR {:.1} dB over {} pairs of directions", mssim(&error), error.psnr_db, error.pairs);
-        } else {
-            say!("  not judged: structural similarity needs images of 11 × 11 pixels at least");
-        }
+        let error = self.error;
+        say!("  {}, PSNR {:.1} dB over {} pairs of directions", mssim(&error), error.psnr_db, error.pairs);
         say!("  {:.1} s, {} of memory", self.seconds, human(resident().unwrap_or_default().peak));
     }
 }

@@ -13,7 +13,6 @@ use subsurf_encoder::write_bytes;
 use super::codec::{Codec, Made};
 use super::size;
 use crate::compare::pair_at;
-use crate::failure::bad_request;
 use crate::info::Parts;
 use crate::picture::{display, write_png};
 use crate::progress::Bars;
@@ -92,7 +91,9 @@ impl Subject<'_> {
         let seconds = start.elapsed().as_secs_f64();
         let judged = made.into_iter().map(|made| Ok((self.judge(&made)?, made)));
         let judged: Vec<(BtfError, Made)> = judged.collect::<anyhow::Result<_>>()?;
-        let best = judged.into_iter().max_by(|a, b| a.0.mean_mssim().total_cmp(&b.0.mean_mssim()));
+        // All have a similarity: images of a study are larger than its window.
+        let quality = |error: &BtfError| error.mean_mssim().unwrap_or(0.0);
+        let best = judged.into_iter().max_by(|(a, _), (b, _)| quality(a).total_cmp(&quality(b)));
         let Some((error, made)) = best else { return Ok(None) };
         self.draw(codec, &made)?;
         let path = self.kept(codec);
@@ -110,7 +111,7 @@ impl Subject<'_> {
             label: codec.label().to_owned(),
             bytes: made.bytes(),
             raw_bytes: self.images[0].bytes(),
-            mssim: error.mssim,
+            mssim: error.mssim.unwrap_or_default(),
             psnr_db: error.psnr_db,
             seconds,
             evaluations,
@@ -123,13 +124,12 @@ impl Subject<'_> {
     fn judge(&self, made: &Made) -> anyhow::Result<BtfError> {
         let images = &self.images[0];
         let pairs: Vec<usize> = (0..images.pairs()).step_by(self.every).collect();
-        let error = match made {
+        Ok(match made {
             Made::File(bytes) => with_file(bytes, |file| compare(images, file, 0, &pairs, &Bars::new()))?,
             Made::Baseline(baseline) => {
                 compare_images(images, images.tone(), &pairs, |pair| baseline.image(pair), &Bars::new())
             }
-        };
-        error.ok_or_else(|| bad_request("structural similarity needs images of 11 × 11 pixels at least"))
+        })
     }
 
     /// Pictures at a few pairs, and the originals.

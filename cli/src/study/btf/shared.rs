@@ -100,7 +100,7 @@ pub(super) fn shared(
             }
         };
         apart.0 += bytes.len() as u64;
-        apart.1 += judge(images, &bytes, &Bars::new())?.mean_mssim() / names.len() as f64;
+        apart.1 += quality(images, &bytes) / names.len() as f64;
     }
     let survey = surveyed(&images)?;
     let prepared = prepared(&names, &images, &survey)?;
@@ -108,7 +108,7 @@ pub(super) fn shared(
     for share in SHARES {
         let p4 = share * APART * names.len() / 100;
         let bytes = prepared.encode(&of(p4), &Bars::new())?.to_bytes();
-        let together = (bytes.len() as u64, judge(&images, &bytes, &Bars::new())?.mean_mssim());
+        let together = (bytes.len() as u64, quality(&images, &bytes));
         say!(
             "  {}, shared, P4 = {p4}: {} bytes, MSSIM {:.4}; apart {} bytes, {:.4}",
             set.title,
@@ -126,6 +126,11 @@ pub(super) fn shared(
     let found = found.ok_or_else(|| crate::failure::bad_request("no shared file was tried"))?;
     write_bytes(&path, format!("{:#}\n", serde_json::to_value(&found)?).as_bytes())?;
     Ok(found)
+}
+
+/// Mean structural similarity; images of a study are large enough for it.
+fn quality(images: &[Images], bytes: &[u8]) -> f64 {
+    judge(images, bytes, &Bars::new()).mean_mssim().unwrap_or(0.0)
 }
 
 fn of(p4: usize) -> Vec<Sizes> {

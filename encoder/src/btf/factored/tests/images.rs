@@ -104,11 +104,15 @@ fn waves(white: Option<f32>) -> (Vec<Images>, Survey) {
 
 const DETAIL: Detail = Detail { luma: 24, chroma: 8 };
 
+fn mean(error: &BtfError) -> f64 {
+    error.mean_mssim().unwrap()
+}
+
 fn quality(images: &Images, bytes: &[u8], material: usize) -> BtfError {
     let file = Factored::parse(bytes).unwrap();
     let mut memory = Memory::default();
     let pairs: Vec<usize> = (0..images.pairs()).step_by(5).collect();
-    compare(images, &expanded(&file, &mut memory), material, &pairs, &()).unwrap()
+    compare(images, &expanded(&file, &mut memory), material, &pairs, &())
 }
 
 #[test]
@@ -117,10 +121,10 @@ fn images_come_back() {
         let (images, survey) = waves(white);
         let prepared = Prepared::new(&images, &survey, options(1)).unwrap();
         let error = quality(&images[0], &prepared.encode(&sizes(), &()).unwrap(), 0);
-        assert!(error.mean_mssim() > 0.95, "white {white:?}: {error:?}");
+        assert!(mean(&error) > 0.95, "white {white:?}: {error:?}");
         let coarse = Sizes { luma: 2, chroma: 0, stages: vec![StageSize { words: 4, count: 4 }], ..sizes() };
         let worse = quality(&images[0], &prepared.encode(&coarse, &()).unwrap(), 0);
-        assert!(worse.mean_mssim() < error.mean_mssim() - 0.02, "four codewords are not enough: {worse:?} {error:?}");
+        assert!(mean(&worse) < mean(&error) - 0.02, "four codewords are not enough: {worse:?} {error:?}");
     }
 }
 
@@ -149,7 +153,7 @@ fn files_are_as_large_as_they_may_be() {
     for most in [2_500, 9_000] {
         let (bytes, sizes) = prepared.encode_to(most, &()).unwrap();
         assert!(bytes.len() <= most, "{} bytes: {sizes:?}", bytes.len());
-        let mssim = quality(&images[0], &bytes, 0).mean_mssim();
+        let mssim = mean(&quality(&images[0], &bytes, 0));
         assert!(mssim > last + 0.002, "more bytes, {mssim} after {last}");
         last = mssim;
     }
@@ -168,7 +172,7 @@ fn materials_share_a_file_and_have_mipmaps() {
     assert_eq!(materials.iter().map(|material| material.name()).collect::<Vec<_>>(), ["waves 0", "waves 1"]);
     for (number, images) in images.iter().enumerate() {
         let error = quality(images, &bytes, number);
-        assert!(error.mean_mssim() > 0.9, "{number}: {error:?}");
+        assert!(mean(&error) > 0.9, "{number}: {error:?}");
     }
     // The coarsest level is near the mean of the finest.
     let mut memory = Memory::default();
