@@ -12,6 +12,7 @@ use subsurf_encoder::metrics::{self, Comparison, Light};
 
 pub(crate) use btf::{mssim, mssim_json, pair_at};
 
+use crate::encode::btf::is_btf;
 use crate::failure::bad_request;
 use crate::info::{parse, read_file};
 use crate::memory::human;
@@ -112,8 +113,7 @@ impl Judgement {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let is_btf = args.capture.extension().is_some_and(|extension| extension == "btf" || extension == "binary");
-    if args.capture.is_dir() || is_btf {
+    if is_btf(&args.capture) {
         return btf::run(args);
     }
     let capture = Capture::open(&args.capture, &args.facts.overrides())?;

@@ -3,6 +3,7 @@
 mod btf;
 mod colour;
 mod figures;
+mod kept;
 mod page;
 mod panel;
 mod plan;

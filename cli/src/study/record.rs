@@ -15,6 +15,7 @@ use subsurf_encoder::metrics::Light;
 use subsurf_encoder::write_bytes;
 
 use super::colour::{error_map, grey_map};
+use super::kept;
 use super::plan::Fit;
 use crate::compare::{Judgement, judge};
 use crate::picture::{linear, write_png};
@@ -67,7 +68,7 @@ impl Subject<'_> {
         let source = (capture.pitch_mm(), capture.addressing(), capture.eta(), capture.simulated());
         let request = format!("{} {options:?} {shape:?} {source:?}", env!("CARGO_PKG_VERSION"));
         let path = self.folder.join("fits").join(format!("{}-{}.json", self.name(), fit.label));
-        if let Some(kept) = std::fs::read(&path).ok().and_then(|bytes| serde_json::from_slice::<Record>(&bytes).ok())
+        if let Some(kept) = kept::read::<Record>(&path)
             && kept.request == request
         {
             return Ok((kept, false));
@@ -95,7 +96,7 @@ impl Subject<'_> {
             deflated: deflated(&encoded.bytes)?,
             lz4: lz4_flex::block::compress(&encoded.bytes).len() as u64,
         };
-        write_bytes(&path, format!("{:#}\n", serde_json::to_value(&record)?).as_bytes())?;
+        kept::write(&path, &record)?;
         Ok((record, true))
     }
 

@@ -71,11 +71,11 @@ pub fn walk<R: Rung>(
         if too_large.iter().any(|(smaller, _)| smaller.between(rung, 0.5).is_some()) {
             continue;
         }
-        if let Err(bytes) = walk.look(rung)? {
-            too_large.push((rung.clone(), bytes));
+        let tried = walk.look(rung)?;
+        if !tried.fits {
+            too_large.push((rung.clone(), tried.bytes));
         }
-        let reached = walk.points.last().is_some_and(|(_, point)| walk.reaches(point));
-        if reached || progress.stopped() {
+        if walk.reaches(tried.quality) || progress.stopped() {
             break;
         }
     }
@@ -92,6 +92,15 @@ pub fn walk<R: Rung>(
     Ok(Walked { points: walk.points.into_iter().map(|(_, point)| point).collect(), best })
 }
 
+/// What came of a rung.
+struct Tried {
+    bytes: usize,
+    /// If it is a point: it is not too large.
+    fits: bool,
+    /// Mean structural similarity of a point, else 0.
+    quality: f64,
+}
+
 /// A walk under way.
 struct Walk<'a, R, P, E, S> {
     materials: &'a [Images],
@@ -104,11 +113,12 @@ struct Walk<'a, R, P, E, S> {
 }
 
 impl<R: Rung, P: Progress, E: Fn(&R) -> Result<Vec<u8>>, S: FnMut(&Point)> Walk<'_, R, P, E, S> {
-    /// Adds a point, or tells the bytes of a file that is too large.
-    fn look(&mut self, rung: &R) -> Result<std::result::Result<(), usize>> {
+    /// Encodes; adds a point if the file is not too large.
+    fn look(&mut self, rung: &R) -> Result<Tried> {
         let bytes = (self.encode)(rung)?;
-        if matches!(self.target, Target::Bytes(limit) if bytes.len() as u64 > limit) {
-            return Ok(Err(bytes.len()));
+        let len = bytes.len();
+        if matches!(self.target, Target::Bytes(limit) if len as u64 > limit) {
+            return Ok(Tried { bytes: len, fits: false, quality: 0.0 });
         }
         let error = judge(self.materials, &bytes, self.progress);
         if error.mssim.is_none() {
@@ -117,28 +127,28 @@ impl<R: Rung, P: Progress, E: Fn(&R) -> Result<Vec<u8>>, S: FnMut(&Point)> Walk<
         }
         let point = Point { name: rung.name(), bytes, error };
         (self.said)(&point);
+        let quality = quality(&point);
         self.points.push((rung.clone(), point));
-        Ok(Ok(()))
+        Ok(Tried { bytes: len, fits: true, quality })
     }
 
-    fn reaches(&self, point: &Point) -> bool {
-        matches!(self.target, Target::Ssim(least) if quality(point) >= least)
+    fn reaches(&self, quality: f64) -> bool {
+        matches!(self.target, Target::Ssim(least) if quality >= least)
     }
 
     /// The smallest that reaches a quality, or else the best of all.
     fn best(&self) -> Option<usize> {
         let all = || 0..self.points.len();
-        let point = |number: &usize| &self.points[*number].1;
-        let quality = |number: &usize| quality(point(number));
-        let smallest =
-            all().filter(|number| self.reaches(point(number))).min_by_key(|number| point(number).bytes.len());
+        let quality = |number: &usize| quality(&self.points[*number].1);
+        let bytes = |number: &usize| self.points[*number].1.bytes.len();
+        let smallest = all().filter(|number| self.reaches(quality(number))).min_by_key(bytes);
         smallest.or_else(|| all().max_by(|a, b| quality(a).total_cmp(&quality(b))))
     }
 
     /// Tries files of as many bytes as there may be, from the best to the first that is too large.
     fn fill(&mut self, limit: u64, best: usize, too_large: &[(R, usize)]) -> Result<()> {
-        let (mut low, point) = self.points[best].clone();
-        let mut low_bytes = point.bytes.len() as f64;
+        let (low, point) = &self.points[best];
+        let (mut low, mut low_bytes) = (low.clone(), point.bytes.len() as f64);
         let Some((mut high, high_bytes)) = too_large.iter().find(|(rung, _)| low.between(rung, 0.5).is_some()).cloned()
         else {
             return Ok(());
@@ -149,9 +159,11 @@ impl<R: Rung, P: Progress, E: Fn(&R) -> Result<Vec<u8>>, S: FnMut(&Point)> Walk<
             let part = (wanted - low_bytes) / (high_bytes - low_bytes);
             let rung = if low_bytes < ENOUGH * limit { low.between(&high, part) } else { None };
             let Some(rung) = rung.filter(|_| !self.progress.stopped()) else { break };
-            match self.look(&rung)? {
-                Ok(()) => (low, low_bytes) = (rung, self.points[self.points.len() - 1].1.bytes.len() as f64),
-                Err(bytes) => (high, high_bytes) = (rung, bytes as f64),
+            let tried = self.look(&rung)?;
+            if tried.fits {
+                (low, low_bytes) = (rung, tried.bytes as f64);
+            } else {
+                (high, high_bytes) = (rung, tried.bytes as f64);
             }
         }
         Ok(())
@@ -159,19 +171,16 @@ impl<R: Rung, P: Progress, E: Fn(&R) -> Result<Vec<u8>>, S: FnMut(&Point)> Walk<
 
     /// Tries smaller files of the quality, from the last below it to the best.
     fn shrink(&mut self, least: f64, best: usize) -> Result<()> {
-        let (mut high, point) = self.points[best].clone();
-        let mut high_quality = quality(&point);
+        let of = |(rung, point): &(R, Point)| (rung.clone(), quality(point));
+        let (mut high, mut high_quality) = of(&self.points[best]);
         let below = self.points[..best].iter().rev().find(|(rung, _)| rung.between(&high, 0.5).is_some());
-        let Some((mut low, point)) = below.cloned() else { return Ok(()) };
-        let mut low_quality = quality(&point);
+        let Some((mut low, mut low_quality)) = below.map(of) else { return Ok(()) };
         for _ in 0..BETWEEN {
             // A little more than should do.
             let part = 0.1 + 0.9 * (least - low_quality) / (high_quality - low_quality);
             let rung = if high_quality >= least { low.between(&high, part) } else { None };
             let Some(rung) = rung.filter(|_| !self.progress.stopped()) else { break };
-            // Any size will do, so there is a point.
-            let _ = self.look(&rung)?;
-            let found = quality(&self.points[self.points.len() - 1].1);
+            let found = self.look(&rung)?.quality;
             if found >= least {
                 (high, high_quality) = (rung, found);
             } else {
@@ -192,12 +201,14 @@ fn quality(point: &Point) -> f64 {
 /// # Panics
 /// If the decoder refuses the file.
 pub fn judge(materials: &[Images], bytes: &[u8], progress: &impl Progress) -> BtfError {
-    let of = |(number, images): (usize, &Images)| {
-        let pairs: Vec<usize> = (0..images.pairs()).step_by(PAIR_STEP).collect();
-        with_file(bytes, |file| compare(images, file, number, &pairs, progress))
-            .expect("the decoder reads what was just written")
-    };
-    let errors: Vec<BtfError> = materials.iter().enumerate().map(of).collect();
+    let errors = with_file(bytes, |file| -> Vec<BtfError> {
+        let of = |(number, images): (usize, &Images)| {
+            let pairs: Vec<usize> = (0..images.pairs()).step_by(PAIR_STEP).collect();
+            compare(images, file, number, &pairs, progress)
+        };
+        materials.iter().enumerate().map(of).collect()
+    });
+    let errors = errors.expect("the decoder reads what was just written");
     let count = errors.len() as f64;
     BtfError {
         mssim: mean(errors.iter().map(|error| error.mssim)),

@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use clap::ValueEnum;
 use subsurf_decoder::btf::Grid;
+use subsurf_encoder::btf::nested::Extent;
 use subsurf_encoder::btf::rate::{self, Target};
 use subsurf_encoder::btf::{Folder, Images, Merl, Source, Ubo};
 use subsurf_encoder::{check_target, write_bytes};
@@ -58,10 +59,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SIZE", conflicts_with_all = ["p4", "stages"])]
     target_bytes: Option<ByteCount>,
     /// Entries of P4, whole apparent BRDFs; P3 and P2 have twice as many (nested)
-    #[arg(long, default_value_t = 512, value_name = "N")]
+    #[arg(long, default_value_t = Extent::USUAL.p4, value_name = "N")]
     p4: usize,
     /// Additive stages of codebooks, 1 to 4 (nested)
-    #[arg(long, default_value_t = 1, value_name = "N")]
+    #[arg(long, default_value_t = Extent::USUAL.stages, value_name = "N")]
     stages: usize,
     /// Nodes of α, sin β, θ_v and φ_v, each 2 to 64, or 1 of φ_v; 11,11,6,16, with 24 of φ_v for factors, and
     /// 45,45,18,1 for isotropic BRDFs
@@ -81,10 +82,18 @@ pub(crate) struct Args {
     json: bool,
 }
 
+/// If there are images of a BTF, or one may expect some.
+pub(crate) fn is_btf(path: &Path) -> bool {
+    path.is_dir() || matches!(extension(path).as_deref(), Some("btf" | "binary"))
+}
+
+fn extension(path: &Path) -> Option<String> {
+    Some(path.extension()?.to_str()?.to_ascii_lowercase())
+}
+
 /// Reads all images of a BTF.
 pub(crate) fn load(path: &Path) -> anyhow::Result<Images> {
-    let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
-    match extension.as_ref().and_then(|extension| extension.to_str()) {
+    match extension(path).as_deref() {
         Some("btf") => Ok(load_from(&Ubo::open(path)?)?),
         Some("binary") => Ok(load_from(&Merl::open(path)?)?),
         _ => Ok(load_from(&Folder::open(path)?)?),
@@ -154,7 +163,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         made: &made,
         raw_bytes: materials.iter().map(Images::bytes).sum(),
         seconds: start.elapsed().as_secs_f64(),
-        error: rate::judge(&materials, &made.bytes, &Bars::new()),
+        error: match &made.walked {
+            Some(walked) => walked.points[walked.best].error,
+            None => rate::judge(&materials, &made.bytes, &Bars::new()),
+        },
     };
     if args.json {
         report.json()

@@ -45,6 +45,12 @@ impl Made {
 /// Clusters that local PCA is tried with.
 const CLUSTERS: [usize; 4] = [2, 3, 4, 6];
 
+/// What the encoders of one file are told.
+pub(super) fn common(method: MethodArg, names: &[String], images: &[Images]) -> anyhow::Result<Common> {
+    let grid = grid(&images[0], &usual_nodes(method, &images[0]))?;
+    Ok(Common { grid, names: names.to_vec(), has_mipmaps: false, seed: SEED })
+}
+
 impl Codec {
     pub(super) const ALL: [Self; 8] = [
         Self::Nested,
@@ -101,10 +107,7 @@ impl Codec {
         survey: &mut Option<Survey>,
         budget: u64,
     ) -> anyhow::Result<Vec<Made>> {
-        let nodes = |method| grid(&images[0], &usual_nodes(method, &images[0]));
-        let common = |method| -> anyhow::Result<Common> {
-            Ok(Common { grid: nodes(method)?, names: vec![name.to_owned()], has_mipmaps: false, seed: SEED })
-        };
+        let common = |method| common(method, &[name.to_owned()], images);
         if self == Self::Paper {
             return Ok(vec![Made::File(common(MethodArg::Paper)?.paper(images, 1.0)?)]);
         }
@@ -116,7 +119,7 @@ impl Codec {
         Ok(match self {
             Self::Nested => {
                 let prepared = common(MethodArg::Nested)?.nested(images, survey);
-                vec![Made::File(prepared.encode(&Extent { p4: 512, stages: 1 }.sizes(), &Bars::new())?.to_bytes())]
+                vec![Made::File(prepared.encode(&Extent::USUAL.sizes(), &Bars::new())?.to_bytes())]
             }
             Self::NestedAsPaper => {
                 let prepared = common(MethodArg::Nested)?.nested(images, survey);
@@ -134,7 +137,7 @@ impl Codec {
                 vec![Made::File(prepared.encode_to(bytes, &Bars::new())?.0)]
             }
             Self::OneLevelAsNested | Self::OneLevelAsFactored => {
-                let grid = nodes(MethodArg::Nested)?;
+                let grid = common(MethodArg::Nested)?.grid;
                 let words = most(&|words| one_level_bytes(words, texels, &grid), 2..257);
                 words
                     .map(|words| Made::Baseline(one_level(&images[0], survey, &grid, words, SEED)))

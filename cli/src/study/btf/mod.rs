@@ -113,10 +113,14 @@ fn images(args: &Args, member: Member) -> anyhow::Result<Images> {
     load(&output)
 }
 
+fn survey_of(images: &[Images]) -> subsurf_encoder::Result<Survey> {
+    Survey::new(images, detail(images.len()), SEED, &Bars::new())
+}
+
 /// What the codecs of a material share.
 fn surveyed<'a>(images: &[Images], survey: &'a mut Option<Survey>) -> anyhow::Result<&'a Survey> {
     if survey.is_none() {
-        *survey = Some(Survey::new(images, detail(images.len()), SEED, &Bars::new())?);
+        *survey = Some(survey_of(images)?);
     }
     survey.as_ref().ok_or_else(|| bad_request("no survey"))
 }

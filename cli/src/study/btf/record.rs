@@ -16,6 +16,7 @@ use crate::compare::pair_at;
 use crate::info::Parts;
 use crate::picture::{display, write_png};
 use crate::progress::Bars;
+use crate::study::kept;
 
 /// Pairs of directions that are shown: shares of all of them.
 pub(super) const PICTURED: [f64; 3] = [0.12, 0.52, 0.73];
@@ -69,7 +70,7 @@ impl Subject<'_> {
     }
 
     fn read(&self, codec: Codec) -> Option<Record> {
-        serde_json::from_slice(&std::fs::read(self.kept(codec)).ok()?).ok()
+        kept::read(&self.kept(codec))
     }
 
     /// The record of a codec, the kept one if it is still the answer; none if it cannot be as small as it may be.
@@ -117,7 +118,7 @@ impl Subject<'_> {
             evaluations,
             books,
         };
-        write_bytes(&path, format!("{:#}\n", serde_json::to_value(&record)?).as_bytes())?;
+        kept::write(&path, &record)?;
         Ok(Some(record))
     }
 

@@ -3,16 +3,18 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use subsurf_encoder::btf::nested::{Extent, Prepared, Sizes};
+use subsurf_encoder::btf::Images;
+use subsurf_encoder::btf::nested::Extent;
 use subsurf_encoder::btf::rate::judge;
-use subsurf_encoder::btf::{Images, Survey};
 use subsurf_encoder::simulate::btf::Sample;
 use subsurf_encoder::write_bytes;
 
-use super::SEED;
-use crate::encode::btf::{Common, MethodArg, detail, grid, usual_nodes};
+use super::codec::common;
+use super::{SEED, survey_of};
+use crate::encode::btf::MethodArg;
 use crate::progress::Bars;
 use crate::say::say;
+use crate::study::kept;
 
 /// A sample, and the seed that it is simulated with.
 #[derive(Clone, Copy, Debug)]
@@ -67,8 +69,6 @@ pub(super) struct Shared {
     pub(super) p4: usize,
 }
 
-/// Entries of P4 of a file for one material.
-const APART: usize = 512;
 /// Entries of P4 that are tried, in percent of what the files have apart.
 const SHARES: [usize; 7] = [25, 30, 40, 50, 60, 75, 90];
 
@@ -83,8 +83,7 @@ pub(super) fn shared(
     let request = format!("{} {} {:?}", env!("CARGO_PKG_VERSION"), names.join(" "), [side; 2]);
     let files = folder.join("files");
     let path = files.join(format!("shared-{}-{side}.json", set.label));
-    let kept = std::fs::read(&path).ok().and_then(|bytes| serde_json::from_slice::<Shared>(&bytes).ok());
-    if let Some(kept) = kept.filter(|kept| kept.request == request) {
+    if let Some(kept) = kept::read::<Shared>(&path).filter(|kept| kept.request == request) {
         return Ok(kept);
     }
     let images = set.members.iter().map(|member| load(*member)).collect::<anyhow::Result<Vec<_>>>()?;
@@ -95,19 +94,20 @@ pub(super) fn shared(
         let bytes = match std::fs::read(&path) {
             Ok(bytes) => bytes,
             Err(_) => {
-                let survey = surveyed(images)?;
-                prepared(std::slice::from_ref(name), images, &survey)?.encode(&of(APART), &Bars::new())?.to_bytes()
+                let (common, survey) =
+                    (common(MethodArg::Nested, std::slice::from_ref(name), images)?, survey_of(images)?);
+                common.nested(images, &survey).encode(&Extent::USUAL.sizes(), &Bars::new())?.to_bytes()
             }
         };
         apart.0 += bytes.len() as u64;
         apart.1 += quality(images, &bytes) / names.len() as f64;
     }
-    let survey = surveyed(&images)?;
-    let prepared = prepared(&names, &images, &survey)?;
+    let survey = survey_of(&images)?;
+    let prepared = common(MethodArg::Nested, &names, &images)?.nested(&images, &survey);
     let mut found = None;
     for share in SHARES {
-        let p4 = share * APART * names.len() / 100;
-        let bytes = prepared.encode(&of(p4), &Bars::new())?.to_bytes();
+        let p4 = share * Extent::USUAL.p4 * names.len() / 100;
+        let bytes = prepared.encode(&Extent { p4, ..Extent::USUAL }.sizes(), &Bars::new())?.to_bytes();
         let together = (bytes.len() as u64, quality(&images, &bytes));
         say!(
             "  {}, shared, P4 = {p4}: {} bytes, MSSIM {:.4}; apart {} bytes, {:.4}",
@@ -124,24 +124,11 @@ pub(super) fn shared(
         }
     }
     let found = found.ok_or_else(|| crate::failure::bad_request("no shared file was tried"))?;
-    write_bytes(&path, format!("{:#}\n", serde_json::to_value(&found)?).as_bytes())?;
+    kept::write(&path, &found)?;
     Ok(found)
 }
 
 /// Mean structural similarity; images of a study are large enough for it.
 fn quality(images: &[Images], bytes: &[u8]) -> f64 {
     judge(images, bytes, &Bars::new()).mean_mssim().unwrap_or(0.0)
-}
-
-fn of(p4: usize) -> Vec<Sizes> {
-    Extent { p4, stages: 1 }.sizes()
-}
-
-fn surveyed(images: &[Images]) -> subsurf_encoder::Result<Survey> {
-    Survey::new(images, detail(images.len()), SEED, &Bars::new())
-}
-
-fn prepared<'a>(names: &[String], images: &[Images], survey: &'a Survey) -> anyhow::Result<Prepared<'a>> {
-    let grid = grid(&images[0], &usual_nodes(MethodArg::Nested, &images[0]))?;
-    Ok(Common { grid, names: names.to_vec(), has_mipmaps: false, seed: SEED }.nested(images, survey))
 }

@@ -25,6 +25,8 @@ pub struct Extent {
 }
 
 impl Extent {
+    /// Where nothing is asked for.
+    pub const USUAL: Self = Self::of(512, 1);
     /// By the bytes they take. What gains more, larger codebooks or a second stage, depends on the material: smooth ones
     /// take to stages.
     pub const LADDER: [Self; 12] = [
