@@ -1,5 +1,6 @@
 //! The sections of nested codebooks, checked once.
 
+use super::line::Ruler;
 use super::stage::Stage;
 use super::table::{SliceTable, Table};
 use crate::bits::{Items, PADDING_BYTES, field, index_bits, mask, packed_bytes};
@@ -7,6 +8,7 @@ use crate::btf::grid::Grid;
 use crate::btf::layout::{Books, ChromaBooks, MAX_STAGES, StageBooks};
 use crate::btf::sections::Sections;
 use crate::error::{ReadError, Section};
+use core::f32::consts::FRAC_PI_2;
 
 /// Checked codebooks.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +26,8 @@ pub struct Nested<'a> {
     colours: &'a [[u8; 2]],
     tints: &'a [[u8; 2]],
     tint_mask: u32,
+    /// Of α, and of sin β.
+    rulers: [Ruler; 2],
 }
 
 impl<'a> Nested<'a> {
@@ -65,6 +69,10 @@ impl<'a> Nested<'a> {
             colours: colours.as_chunks().0,
             tints: tints.as_chunks().0,
             tint_mask: mask(index_bits(chroma.tints)),
+            rulers: [
+                Ruler::new(grid.n_alpha, grid.alpha_max, FRAC_PI_2),
+                Ruler::new(grid.n_beta, grid.sin_beta_max, 1.0),
+            ],
         })
     }
 
@@ -115,6 +123,12 @@ impl<'a> Nested<'a> {
     #[inline]
     pub(super) fn i1(&self) -> &Items<'a> {
         &self.i1
+    }
+
+    /// What samplers draw from: α, from −π/2 to π/2, and sin β, from −1 to 1.
+    #[inline]
+    pub(super) fn rulers(&self) -> &[Ruler; 2] {
+        &self.rulers
     }
 
     /// Two codes of C.

@@ -5,7 +5,7 @@
 //! without jumps as the random numbers grow.
 
 use super::chain::Corner;
-use super::line::Line;
+use super::line::{Line, Ruler};
 use super::reader::Nested;
 use super::scale::{Scale, near};
 use super::stage::Stage;
@@ -34,7 +34,9 @@ pub struct Sampler<'a> {
     /// P2 of the four nodes of view around the view.
     rows: [Row; 4],
     /// Of α, from −π/2 to π/2, by the integrals over slices.
-    alpha: Line,
+    alpha: Line<'a>,
+    /// What [`Self::beta`] is over.
+    of_beta: &'a Ruler,
 }
 
 /// A row of P2 with c_P4 c_P3 for [`near`], c_P6 being common to all directions, and the weight of the node of view.
@@ -55,15 +57,10 @@ impl<'a> Sampler<'a> {
             Row { p2, scale: corner.scale.near_bits(), weight: corner.weight }
         };
         let rows = [row(a), row(b), row(c), row(d)];
-        let mut sampler = Self {
-            stage,
-            grid,
-            azimuth: view.azimuth,
-            rows,
-            alpha: Line::over(grid.n_alpha, grid.alpha_max, FRAC_PI_2),
-        };
+        let [of_alpha, of_beta] = nested.rulers();
+        let mut alpha = Line::over(of_alpha);
         let mut node = 0_u32;
-        for integrals in sampler.alpha.fours() {
+        for integrals in alpha.fours() {
             for Row { p2, scale, weight } in rows {
                 for (integral, c2) in integrals.iter_mut().zip(stage.p2.four_near(p2, node)) {
                     *integral += weight * near(scale.wrapping_add(c2));
@@ -71,13 +68,13 @@ impl<'a> Sampler<'a> {
             }
             node = node.wrapping_add(4);
         }
-        sampler.alpha.integrate();
-        sampler
+        alpha.integrate();
+        Self { stage, grid, azimuth: view.azimuth, rows, alpha, of_beta }
     }
 
     /// Of sin β, from −1 to 1, by luma between the slices at a node of α and the next.
     #[inline(always)]
-    fn beta(&self, alpha: u32, weight: f32) -> Line {
+    fn beta(&self, alpha: u32, weight: f32) -> Line<'a> {
         // First bytes of slices, and what their codes are multiplied by.
         let (mut lows, mut highs) = ([(0, 0.0); 4], [(0, 0.0); 4]);
         for ((low, high), row) in lows.iter_mut().zip(&mut highs).zip(&self.rows) {
@@ -89,15 +86,24 @@ impl<'a> Sampler<'a> {
             let [first, second] = self.stage.p2.two::<false>(row.p2, alpha);
             (*low, *high) = (part(first), part(second));
         }
-        let mut line = Line::over(self.grid.n_beta, self.grid.sin_beta_max, 1.0);
-        let mut node = 0_usize;
+        let mut line = Line::over(self.of_beta);
+        // Indices were checked: it does not end early.
+        let _ = self.fill(&mut line, [&lows, &highs], weight);
+        line.integrate();
+        line
+    }
+
+    /// Adds up slices.
+    #[inline(always)]
+    fn fill(&self, line: &mut Line<'_>, slices: [&[(u32, f32); 4]; 2], weight: f32) -> Option<()> {
+        let mut node = 0_u32;
         for values in line.fours() {
             let mut sums = [[0.0; 4]; 2];
-            for (sums, parts) in sums.iter_mut().zip([&lows, &highs]) {
+            for (sums, parts) in sums.iter_mut().zip(slices) {
                 for (start, factor) in parts {
-                    let codes = self.stage.four(start.wrapping_add(node));
+                    let codes = self.stage.four(start.wrapping_add(node))?;
                     for (sum, code) in sums.iter_mut().zip(codes) {
-                        *sum += factor * f32::from(code);
+                        *sum += factor * f32::from(*code);
                     }
                 }
             }
@@ -107,8 +113,7 @@ impl<'a> Sampler<'a> {
             }
             node = node.wrapping_add(4);
         }
-        line.integrate();
-        line
+        Some(())
     }
 
     /// A light for two random numbers, 0 to 1: α grows with the first, sin β with the second, and none of them jumps.

@@ -30,7 +30,7 @@ impl Stage<'_> {
     #[inline]
     pub(super) fn slice_pair(&self, slice: u32, at: u32) -> ([u8; 2], Scale) {
         let start = self.start(slice);
-        let first = start.wrapping_add(at as usize);
+        let first = start.wrapping_add(at) as usize;
         let codes = match self.p1.get(first..first.wrapping_add(2)) {
             Some([low, high]) => [*low, *high],
             _ => [0; 2],
@@ -40,30 +40,29 @@ impl Stage<'_> {
 
     /// First byte of a slice; 2²⁴ of them have less than 2³² bytes.
     #[inline]
-    pub(super) fn start(&self, slice: u32) -> usize {
-        slice.wrapping_mul(u32::from(self.n_beta).wrapping_add(1)) as usize
+    pub(super) fn start(&self, slice: u32) -> u32 {
+        slice.wrapping_mul(u32::from(self.n_beta).wrapping_add(1))
     }
 
     /// Height of the slice that begins at a byte, for [`near`].
     #[inline]
-    pub(super) fn near_height(&self, start: usize) -> u32 {
+    pub(super) fn near_height(&self, start: u32) -> u32 {
         self.height(start).wrapping_mul(HEIGHT << NEAR)
     }
 
     #[inline]
-    fn height(&self, start: usize) -> u32 {
-        match self.p1.get(start.wrapping_add(self.n_beta.into())) {
+    fn height(&self, start: u32) -> u32 {
+        match self.p1.get(start.wrapping_add(self.n_beta.into()) as usize) {
             Some(code) => u32::from(*code),
             None => 0,
         }
     }
 
-    /// Four bytes of P1.
+    /// Four bytes of P1. They are there, as indices were checked.
     #[inline]
-    pub(super) fn four(&self, start: usize) -> [u8; 4] {
-        match self.p1.get(start..start.wrapping_add(4)).and_then(<[u8]>::first_chunk::<4>) {
-            Some(part) => *part,
-            None => [0; 4],
-        }
+    pub(super) fn four(&self, start: u32) -> Option<&[u8; 4]> {
+        // One comparison: what has 32 bits cannot wrap.
+        let start = start as usize;
+        self.p1.get(start..start.wrapping_add(4))?.first_chunk::<4>()
     }
 }
