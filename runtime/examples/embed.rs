@@ -3,8 +3,8 @@
 //! `cargo run --release -p subsurf-runtime --example embed -- jade.subsurf`
 
 use subsurf_decoder::Bssrdf;
-use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Outline, Scene, SkyShare, View, torus};
-use subsurf_runtime::{Gpu, GpuMesh, Known, Model, Path, Renderer, RuntimeOptions, SeparableMaterial, wgpu};
+use subsurf_runtime::{Gpu, GpuMesh, Known, Model, Path, Renderer, RuntimeOptions, SeparableMaterial, SkyShare, wgpu};
+use subsurf_scene::{Environment, Light, LightShape, Mapping, Outline, Scene, View, torus};
 use subsurf_shaders::separable::{Detail, Factors};
 
 const SIZE: [u32; 2] = [640, 480];

@@ -2,6 +2,7 @@
 //!
 //! Everything keeps within `Limits::downlevel_webgl2_defaults()`: no compute, no storage buffers, tables in textures.
 
+mod ambient;
 mod btf;
 mod cascade;
 mod context;
@@ -15,9 +16,9 @@ mod pass;
 mod patch;
 mod pipeline;
 mod resource;
-pub mod scene;
 mod separable;
 
+pub use ambient::SkyShare;
 pub use btf::{BtfAnswer, BtfImages, BtfMaterial, BtfQueries, BtfQuery};
 pub use context::{Backend, Gpu, OnScreen, PictureTarget, devices};
 pub use error::{Error, Result};

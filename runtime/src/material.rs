@@ -9,7 +9,7 @@ use wgpu::{BindingResource, Buffer, TextureFormat, TextureView, TextureViewDescr
 use crate::context::Gpu;
 use crate::error::{Error, Result};
 use crate::ledger::Tracked;
-use crate::resource::{ROW, Slot, Surface2d, TextureSpec};
+use crate::resource::{Slot, Surface2d, TextureSpec};
 
 /// How a file is stored on the device.
 #[must_use]

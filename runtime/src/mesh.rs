@@ -1,18 +1,19 @@
 //! A mesh on the device, and passes that draw it.
 
 use glam::{Vec2, Vec3, Vec4};
+use subsurf_scene::{Mapping, Mesh, Outline};
 use wgpu::{
     BindGroup, BindingResource, Buffer, BufferUsages, Color, CommandEncoder, CompareFunction, DepthStencilState,
     IndexFormat, LoadOp, MultisampleState, RenderPassColorAttachment, TextureFormat, TextureView, VertexBufferLayout,
     VertexStepMode, vertex_attr_array,
 };
 
+use crate::ambient::SkyShare;
 use crate::context::Gpu;
 use crate::error::{Error, Result};
 use crate::ledger::Tracked;
 use crate::pipeline::{Drawing, Pipeline, Program, attachment};
 use crate::resource::Slot;
-use crate::scene::{Mapping, Mesh, Outline, SkyShare};
 
 /// Depth of the pictures.
 pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth24Plus;
@@ -46,7 +47,7 @@ struct Vertex {
 /// What a path wants to know of every vertex.
 #[derive(Clone, Copy, Debug)]
 pub enum Known<'a> {
-    /// Which point of a [`crate::scene::Surface`] it is: for the gather.
+    /// Which point of a [`subsurf_scene::SurfacePoints`] it is: for the gather.
     Points(&'a [u32]),
     /// How much light from all around it gets: for all others.
     Sky(&'a [SkyShare]),

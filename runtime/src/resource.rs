@@ -3,6 +3,7 @@
 use bytemuck::Pod;
 use half::f16;
 use subsurf_shaders::source::Keeping;
+use subsurf_shaders::uniform::ROW;
 use wgpu::{
     BindGroupLayoutEntry, BindingType, Buffer, BufferBindingType, BufferUsages, CommandEncoderDescriptor, Extent3d,
     SamplerBindingType, ShaderStages, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture, TextureDescriptor,
@@ -13,9 +14,6 @@ use wgpu::{
 use crate::context::Gpu;
 use crate::error::{Error, Result};
 use crate::ledger::Tracked;
-
-/// Texels to a row of textures that hold plain arrays; every GLES 3.0 device has as many.
-pub(crate) const ROW: u32 = 2_048;
 
 /// What a texture is to hold.
 pub(crate) struct TextureSpec {

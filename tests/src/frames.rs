@@ -7,11 +7,11 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::bssrdf::{Options, encode};
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_encoder::simulate::{Finish, Scene as Recipe};
-use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, SkyShare, Surface, View};
 use subsurf_runtime::{
     BACKGROUND, Backend, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions,
-    SeparableMaterial, SplatMaterial,
+    SeparableMaterial, SkyShare, SplatMaterial,
 };
+use subsurf_scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, SurfacePoints, View};
 use subsurf_shaders::separable::{Detail, Factors};
 
 use crate::simulated;
@@ -102,8 +102,8 @@ impl Loaded {
                 // Fine enough that the sum is close to its integral.
                 let fine = mesh.clone().subdivided(0.8 * material.header().pitch_mm).unwrap();
                 let visibilities = shadows(&fine, mesh, scene);
-                let surface = Surface::new(&fine, mapping, material.header(), &visibilities);
-                let on_gpu = GpuMesh::upload(gpu, &fine, &outline, Known::Points(surface.point_of())).unwrap();
+                let surface = SurfacePoints::new(&fine, mapping, material.header(), &visibilities);
+                let on_gpu = GpuMesh::upload(gpu, &fine, &outline, Known::Points(&surface.point_of)).unwrap();
                 let points = GpuPoints::upload(gpu, &surface).unwrap();
                 Self::Gather(on_gpu, points, Material::upload(gpu, &material).unwrap())
             }

@@ -4,14 +4,12 @@ use glam::{Vec2, Vec3};
 use subsurf_decoder::Btf;
 use subsurf_decoder::btf::{Grid, Tone};
 use subsurf_encoder::synthetic::NestedShape;
-use subsurf_runtime::scene::{
-    Environment, Light, LightShape, Mesh, Outline, REFLECTION_SIZE, Scene, View, sphere, torus,
-};
 use subsurf_runtime::{
     BACKGROUND, Backend, BtfFiltering, BtfMaterial, BtfOptions, BtfStorage, Error, Gpu, GpuMesh, Known, Model, Path,
     Renderer, RuntimeOptions,
 };
-use subsurf_shaders::cpu;
+use subsurf_scene::{Environment, Light, LightShape, Mesh, Outline, REFLECTION_SIZE, Scene, View, sphere, torus};
+use subsurf_shaders::{cpu, uniform};
 use subsurf_tests::frames::device;
 
 /// Display values: a step of 255 for rounding, and one for the half floats of the environment.
@@ -73,7 +71,7 @@ fn picture(
 }
 
 fn twin(btf: &Btf<'_>, mesh: &Mesh, copies: [f32; 2], scene: &Scene, options: BtfOptions) -> Vec<[u8; 3]> {
-    let block = scene.block(&Outline::of_btf(mesh, copies), SIZE, 512);
+    let block = uniform::Scene::new(scene, &Outline::of_btf(mesh, copies), SIZE, 512);
     let uvs = mesh.uvs.as_ref().unwrap().iter().map(|uv| *uv * Vec2::from(copies));
     let uvs: Vec<Vec2> = uvs.map(|uv| Vec2::new(uv.x, 1.0 - uv.y)).collect();
     let triangles = cpu::BtfTriangles {

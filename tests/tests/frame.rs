@@ -6,8 +6,8 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_encoder::simulate::Scene as Recipe;
 use subsurf_encoder::synthetic::per_pixel_of;
-use subsurf_runtime::scene::{bowl, drapery, knot, torus};
 use subsurf_runtime::{BACKGROUND, Backend, Error, Gpu, Model, Path, Renderer, RuntimeOptions};
+use subsurf_scene::{bowl, drapery, knot, torus};
 use subsurf_tests::frames::{API_TOLERANCE, Loaded, SIZE, Way, assert_close, device, material_of, scene};
 use subsurf_tests::shape;
 

@@ -5,12 +5,12 @@ use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::simulate::Scene as Recipe;
-use subsurf_runtime::scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
 use subsurf_runtime::wgpu::TextureFormat;
 use subsurf_runtime::{
     BACKGROUND, Backend, Error, Gpu, Keeping, Material, PatchLight, PatchRenderer, Path, Region, Renderer,
     RuntimeOptions, Storage,
 };
+use subsurf_scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
 use subsurf_tests::frames::{
     API_TOLERANCE, EDGE_PIXELS, Loaded, SIZE, Way, assert_close, device, material_of, psnr, scene, share_that_differs,
 };

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use glam::{Quat, Vec3};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::Progress as _;
-use subsurf_runtime::scene::{LightShape, Mesh, Scene};
 use subsurf_runtime::{Gpu, PictureTarget, RuntimeOptions};
+use subsurf_scene::{LightShape, Mesh, Scene};
 
 use crate::progress::Bars;
 use crate::render::{Ingredients, Ready, Shot};

@@ -8,10 +8,10 @@ use subsurf_decoder::Btf;
 use subsurf_encoder::Progress as _;
 use subsurf_encoder::Unfinished;
 use subsurf_encoder::btf::{Folder, Images};
-use subsurf_runtime::scene::{Mesh, Outline, Scene, relief};
 use subsurf_runtime::{
     BtfImages, BtfMaterial, BtfStorage, Gpu, GpuMesh, Known, Model, Path as DrawPath, Renderer, RuntimeOptions,
 };
+use subsurf_scene::{Mesh, Outline, Scene, relief};
 
 use super::load::{self, load_one, micros};
 use super::load_one::Clock;

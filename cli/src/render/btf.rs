@@ -8,18 +8,16 @@ use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Btf;
 use subsurf_encoder::btf::{Folder, Images};
-use subsurf_runtime::scene::{Mesh, Outline, REFLECTION_SIZE, Scene};
 use subsurf_runtime::{
     BACKGROUND, BtfFiltering, BtfImages, BtfMaterial, BtfOptions, Gpu, GpuMesh, Known, RuntimeOptions,
 };
-use subsurf_shaders::cpu;
-use subsurf_shaders::uniform::MAX_LIGHTS;
+use subsurf_scene::{MAX_LIGHTS, Mesh, Outline, REFLECTION_SIZE, Scene, visibility};
+use subsurf_shaders::{cpu, uniform};
 
 use super::mesh::{SUPERSAMPLING, Shot, average_down, exposure_of};
 use super::prepared::{Prepared, Ready};
 use crate::failure::bad_request;
 use crate::info::material_number;
-use crate::mesh::visibility;
 use crate::picture::montage;
 use crate::progress::Bars;
 
@@ -316,7 +314,7 @@ fn on_cpu(
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };
     let outline = Outline::of_btf(mesh, copies);
     let draw = |exposure, size| {
-        let mut block = scene.block(&outline, size, RuntimeOptions::default().light_texels);
+        let mut block = uniform::Scene::new(scene, &outline, size, RuntimeOptions::default().light_texels);
         block.exposure = exposure;
         cpu::shade_btf(&triangles, surface, &block, &reflections, size, [BACKGROUND; 3])
     };
@@ -327,7 +325,7 @@ fn on_cpu(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use subsurf_runtime::scene::{sphere, torus};
+    use subsurf_scene::{sphere, torus};
 
     #[test]
     fn copies_are_about_square_and_a_fifth_of_the_mesh() {

@@ -4,9 +4,10 @@ use glam::Vec3;
 use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
-use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, View};
 use subsurf_runtime::{BACKGROUND, Frame, Gpu, Renderer, RuntimeOptions};
+use subsurf_scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, View};
 use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_shaders::uniform;
 
 use super::prepared::{Ingredients, Prepared, Ready, points};
 use super::{Angles, BRIGHT, MappingArg, PathArg, exposure_for};
@@ -93,15 +94,15 @@ pub(crate) fn draw_mesh(
         None => {
             let (fine, surface) = points(mesh, mapping, material, &scene)?;
             let outline = Outline::new(mesh, mapping, material.header());
-            let mut block = scene.block(&outline, large, shot.options.light_texels);
-            let exitance = cpu::surface_gather(material, &surface.points(), &surface.irradiance(&block));
+            let mut block = uniform::Scene::new(&scene, &outline, large, shot.options.light_texels);
+            let exitance = cpu::surface_gather(material, &surface, &cpu::irradiance(&block, &surface));
             let brightest = scene.environment.irradiance(Vec3::Y).iter().copied().fold(0.0, f32::max);
             let chosen = || exposure_for(exitance.iter()).min(BRIGHT / brightest.max(1e-6)) * std::f32::consts::PI;
             block.exposure = shot.exposure.unwrap_or_else(chosen);
             scene.view.exposure = block.exposure;
-            let of_vertices = || surface.point_of().iter().map(|&point| point as usize);
+            let of_vertices = || surface.point_of.iter().map(|&point| point as usize);
             let exitances: Vec<Rgb> = of_vertices().map(|point| exitance[point]).collect();
-            let visibilities: Vec<_> = of_vertices().map(|point| surface.visibilities()[point]).collect();
+            let visibilities: Vec<_> = of_vertices().map(|point| surface.visibilities[point]).collect();
             let triangles = cpu::Triangles {
                 positions: &fine.positions,
                 normals: &fine.normals,
@@ -109,10 +110,8 @@ pub(crate) fn draw_mesh(
                 visibilities: &visibilities,
                 triangles: &fine.triangles,
             };
-            let reflections = cpu::Reflections {
-                size: subsurf_runtime::scene::REFLECTION_SIZE,
-                levels: scene.environment.reflections(),
-            };
+            let reflections =
+                cpu::Reflections { size: subsurf_scene::REFLECTION_SIZE, levels: scene.environment.reflections() };
             cpu::shade(&triangles, &block, &reflections, large, [BACKGROUND; 3])
         }
     };

@@ -3,17 +3,15 @@
 use std::sync::Arc;
 
 use subsurf_decoder::Bssrdf;
-use subsurf_runtime::scene::{Mapping, Mesh, Outline, Scene, SkyShare, Surface};
 use subsurf_runtime::{
     BtfMaterial, Frame, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions,
-    SeparableMaterial, SplatMaterial,
+    SeparableMaterial, SkyShare, SplatMaterial,
 };
+use subsurf_scene::{MAX_LIGHTS, Mapping, Mesh, Outline, Scene, SurfacePoints, visibility};
 use subsurf_shaders::separable::{Detail, Factors};
-use subsurf_shaders::uniform::MAX_LIGHTS;
 
 use super::PathArg;
 use super::mesh::chosen_exposure;
-use crate::mesh::visibility;
 
 /// Longest edge of the mesh between whose vertices light is gathered, in pixels of the material.
 const LONGEST_EDGE: f32 = 1.5;
@@ -27,7 +25,7 @@ pub(crate) struct Ingredients {
 }
 
 enum OfPath {
-    Gather { fine: Mesh, surface: Surface },
+    Gather { fine: Mesh, surface: SurfacePoints },
     Splat { sky: Arc<Vec<SkyShare>>, factors: Factors },
     Separable { sky: Arc<Vec<SkyShare>>, factors: Factors },
 }
@@ -73,7 +71,7 @@ impl Ingredients {
         let shared = |sky: &[SkyShare]| GpuMesh::upload(gpu, mesh, &outline, Known::Sky(sky));
         Ok(match &self.of_path {
             OfPath::Gather { fine, surface } => Prepared::Gather {
-                mesh: GpuMesh::upload(gpu, fine, &outline, Known::Points(surface.point_of()))?,
+                mesh: GpuMesh::upload(gpu, fine, &outline, Known::Points(&surface.point_of))?,
                 points: GpuPoints::upload(gpu, surface)?,
                 material: Material::upload(gpu, material)?,
             },
@@ -101,7 +99,7 @@ pub(super) fn points(
     mapping: Mapping,
     material: &Bssrdf<'_>,
     scene: &Scene,
-) -> anyhow::Result<(Mesh, Surface)> {
+) -> anyhow::Result<(Mesh, SurfacePoints)> {
     let fine = mesh.clone().subdivided(LONGEST_EDGE * material.header().pitch_mm)?;
     let mut visibilities = vec![[0.0; MAX_LIGHTS]; fine.positions.len()];
     for (k, light) in scene.lights.iter().take(MAX_LIGHTS).enumerate() {
@@ -109,7 +107,7 @@ pub(super) fn points(
             of_vertex[k] = seen;
         }
     }
-    let surface = Surface::new(&fine, mapping, material.header(), &visibilities);
+    let surface = SurfacePoints::new(&fine, mapping, material.header(), &visibilities);
     Ok((fine, surface))
 }
 

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use subsurf_encoder::btf::Images;
-use subsurf_runtime::scene::{Mesh, Scene, SkyShare};
-use subsurf_runtime::{BtfMaterial, Gpu};
+use subsurf_runtime::{BtfMaterial, Gpu, SkyShare};
+use subsurf_scene::{Mesh, Scene};
 use winit::event_loop::EventLoopProxy;
 
 use super::Notice;

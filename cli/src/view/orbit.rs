@@ -3,7 +3,7 @@
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::{Quat, Vec2, Vec3};
-use subsurf_runtime::scene::View;
+use subsurf_scene::View;
 
 /// An eye that looks at a point from all around.
 #[derive(Clone, Copy, Debug)]

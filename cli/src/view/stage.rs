@@ -4,12 +4,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use subsurf_runtime::scene::{Mesh, Scene};
 use subsurf_runtime::wgpu::{
     BindGroup, Color, CommandEncoderDescriptor, LoadOp, Operations, PollType, RenderPassColorAttachment,
     RenderPassDescriptor, StoreOp, TextureFormat, TextureView, TextureViewDescriptor,
 };
 use subsurf_runtime::{Backend, Frame, Gpu, Path, PictureTarget, Plan, Renderer, RuntimeOptions};
+use subsurf_scene::{Mesh, Scene};
 use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
 

@@ -1,7 +1,7 @@
 //! Eye, light and surroundings.
 
 use glam::{Quat, Vec2, Vec3};
-use subsurf_runtime::scene::{Environment, LightShape, Mesh, Scene};
+use subsurf_scene::{Environment, LightShape, Mesh, Scene};
 
 use super::orbit::{Orbit, dragged};
 use super::panel::Settings;

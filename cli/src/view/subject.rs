@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use subsurf_runtime::scene::Mesh;
+use subsurf_scene::{Mesh, SHAPES, Up, load};
 
 use crate::failure::bad_request;
 use crate::info::{Parsed, parse_any, read_file};
-use crate::mesh::{SHAPES, Up, load, stem};
+use crate::options::stem;
 use crate::render::BtfArgs;
 
 /// A material file that was found to be in order.

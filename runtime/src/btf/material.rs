@@ -2,13 +2,13 @@
 
 use subsurf_decoder::Btf;
 use subsurf_shaders::BtfStorage;
-use subsurf_shaders::uniform::{BTF_ROW, BtfBooks, BtfTexture};
+use subsurf_shaders::uniform::{BtfBooks, BtfTexture};
 use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
 
 use crate::context::Gpu;
 use crate::error::{Error, Result};
 use crate::ledger::Tracked;
-use crate::resource::{ROW, Slot, Surface2d, TextureSpec};
+use crate::resource::{Slot, Surface2d, TextureSpec};
 
 /// A BTF that was uploaded: its file, word by word, with a block that says where its codebooks are; or its images.
 #[derive(Debug)]
@@ -20,9 +20,6 @@ pub struct BtfMaterial {
     view: TextureView,
     block: Tracked<Buffer>,
 }
-
-// Shaders split the number of a word by this.
-const _: () = assert!(ROW == BTF_ROW, "words stand in rows of plain arrays");
 
 /// Bindings of a BTF's group, but for what says which of its materials is drawn.
 pub(crate) fn slots(storage: BtfStorage) -> [Slot; 2] {

@@ -1,6 +1,8 @@
 //! The reference path: every vertex gathers from all others within reach.
 
+use subsurf_scene::SurfacePoints;
 use subsurf_shaders::source;
+use subsurf_shaders::uniform::ROW;
 use subsurf_shaders::{Storage, uniform};
 use wgpu::{BindGroup, BindingResource, Buffer, TextureFormat};
 
@@ -11,8 +13,7 @@ use crate::ledger::Tracked;
 use crate::material::{Material, slots};
 use crate::mesh::{GpuMesh, MeshPass};
 use crate::pass::{CoverPass, Rows};
-use crate::resource::{ROW, Slot, Surface2d, TextureSpec, array_size};
-use crate::scene::Surface;
+use crate::resource::{Slot, Surface2d, TextureSpec, array_size};
 
 /// A point seldom has more than this many others within reach.
 const NEIGHBOURS: u64 = 4_096;
@@ -73,13 +74,13 @@ impl GpuPoints {
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no textures of that size.
-    pub fn upload(gpu: &Gpu, surface: &Surface) -> Result<Self> {
+    pub fn upload(gpu: &Gpu, surface: &SurfacePoints) -> Result<Self> {
         let table = |label, len, format, bytes: &[u8]| gpu.filled(&TextureSpec::array(label, len, format), bytes);
         let target = |label| gpu.texture(&TextureSpec::target(label, array_size(surface.len()), gpu.kept()));
         let count = surface.len();
         let float = TextureFormat::Rgba32Float;
         Ok(Self {
-            grid: gpu.uniform("grid", &surface.grid),
+            grid: gpu.uniform("grid", &uniform::Surface::new(surface)),
             positions: table("positions", count, float, bytemuck::cast_slice(&surface.positions))?,
             normals: table("normals", count, float, bytemuck::cast_slice(&surface.normals))?,
             visibilities: table("visibilities", count, float, bytemuck::cast_slice(&surface.visibilities))?,

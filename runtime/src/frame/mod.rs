@@ -25,8 +25,8 @@ use crate::ledger::Tracked;
 use crate::material::Material;
 use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
 use crate::resource::{Slot, Surface2d, TextureSpec};
-use crate::scene::{REFLECTION_LEVELS, REFLECTION_SIZE, Scene};
 use light_views::LightViews;
+use subsurf_scene::{REFLECTION_LEVELS, REFLECTION_SIZE, Scene};
 
 pub use btf::BtfOptions;
 pub use gather::GpuPoints;
@@ -343,7 +343,7 @@ impl Renderer {
     fn update(&self, gpu: &Gpu, frame: &mut Frame, model: &Model<'_>, scene: &Scene) -> Result<()> {
         let mesh = model.mesh();
         let plan = frame.plan;
-        let mut block = scene.block(&mesh.outline, plan.size, plan.light_texels);
+        let mut block = uniform::Scene::new(scene, &mesh.outline, plan.size, plan.light_texels);
         // Lights that came after the frame was prepared have no view: they shine once it is prepared anew.
         block.lights = block.lights.min(plan.lights);
         gpu.queue.write_buffer(&frame.common.block, 0, bytemuck::bytes_of(&block));

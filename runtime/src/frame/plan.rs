@@ -1,11 +1,12 @@
 //! How large the buffers of a frame are, and what they take, before any of them is made.
 
-use subsurf_shaders::uniform::{MAX_LIGHTS, Upsampling};
+use subsurf_scene::MAX_LIGHTS;
+use subsurf_shaders::uniform::Upsampling;
 use wgpu::TextureFormat;
 
 use crate::error::{Error, Result};
 use crate::mesh::DEPTH;
-use crate::scene::View;
+use subsurf_scene::View;
 
 /// Sizes of everything that a frame allocates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

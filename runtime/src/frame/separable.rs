@@ -15,7 +15,7 @@ use crate::factors::SeparableMaterial;
 use crate::ledger::Tracked;
 use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
 use crate::resource::{Slot, Surface2d, TextureSpec};
-use crate::scene::Scene;
+use subsurf_scene::Scene;
 
 /// Its pipelines.
 #[derive(Debug)]

@@ -21,7 +21,7 @@ use crate::material::{layers_of_level, slots};
 use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
 use crate::pass::{CoverPass, Rows, SquarePass};
 use crate::resource::{Slot, Surface2d, TextureSpec, level_of};
-use crate::scene::{Outline, Scene};
+use subsurf_scene::{Outline, Scene};
 
 const HALF: TextureFormat = TextureFormat::Rgba16Float;
 /// Edge of samples of the first ring, in pixels of the material.

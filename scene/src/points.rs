@@ -1,38 +1,48 @@
 //! The vertices of a mesh as points that exchange light: area, pixel of the material, and a grid to find neighbours.
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{UVec3, Vec2, Vec3, Vec4};
 use subsurf_decoder::bssrdf::{Addressing, Header};
-use subsurf_shaders::cpu::{self, Points};
-use subsurf_shaders::uniform::{self, MAX_LIGHTS};
 
-use super::mesh::Mesh;
-
-/// Where on a surface which pixel of the patch lies.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Mapping {
-    /// Texture coordinates: the unit square shows the patch this many times in u and in v.
-    Uv([f32; 2]),
-    /// In its own size, from the side that each normal faces most (box mapping).
-    Box,
-}
+use crate::light::MAX_LIGHTS;
+use crate::mapping::{Mapping, place_in_box};
+use crate::mesh::Mesh;
 
 /// Points of a surface, sorted into the cells of a grid.
 #[derive(Clone, Debug)]
-pub struct Surface {
-    pub(crate) grid: uniform::Surface,
-    pub(crate) positions: Vec<Vec4>,
-    pub(crate) normals: Vec<Vec4>,
-    pub(crate) visibilities: Vec<[f32; MAX_LIGHTS]>,
-    pub(crate) pixels: Vec<[u16; 2]>,
-    pub(crate) cell_starts: Vec<u32>,
+pub struct SurfacePoints {
+    /// The grid.
+    pub grid: PointGrid,
+    /// Position in mm, and the area in mm² that the point stands for.
+    pub positions: Vec<Vec4>,
+    /// Unit normal; 0 in the fourth place.
+    pub normals: Vec<Vec4>,
+    /// How much of each light reaches the point, 0 to 1.
+    pub visibilities: Vec<[f32; MAX_LIGHTS]>,
+    /// Pixel of the material at the point.
+    pub pixels: Vec<[u16; 2]>,
+    /// First point of every cell, `[z][y][x]`, and one more entry: the number of points.
+    pub cell_starts: Vec<u32>,
     /// The point of every vertex.
-    pub(crate) point_of: Vec<u32>,
+    pub point_of: Vec<u32>,
+}
+
+/// Grid of cubes around a surface, to find neighbouring points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointGrid {
+    /// Lowest corner, in mm.
+    pub origin_mm: Vec3,
+    /// Edge of a cell, in mm.
+    pub cell_mm: f32,
+    /// Cells in x, y and z.
+    pub cells: UVec3,
+    /// Number of points.
+    pub points: u32,
 }
 
 /// Cells to a side, at most: the grid stays small however large the mesh is.
 const MAX_CELLS: f32 = 96.0;
 
-impl Surface {
+impl SurfacePoints {
     /// Spreads a material over a mesh. `visibilities` says of every vertex how much of each light reaches it,
     /// 0 to 1.
     ///
@@ -72,7 +82,7 @@ impl Surface {
         let areas = mesh.vertex_areas();
         let by_point = || order.iter().map(|&vertex| vertex as usize);
         Self {
-            grid: uniform::Surface { origin_mm: low.into(), cell_mm, cells: cells.into(), points: vertices },
+            grid: PointGrid { origin_mm: low, cell_mm, cells, points: vertices },
             positions: by_point().map(|v| mesh.positions[v].extend(areas[v])).collect(),
             normals: by_point().map(|v| mesh.normals[v].extend(0.0)).collect(),
             visibilities: by_point().map(|v| visibilities[v]).collect(),
@@ -93,30 +103,6 @@ impl Surface {
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
     }
-
-    /// Irradiance that enters at every point.
-    #[must_use]
-    pub fn irradiance(&self, scene: &uniform::Scene) -> Vec<[f32; 3]> {
-        cpu::irradiance(scene, &self.positions, &self.normals, &self.visibilities)
-    }
-
-    /// The point of every vertex of the mesh.
-    #[must_use]
-    pub fn point_of(&self) -> &[u32] {
-        &self.point_of
-    }
-
-    /// How much of each light reaches every point.
-    #[must_use]
-    pub fn visibilities(&self) -> &[[f32; MAX_LIGHTS]] {
-        &self.visibilities
-    }
-
-    /// The points as the CPU twin of the pass takes them.
-    #[must_use]
-    pub fn points(&self) -> Points<'_> {
-        Points { surface: self.grid, positions: &self.positions, pixels: &self.pixels, cell_starts: &self.cell_starts }
-    }
 }
 
 fn pixel_of(mesh: &Mesh, vertex: usize, mapping: Mapping, header: &Header) -> [u16; 2] {
@@ -128,10 +114,7 @@ fn pixel_of(mesh: &Mesh, vertex: usize, mapping: Mapping, header: &Header) -> [u
             let uv = uvs[vertex] * Vec2::from(times);
             Vec2::new(uv.x, 1.0 - uv.y) * size
         }
-        _ => {
-            cpu::place_in_box(mesh.positions[vertex], mesh.normals[vertex], header.pitch_mm) / header.pitch_mm
-                + 0.5 * size
-        }
+        _ => place_in_box(mesh.positions[vertex], mesh.normals[vertex], header.pitch_mm) / header.pitch_mm + 0.5 * size,
     };
     let addressing = match header.addressing {
         Addressing::Clamp => Addressing::Mirror,

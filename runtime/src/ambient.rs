@@ -6,10 +6,10 @@ use std::collections::HashMap;
 use glam::{IVec3, Vec3};
 use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
+use subsurf_scene::Mesh;
 use subsurf_shaders::cpu::Rgb;
 use subsurf_shaders::separable::mean_profile;
 
-use super::mesh::Mesh;
 use crate::error::Result;
 
 /// Light that scatters to a vertex under light from all around, by what it would be on flat ground, which is 1; rgb.
@@ -38,7 +38,7 @@ impl SkyShare {
     /// space.
     ///
     /// # Errors
-    /// [`crate::Error::Mesh`] if the mesh is too large for the material's pixels.
+    /// [`crate::Error::Scene`] if the mesh is too large for the material's pixels.
     pub fn of(mesh: &Mesh, material: &Bssrdf<'_>) -> Result<Vec<Self>> {
         let header = material.header();
         let profile = mean_profile(material);

@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{Vec2, Vec3};
 
-use super::mesh::Mesh;
+use super::Mesh;
 
 /// Quads around a rounded edge.
 const EDGE: u16 = 8;

@@ -1,10 +1,15 @@
 //! Triangle meshes, checked once.
 
+mod shapes;
+mod tangents;
+
 use std::collections::HashMap;
 
 use glam::{Vec2, Vec3};
 
 use crate::error::{Error, Result};
+
+pub use shapes::{bowl, drapery, knot, relief, sphere, torus};
 
 /// A triangle mesh.
 #[derive(Clone, Debug)]
@@ -67,6 +72,18 @@ impl Mesh {
         [low, high]
     }
 
+    /// The mesh scaled so that its longest side is `extent_mm`, its middle at the origin.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] if it has no extent, or `extent_mm` is not positive.
+    pub fn fitted(self, extent_mm: f32) -> Result<Self> {
+        let [low, high] = self.bounds();
+        let middle = 0.5 * (low + high);
+        let positions = self.positions.iter().map(|position| *position - middle).collect();
+        let scale = extent_mm / (high - low).max_element();
+        Self::new(positions, self.normals, self.uvs, self.triangles, scale)
+    }
+
     /// The mesh with no edge longer than `longest_mm`: long edges are halved until there are none, so that light and
     /// material are sampled finely enough on large triangles. Positions stay on the given triangles.
     ///
@@ -97,7 +114,8 @@ impl Mesh {
     }
 
     /// A third of the triangles around each vertex, in mm².
-    pub(crate) fn vertex_areas(&self) -> Vec<f32> {
+    #[must_use]
+    pub fn vertex_areas(&self) -> Vec<f32> {
         let mut areas = vec![0.0; self.positions.len()];
         for triangle in &self.triangles {
             let [a, b, c] = triangle.map(|k| self.positions[k as usize]);

@@ -7,7 +7,9 @@ use bvh::ray::Ray;
 use glam::Vec3;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
-use subsurf_runtime::scene::{Light, Mesh};
+
+use super::source::Light;
+use crate::mesh::Mesh;
 
 struct Triangle {
     corners: [Point3<f32>; 3],
@@ -34,7 +36,8 @@ impl BHShape<f32, 3> for Triangle {
 const OFFSET: f32 = 2e-3;
 
 /// 1 for every vertex that a light reaches, 0 for those in shadow.
-pub(crate) fn visibility(mesh: &Mesh, light: &Light) -> Vec<f32> {
+#[must_use]
+pub fn visibility(mesh: &Mesh, light: &Light) -> Vec<f32> {
     let point = |v: Vec3| Point3::new(v.x, v.y, v.z);
     let corners = |triangle: &[u32; 3]| triangle.map(|k| point(mesh.positions[k as usize]));
     let mut triangles: Vec<Triangle> =
@@ -64,7 +67,8 @@ pub(crate) fn visibility(mesh: &Mesh, light: &Light) -> Vec<f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use subsurf_runtime::scene::{LightShape, sphere, torus};
+    use crate::light::LightShape;
+    use crate::mesh::{sphere, torus};
 
     fn sun(towards: Vec3) -> Light {
         Light { shape: LightShape::Directional { towards }, irradiance: [1.0; 3] }

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3, Vec4};
 
-use super::mesh::Mesh;
+use super::Mesh;
 use crate::error::{Error, Result};
 
 impl Mesh {
@@ -51,7 +51,7 @@ fn slopes([e1, e2]: [Vec3; 2], [t1, t2]: [Vec2; 2]) -> [Vec3; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{sphere, torus};
+    use crate::mesh::{sphere, torus};
 
     #[test]
     fn tangents_follow_texture_coordinates() {

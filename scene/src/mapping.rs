@@ -1,6 +1,15 @@
-//! Twin of `mapping.wgsl`.
+//! Which pixel of a material lies where on a surface; the twin of `mapping.wgsl`.
 
 use glam::{UVec3, Vec2, Vec3};
+
+/// Where on a surface which pixel of the patch lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mapping {
+    /// Texture coordinates: the unit square shows the patch this many times in u and in v.
+    Uv([f32; 2]),
+    /// In its own size, from the side that each normal faces most (box mapping).
+    Box,
+}
 
 /// Shares of the three sides of a box that a normal faces.
 fn sides_of(normal: Vec3) -> Vec3 {
