@@ -96,7 +96,14 @@ impl LightSource {
             LightShape::Spot { position_mm, target_mm, half_angle } => {
                 let half_angle = half_angle.clamp(0.01, WIDEST);
                 let cone = [half_angle.cos(), (0.9 * half_angle).cos()];
-                Self::local(light, position_mm, target_mm - position_mm, half_angle, cone, (centre_mm, radius_mm, texels))
+                Self::local(
+                    light,
+                    position_mm,
+                    target_mm - position_mm,
+                    half_angle,
+                    cone,
+                    (centre_mm, radius_mm, texels),
+                )
             }
         }
     }
@@ -129,6 +136,7 @@ impl LightSource {
             ..Default::default()
         }
     }
+}
 
 /// From `eye` along a unit vector.
 fn looking(eye: Vec3, along: Vec3) -> Mat4 {
