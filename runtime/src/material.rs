@@ -3,7 +3,7 @@
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{BaseMaterials, Header, Mixtures, Model, Profiles};
 use subsurf_shaders::Storage;
-use subsurf_shaders::uniform::{self, BASE_ROWS};
+use subsurf_shaders::uniform::{self, BASE_ROWS, ROW};
 use wgpu::{BindingResource, Buffer, TextureFormat, TextureView, TextureViewDescriptor, TextureViewDimension};
 
 use crate::context::Gpu;
