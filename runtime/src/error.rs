@@ -2,7 +2,7 @@
 
 use subsurf_decoder::ReadError;
 
-use crate::context::Backend;
+use crate::gpu::Backend;
 
 /// Result of this crate.
 pub type Result<T> = std::result::Result<T, Error>;

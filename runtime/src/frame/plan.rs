@@ -1,12 +1,11 @@
 //! How large the buffers of a frame are, and what they take, before any of them is made.
 
-use subsurf_scene::MAX_LIGHTS;
+use subsurf_scene::{MAX_LIGHTS, View};
 use subsurf_shaders::uniform::Upsampling;
 use wgpu::TextureFormat;
 
 use crate::error::{Error, Result};
-use crate::mesh::DEPTH;
-use subsurf_scene::View;
+use crate::gpu::DEPTH;
 
 /// Sizes of everything that a frame allocates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

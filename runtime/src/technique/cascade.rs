@@ -1,17 +1,11 @@
 //! Weighted irradiance maps, and the cascade of Gaussians over them.
 
 use subsurf_shaders::source::{self, Domain};
-use wgpu::{BindGroup, BindingResource, CommandEncoder, TextureFormat, TextureView};
+use wgpu::{BindGroup, BindingResource, CommandEncoder, TextureView};
 
-use crate::context::Gpu;
+use crate::asset::SeparableMaterial;
 use crate::error::Result;
-use crate::factors::SeparableMaterial;
-use crate::material::layers_of;
-use crate::pass::{CoverPass, Rows};
-use crate::resource::{Slot, Surface2d, TextureSpec, layer_of};
-
-/// Format of maps of flat patches, which are sampled.
-pub(crate) const MAP: TextureFormat = TextureFormat::Rgba16Float;
+use crate::gpu::{CoverPass, Gpu, HALF, Rows, Slot, Surface2d, TextureSpec, layer_of, layers_of};
 
 /// L maps in one texture.
 #[derive(Debug)]
@@ -36,7 +30,7 @@ impl Maps {
     /// What [`Maps::new`] takes on the device.
     pub(crate) fn bytes_of(size: [u32; 2], terms: usize) -> u64 {
         let count = u32::try_from(terms).unwrap_or(u32::MAX);
-        TextureSpec::layered("", size, count, MAP).bytes()
+        TextureSpec::layered("", size, count, HALF).bytes()
     }
 
     pub(crate) fn bytes(&self) -> u64 {

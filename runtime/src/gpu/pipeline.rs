@@ -9,9 +9,9 @@ use wgpu::{
     VertexBufferLayout, VertexState,
 };
 
-use crate::context::Gpu;
+use super::device::Gpu;
+use super::slot::{Slot, layout_entries};
 use crate::error::Result;
-use crate::resource::{Slot, layout_entries};
 
 /// A shader that is compiled for its targets, and the layouts of its bind groups.
 #[derive(Debug)]

@@ -5,10 +5,8 @@ use subsurf_shaders::BtfStorage;
 use subsurf_shaders::uniform::{BtfBooks, BtfTexture};
 use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
 
-use crate::context::Gpu;
 use crate::error::{Error, Result};
-use crate::ledger::Tracked;
-use crate::resource::{Slot, Surface2d, TextureSpec};
+use crate::gpu::{Gpu, Slot, Surface2d, TextureSpec, Tracked};
 
 /// A BTF that was uploaded: its file, word by word, with a block that says where its codebooks are; or its images.
 #[derive(Debug)]

@@ -1,21 +1,19 @@
 //! The separable path on the screen: weighted irradiance where the eye sees the mesh, blurred by distances in space.
 
+use subsurf_scene::Scene;
 use subsurf_shaders::separable::MAX_TERMS;
 use subsurf_shaders::source::{self, Domain};
 use subsurf_shaders::uniform::{self, ScreenDomain, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureFormat};
 
+use super::cascade::{BlurPasses, Cascade};
+use super::common::{COMMON, Common, Lap, encoding_of};
 use super::light_views::{FAR, LightViews};
-use super::plan::Plan;
-use super::{COMMON, Common, Lap, encoding_of};
-use crate::cascade::{BlurPasses, Cascade};
-use crate::context::Gpu;
+use super::mesh_pass::{MeshPass, Target};
+use crate::asset::{GpuMesh, SeparableMaterial};
 use crate::error::{Error, Result};
-use crate::factors::SeparableMaterial;
-use crate::ledger::Tracked;
-use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
-use crate::resource::{Slot, Surface2d, TextureSpec};
-use subsurf_scene::Scene;
+use crate::frame::plan::Plan;
+use crate::gpu::{DEPTH, Gpu, Slot, Surface2d, TextureSpec, Tracked};
 
 /// Its pipelines.
 #[derive(Debug)]

@@ -1,89 +1,19 @@
-//! Multiresolution splatting: light of samples that lights see, spread in space, ring by ring.
-//!
-//! The reach of scattering is cut into rings, each twice as wide as the one before. A wider ring takes its samples from a
-//! coarser level of what the light sees, and adds them to a target of half the size: every ring costs about as many
-//! fragments for each sample, and a quarter of the samples.
+//! What splats draw to for one size of picture, and how they are recorded.
 
 use glam::{Mat4, Vec3};
-use subsurf_shaders::Storage;
-use subsurf_shaders::source;
-use subsurf_shaders::uniform::{self, MAX_RINGS, Rings, Splat, Upsampling, Which};
-use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureFormat, TextureView};
-
-use super::light_views::{FAR, LightViews};
-use super::plan::Plan;
-use super::{COMMON, Common, Lap, encoding_of};
-use crate::context::Gpu;
-use crate::error::Result;
-use crate::factors::SplatMaterial;
-use crate::ledger::Tracked;
-use crate::material::{layers_of_level, slots};
-use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
-use crate::pass::{CoverPass, Rows, SquarePass};
-use crate::resource::{Slot, Surface2d, TextureSpec, level_of};
 use subsurf_scene::{Outline, Scene};
+use subsurf_shaders::uniform::{self, MAX_RINGS, Rings, Splat, Upsampling, Which};
+use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureView};
 
-const HALF: TextureFormat = TextureFormat::Rgba16Float;
-/// Edge of samples of the first ring, in pixels of the material.
-const SAMPLE_PIXELS: f32 = 1.0;
-/// Where the first ring begins to fade out, in edges of its samples, and where it ends.
-const RING: f32 = 2.0;
-const FADE: f32 = 1.6;
-/// Texels of the finest target to an edge of a sample of the first ring.
-const TEXELS_PER_SAMPLE: f32 = 2.0;
-
-/// Its pipelines.
-#[derive(Debug)]
-pub(crate) struct Passes {
-    storage: Storage,
-    view: MeshPass,
-    reduce: CoverPass,
-    splat: SquarePass,
-    collapse: CoverPass,
-    pub(crate) shade: MeshPass,
-}
-
-/// How samples and rings go with a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Levels {
-    /// Level of what lights see that the first ring takes its samples from.
-    first: u32,
-    /// Number of rings.
-    rings: u32,
-}
-
-impl Levels {
-    /// For views of `light_texels` to a side that see a mesh of a certain size.
-    pub(crate) fn new(outline: &Outline, light_texels: u32) -> Self {
-        #[allow(clippy::cast_precision_loss, reason = "a thousand")]
-        let texel_mm = 2.0 * outline.radius_mm / light_texels as f32;
-        let sample_mm = SAMPLE_PIXELS * outline.header.pitch_mm;
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-        let first = (sample_mm / texel_mm).log2().round().clamp(1.0, 5.0) as u32;
-        #[allow(clippy::cast_precision_loss, reason = "small")]
-        let first_mm = texel_mm * (1_u32 << first) as f32;
-        let reach = outline.header.r_max_mm / (RING * first_mm);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-        let rings = (reach.log2().ceil() + 1.0).clamp(1.0, MAX_RINGS as f32) as u32;
-        Self { first, rings: rings.min(light_texels.ilog2().saturating_sub(first).max(1)) }
-    }
-
-    /// Levels that lights' views have.
-    pub(crate) fn count(&self) -> u32 {
-        self.first + self.rings
-    }
-}
-
-/// Pixels of the picture to a side of a texel of the finest target.
-pub(crate) fn divisor(outline: &Outline, light_texels: u32, pixels_per_mm: f32) -> u32 {
-    let levels = Levels::new(outline, light_texels);
-    #[allow(clippy::cast_precision_loss, reason = "small")]
-    let sample_mm = 2.0 * outline.radius_mm / light_texels as f32 * (1_u32 << levels.first) as f32;
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-    let divisor = (sample_mm * pixels_per_mm / TEXELS_PER_SAMPLE).clamp(1.0, 8.0) as u32;
-    // Of what is no number nothing is left.
-    divisor.max(1)
-}
+use super::levels::{FADE, Levels, RING, ring_size};
+use super::passes::Passes;
+use crate::asset::{GpuMesh, SplatMaterial};
+use crate::error::Result;
+use crate::frame::plan::Plan;
+use crate::gpu::{DEPTH, Gpu, HALF, Rows, Surface2d, TextureSpec, Tracked, layers_of_level, level_of};
+use crate::technique::common::{Common, Lap};
+use crate::technique::light_views::{FAR, LightViews};
+use crate::technique::mesh_pass::Target;
 
 /// Its buffers, for one size of picture.
 #[derive(Debug)]
@@ -127,43 +57,6 @@ struct Draw {
     refines: bool,
     block: Tracked<Buffer>,
     group: BindGroup,
-}
-
-impl Passes {
-    pub(crate) fn new(gpu: &Gpu, storage: Storage, format: TextureFormat, samples: u32) -> Result<Self> {
-        gpu.expect_halves("splats")?;
-        let of_view: [&[Slot]; 2] = [&[Slot::Uniform], &[Slot::FilteredLayers, Slot::Sampler]];
-        let of_reduce = [Slot::Uniform, Slot::KeptLayers, Slot::KeptLayers, Slot::KeptLayers];
-        let of_splat =
-            [Slot::Uniform, Slot::FloatLayers, Slot::FloatLayers, Slot::FloatLayers, Slot::Float, Slot::Float];
-        let mut of_collapse = vec![Slot::Uniform];
-        of_collapse.extend([Slot::Float; 2 + MAX_RINGS]);
-        let of_shade = [Slot::FilteredLayers, Slot::Sampler, Slot::Uniform, Slot::Float];
-        let splat = source::splat(storage);
-        let shade = source::shade_splats(encoding_of(format));
-        Ok(Self {
-            storage,
-            view: MeshPass::new(gpu, source::SURFACE_VIEW, "view", &of_view, &[HALF; 3], 1)?,
-            reduce: CoverPass::new(gpu, source::REDUCE, "reduce", &[&of_reduce], &[HALF; 3])?,
-            splat: SquarePass::new(gpu, splat, "splat", &[slots(storage), &of_splat], HALF)?,
-            collapse: CoverPass::new(gpu, source::COLLAPSE, "collapse", &[&of_collapse], &[HALF])?,
-            shade: MeshPass::new(gpu, shade, "shade", &[&COMMON, &of_shade], &[format], samples)?,
-        })
-    }
-
-    /// Bytes that a plan takes for a mesh.
-    pub(crate) fn bytes(&self, plan: &Plan, outline: &Outline) -> u64 {
-        let levels = Levels::new(outline, plan.light_texels);
-        let size = plan.map_size();
-        let half = |size| TextureSpec::target("", size, HALF).bytes();
-        let rings: u64 = (0..levels.rings).map(|ring| half(ring_size(size, ring))).sum();
-        4 * half(size) + TextureSpec::target("", size, DEPTH).bytes() + rings + plan.light_bytes(levels.count())
-    }
-}
-
-/// Texels of a ring's target, when the finest has `size`.
-fn ring_size(size: [u32; 2], ring: u32) -> [u32; 2] {
-    size.map(|side| side.div_ceil(1 << ring).max(1))
 }
 
 impl Buffers {

@@ -1,19 +1,14 @@
 //! The reference path: every vertex gathers from all others within reach.
 
-use subsurf_scene::SurfacePoints;
-use subsurf_shaders::source;
 use subsurf_shaders::uniform::ROW;
-use subsurf_shaders::{Storage, uniform};
-use wgpu::{BindGroup, BindingResource, Buffer, TextureFormat};
+use subsurf_shaders::{Storage, source, uniform};
+use wgpu::{BindGroup, BindingResource, TextureFormat};
 
-use super::{COMMON, Common, encoding_of};
-use crate::context::Gpu;
-use crate::error::{Error, Result};
-use crate::ledger::Tracked;
-use crate::material::{Material, slots};
-use crate::mesh::{GpuMesh, MeshPass};
-use crate::pass::{CoverPass, Rows};
-use crate::resource::{Slot, Surface2d, TextureSpec, array_size};
+use super::common::{COMMON, Common, encoding_of};
+use super::mesh_pass::MeshPass;
+use crate::asset::{GpuMesh, GpuPoints, Material, slots};
+use crate::error::Result;
+use crate::gpu::{CoverPass, Gpu, Rows, Slot, array_size};
 
 /// A point seldom has more than this many others within reach.
 const NEIGHBOURS: u64 = 4_096;
@@ -25,20 +20,6 @@ pub(crate) struct Passes {
     irradiance: CoverPass,
     gather: CoverPass,
     pub(crate) shade: MeshPass,
-}
-
-/// The points of a mesh on the device, and the light at them.
-#[derive(Debug)]
-pub struct GpuPoints {
-    grid: Tracked<Buffer>,
-    positions: Surface2d,
-    normals: Surface2d,
-    visibilities: Surface2d,
-    pixels: Surface2d,
-    cell_starts: Surface2d,
-    irradiance: Surface2d,
-    exitance: Surface2d,
-    count: usize,
 }
 
 /// What is bound for one frame.
@@ -66,54 +47,6 @@ impl Passes {
             gather: CoverPass::new(gpu, gather, "surface_gather", &[slots(storage), &of_points], &[gpu.kept()])?,
             shade: MeshPass::new(gpu, shade, "shade", &[&COMMON, &of_shade], &[format], samples)?,
         })
-    }
-}
-
-impl GpuPoints {
-    /// Uploads the points of a mesh.
-    ///
-    /// # Errors
-    /// [`Error::Unsupported`] if the device takes no textures of that size.
-    pub fn upload(gpu: &Gpu, surface: &SurfacePoints) -> Result<Self> {
-        let table = |label, len, format, bytes: &[u8]| gpu.filled(&TextureSpec::array(label, len, format), bytes);
-        let target = |label| gpu.texture(&TextureSpec::target(label, array_size(surface.len()), gpu.kept()));
-        let count = surface.len();
-        let float = TextureFormat::Rgba32Float;
-        Ok(Self {
-            grid: gpu.uniform("grid", &uniform::Surface::new(surface)),
-            positions: table("positions", count, float, bytemuck::cast_slice(&surface.positions))?,
-            normals: table("normals", count, float, bytemuck::cast_slice(&surface.normals))?,
-            visibilities: table("visibilities", count, float, bytemuck::cast_slice(&surface.visibilities))?,
-            pixels: table("pixels", count, TextureFormat::Rg16Uint, bytemuck::cast_slice(&surface.pixels))?,
-            cell_starts: table(
-                "cell starts",
-                surface.cell_starts.len(),
-                TextureFormat::R32Uint,
-                bytemuck::cast_slice(&surface.cell_starts),
-            )?,
-            irradiance: target("irradiance")?,
-            exitance: target("exitance")?,
-            count,
-        })
-    }
-
-    /// Refuses points that are not those of a mesh, or not those of which there are `bound`.
-    fn expect(&self, mesh: &GpuMesh, bound: usize) -> Result<()> {
-        if mesh.points <= self.count && self.count == bound {
-            return Ok(());
-        }
-        let (have, want) = (self.count, mesh.points.max(bound));
-        Err(Error::Device(format!("{have} points for a mesh that names {want}: they are of another surface")))
-    }
-
-    /// Exitance of every point as it was last gathered, linear rgb.
-    ///
-    /// # Errors
-    /// [`Error::Device`].
-    pub fn read(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>> {
-        let mut texels = gpu.read_rgb(&self.exitance.texture)?;
-        texels.truncate(self.count);
-        Ok(texels)
     }
 }
 

@@ -4,13 +4,11 @@ use subsurf_shaders::source;
 use subsurf_shaders::uniform::Which;
 use wgpu::{BindGroup, Buffer, Color, CommandEncoder, TextureView};
 
-use super::plan::{Plan, light_layers};
-use crate::context::Gpu;
+use super::mesh_pass::{MeshPass, Target};
+use crate::asset::GpuMesh;
 use crate::error::Result;
-use crate::ledger::Tracked;
-use crate::material::layers_of;
-use crate::mesh::{DEPTH, GpuMesh, MeshPass, Target};
-use crate::resource::{Slot, Surface2d, TextureSpec, level_of};
+use crate::frame::plan::{Plan, light_layers};
+use crate::gpu::{DEPTH, Gpu, Slot, Surface2d, TextureSpec, Tracked, layers_of, level_of};
 
 /// Where nothing is seen, it is this far away, in mm: the largest that half floats hold, or nearly.
 pub(crate) const FAR: Color = Color { r: 0.0, g: 0.0, b: 0.0, a: 60_000.0 };

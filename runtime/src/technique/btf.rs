@@ -2,15 +2,13 @@
 
 use subsurf_shaders::uniform::BtfFiltering;
 use subsurf_shaders::{BtfStorage, source};
-use wgpu::{BindGroup, Buffer};
+use wgpu::{BindGroup, Buffer, TextureFormat};
 
-use super::{COMMON, RuntimeOptions, encoding_of};
-use crate::btf::{BtfMaterial, slots};
-use crate::context::Gpu;
+use super::common::{COMMON, encoding_of};
+use super::mesh_pass::MeshPass;
+use crate::asset::{BtfMaterial, btf_slots};
 use crate::error::{Error, Result};
-use crate::ledger::Tracked;
-use crate::mesh::MeshPass;
-use crate::resource::Slot;
+use crate::gpu::{Gpu, Slot, Tracked};
 
 /// How BTFs are looked up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,11 +45,16 @@ pub(crate) struct Buffers {
 }
 
 impl Passes {
-    pub(crate) fn new(gpu: &Gpu, storage: BtfStorage, options: &RuntimeOptions) -> Result<Self> {
-        let [block, texture] = slots(storage);
+    pub(crate) fn new(
+        gpu: &Gpu,
+        storage: BtfStorage,
+        options: BtfOptions,
+        format: TextureFormat,
+        samples: u32,
+    ) -> Result<Self> {
+        let [block, texture] = btf_slots(storage);
         let of_btf = [block, texture, Slot::Uniform];
-        let RuntimeOptions { format, samples, btf, .. } = *options;
-        let shader = source::shade_btf(encoding_of(format), storage, btf.samples > 0);
+        let shader = source::shade_btf(encoding_of(format), storage, options.samples > 0);
         Ok(Self { storage, shade: MeshPass::textured(gpu, shader, "shade", &[&COMMON, &of_btf], &[format], samples)? })
     }
 }

@@ -7,44 +7,14 @@ use pollster::block_on;
 use subsurf_shaders::source::Keeping;
 use wgpu::rwh::HasDisplayHandle;
 use wgpu::{
-    Adapter, AdapterInfo, Backends, Color, Device, DeviceDescriptor, DeviceType, ErrorFilter, ExperimentalFeatures,
-    Extent3d, Features, GlDebugFns, Instance, InstanceDescriptor, InstanceFlags, Limits, MemoryHints, Queue, Surface,
-    SurfaceTarget, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages, Trace,
+    Adapter, AdapterInfo, Color, Device, DeviceDescriptor, ErrorFilter, ExperimentalFeatures, Extent3d, Features,
+    Instance, Limits, MemoryHints, Queue, Surface, SurfaceTarget, TextureDescriptor, TextureDimension, TextureFormat,
+    TextureUsages, Trace,
 };
 
+use super::backend::{Backend, adapters, instance};
+use super::ledger::Ledger;
 use crate::error::{Error, Result};
-use crate::ledger::Ledger;
-use crate::resource::{Surface2d, TextureSpec};
-
-/// A graphics API.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Backend {
-    /// Vulkan.
-    Vulkan,
-    /// OpenGL ES 3.0 and up, or OpenGL where that is what the driver opens.
-    Gl,
-}
-
-impl fmt::Display for Backend {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Vulkan => "Vulkan",
-            Self::Gl => "OpenGL ES",
-        })
-    }
-}
-
-impl Backend {
-    /// Both of them.
-    pub const ALL: [Self; 2] = [Self::Vulkan, Self::Gl];
-
-    fn flag(self) -> Backends {
-        match self {
-            Self::Vulkan => Backends::VULKAN,
-            Self::Gl => Backends::GL,
-        }
-    }
-}
 
 /// A device and its queue, opened with the limits of WebGL2 and the ledger of what lives on it.
 #[derive(Debug)]
@@ -54,18 +24,6 @@ pub struct Gpu {
     keeping: Keeping,
     info: AdapterInfo,
     ledger: Ledger,
-}
-
-/// A picture that stays on the device.
-#[derive(Debug)]
-pub struct PictureTarget(pub(crate) Surface2d);
-
-impl PictureTarget {
-    /// To be drawn to.
-    #[must_use]
-    pub fn view(&self) -> &wgpu::TextureView {
-        &self.0.view
-    }
 }
 
 /// A device that draws to a window, and what makes the window's surface anew when it is lost.
@@ -79,40 +37,6 @@ pub struct OnScreen<'w> {
     pub instance: Instance,
     /// Knows which formats the surface has.
     pub adapter: Adapter,
-}
-
-fn instance(backend: Backend) -> InstanceDescriptor {
-    let mut descriptor = InstanceDescriptor {
-        backends: backend.flag(),
-        flags: InstanceFlags::empty(),
-        ..InstanceDescriptor::new_without_display_handle()
-    };
-    // Debug groups crash drivers of Mali and Adreno.
-    descriptor.backend_options.gl.debug_fns = GlDebugFns::Disabled;
-    descriptor
-}
-
-/// Devices before software renderers, large before small.
-fn rank(info: &AdapterInfo) -> u8 {
-    match info.device_type {
-        DeviceType::DiscreteGpu => 0,
-        DeviceType::IntegratedGpu => 1,
-        DeviceType::VirtualGpu => 2,
-        DeviceType::Other => 3,
-        DeviceType::Cpu => 4,
-    }
-}
-
-fn adapters(instance: &Instance, backend: Backend) -> Vec<Adapter> {
-    let mut adapters = block_on(instance.enumerate_adapters(backend.flag()));
-    adapters.sort_by_key(|adapter| rank(&adapter.get_info()));
-    adapters
-}
-
-/// What there is to draw with on this machine, the best first.
-#[must_use]
-pub fn devices(backend: Backend) -> Vec<AdapterInfo> {
-    adapters(&Instance::new(instance(backend)), backend).iter().map(Adapter::get_info).collect()
 }
 
 /// Half floats where they can be drawn to: it takes GL_EXT_color_buffer_half_float or GL_EXT_color_buffer_float.
@@ -242,22 +166,6 @@ impl Gpu {
     #[must_use]
     pub fn ledger(&self) -> &Ledger {
         &self.ledger
-    }
-
-    /// A texture to draw pictures of `size` to.
-    ///
-    /// # Errors
-    /// [`Error::Unsupported`] if it is too large.
-    pub fn target(&self, size: [u32; 2], format: wgpu::TextureFormat) -> Result<PictureTarget> {
-        Ok(PictureTarget(self.texture(&TextureSpec::target("picture", size, format))?))
-    }
-
-    /// The texels of such a picture of four bytes to a texel, row by row from the top, as they stand in it.
-    ///
-    /// # Errors
-    /// [`Error::Device`].
-    pub fn read_picture(&self, target: &PictureTarget) -> Result<Vec<[u8; 4]>> {
-        self.read(&target.0.texture)
     }
 
     /// Runs `work` and turns what the device complains about into an error.

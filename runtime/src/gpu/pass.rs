@@ -5,10 +5,10 @@ use wgpu::{
     CommandEncoderDescriptor, LoadOp, PrimitiveTopology, TextureFormat, TextureView,
 };
 
-use crate::context::Gpu;
+use super::device::Gpu;
+use super::pipeline::{Drawing, Pipeline, Program, attachment};
+use super::slot::Slot;
 use crate::error::Result;
-use crate::pipeline::{Drawing, Pipeline, Program, attachment};
-use crate::resource::Slot;
 
 /// A pass that covers its whole target with one triangle.
 #[derive(Debug)]

@@ -5,11 +5,9 @@ use subsurf_shaders::BtfStorage;
 use subsurf_shaders::uniform::{self, BtfTexture, MAX_RINGS_OF_DIRECTIONS};
 use wgpu::TextureFormat;
 
-use super::material::BtfMaterial;
-use crate::context::Gpu;
+use super::btf::BtfMaterial;
 use crate::error::{Error, Result};
-use crate::material::layers_of;
-use crate::resource::TextureSpec;
+use crate::gpu::{Gpu, TextureSpec, layers_of};
 
 /// Images of one material, one for every pair of a light and a view.
 #[derive(Clone, Copy, Debug)]

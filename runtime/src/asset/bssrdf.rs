@@ -4,12 +4,10 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{BaseMaterials, Header, Mixtures, Model, Profiles};
 use subsurf_shaders::Storage;
 use subsurf_shaders::uniform::{self, BASE_ROWS, ROW};
-use wgpu::{BindingResource, Buffer, TextureFormat, TextureView, TextureViewDescriptor, TextureViewDimension};
+use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
 
-use crate::context::Gpu;
 use crate::error::{Error, Result};
-use crate::ledger::Tracked;
-use crate::resource::{Slot, Surface2d, TextureSpec};
+use crate::gpu::{Gpu, Slot, Surface2d, TextureSpec, Tracked, layers_of};
 
 /// How a file is stored on the device.
 #[must_use]
@@ -221,20 +219,4 @@ impl Planes<'_> {
             }
         }
     }
-}
-
-/// All layers of one level.
-pub(crate) fn layers_of_level(surface: &Surface2d, level: u32) -> TextureView {
-    surface.texture.create_view(&TextureViewDescriptor {
-        dimension: Some(TextureViewDimension::D2Array),
-        base_mip_level: level,
-        mip_level_count: Some(1),
-        ..Default::default()
-    })
-}
-
-pub(crate) fn layers_of(surface: &Surface2d) -> TextureView {
-    surface
-        .texture
-        .create_view(&TextureViewDescriptor { dimension: Some(TextureViewDimension::D2Array), ..Default::default() })
 }

@@ -1,19 +1,20 @@
-//! Textures and buffers, entered into the ledger, filled and read back.
+//! Textures and buffers, entered into the ledger and filled.
 
 use bytemuck::Pod;
-use half::f16;
-use subsurf_shaders::source::Keeping;
 use subsurf_shaders::uniform::ROW;
 use wgpu::{
-    BindGroupLayoutEntry, BindingType, Buffer, BufferBindingType, BufferUsages, CommandEncoderDescriptor, Extent3d,
-    SamplerBindingType, ShaderStages, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture, TextureDescriptor,
-    TextureDimension, TextureFormat, TextureSampleType, TextureUsages, TextureView, TextureViewDescriptor,
-    TextureViewDimension,
+    Buffer, BufferUsages, Extent3d, TexelCopyBufferLayout, Texture, TextureDescriptor, TextureDimension, TextureFormat,
+    TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
 };
 
-use crate::context::Gpu;
+use super::device::Gpu;
+use super::ledger::Tracked;
 use crate::error::{Error, Result};
-use crate::ledger::Tracked;
+
+/// Depth of the pictures.
+pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth24Plus;
+/// Values that passes add up or sample.
+pub(crate) const HALF: TextureFormat = TextureFormat::Rgba16Float;
 
 /// What a texture is to hold.
 pub(crate) struct TextureSpec {
@@ -106,6 +107,22 @@ pub(crate) fn level_of(surface: &Surface2d, layer: u32, level: u32) -> TextureVi
     })
 }
 
+/// All layers of one level.
+pub(crate) fn layers_of_level(surface: &Surface2d, level: u32) -> TextureView {
+    surface.texture.create_view(&TextureViewDescriptor {
+        dimension: Some(TextureViewDimension::D2Array),
+        base_mip_level: level,
+        mip_level_count: Some(1),
+        ..Default::default()
+    })
+}
+
+pub(crate) fn layers_of(surface: &Surface2d) -> TextureView {
+    surface
+        .texture
+        .create_view(&TextureViewDescriptor { dimension: Some(TextureViewDimension::D2Array), ..Default::default() })
+}
+
 impl Gpu {
     /// Creates a texture, if the device takes its size.
     pub(crate) fn texture(&self, spec: &TextureSpec) -> Result<Surface2d> {
@@ -193,138 +210,8 @@ impl Gpu {
     pub(crate) fn uniform<T: Pod>(&self, label: &'static str, block: &T) -> Tracked<Buffer> {
         self.buffer(label, bytemuck::bytes_of(block), BufferUsages::UNIFORM | BufferUsages::COPY_DST)
     }
-
-    /// The texels of a texture of one layer, row by row.
-    pub(crate) fn read<T: Pod>(&self, texture: &Texture) -> Result<Vec<T>> {
-        let texel = texture.format().block_copy_size(None).unwrap_or(4);
-        let (width, height) = (texture.width(), texture.height());
-        let row = (width * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        // As many rows at a time as a buffer may have.
-        let most = self.device.limits().max_buffer_size / u64::from(row);
-        let most = u32::try_from(most).unwrap_or(u32::MAX).clamp(1, height.max(1));
-        let mut texels = Vec::with_capacity(width as usize * height as usize);
-        for first in (0..height).step_by(most as usize) {
-            let rows = most.min(height - first);
-            self.read_rows(texture, first, [width, rows], row, &mut texels)?;
-        }
-        Ok(texels)
-    }
-
-    /// Some rows from `first` on, each `row` bytes apart on the way.
-    fn read_rows<T: Pod>(
-        &self,
-        texture: &Texture,
-        first: u32,
-        size: [u32; 2],
-        row: u32,
-        texels: &mut Vec<T>,
-    ) -> Result<()> {
-        let texel = texture.format().block_copy_size(None).unwrap_or(4);
-        let [width, height] = size;
-        let bytes = u64::from(row) * u64::from(height);
-        let buffer = self.checked(|| {
-            self.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("read back"),
-                size: bytes,
-                usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
-                mapped_at_creation: false,
-            })
-        })?;
-        let buffer = self.ledger().enter(buffer, bytes);
-        self.checked(|| {
-            let mut encoder = self.device.create_command_encoder(&CommandEncoderDescriptor::default());
-            let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
-            let to = TexelCopyBufferInfo { buffer: &buffer, layout };
-            let origin = wgpu::Origin3d { x: 0, y: first, z: 0 };
-            let from = wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() };
-            encoder.copy_texture_to_buffer(from, to, extent(size, 1));
-            self.queue.submit([encoder.finish()]);
-        })?;
-        let (sender, receiver) = std::sync::mpsc::channel();
-        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            // The receiver waits below; if it is gone, nobody wants the answer.
-            let _ = sender.send(result);
-        });
-        self.finish()?;
-        let mapped = receiver.recv().map_err(|_| Error::Device("the device never answered".to_owned()))?;
-        mapped.map_err(|error| Error::Device(error.to_string()))?;
-        let bytes = buffer.get_mapped_range(..).map_err(|error| Error::Device(error.to_string()))?;
-        let rows = bytes.chunks(row as usize).map(|bytes| &bytes[..(width * texel) as usize]);
-        texels.extend(rows.flat_map(bytemuck::pod_collect_to_vec::<u8, T>));
-        Ok(())
-    }
-
-    /// The first three channels of what was kept: half floats, or their bits.
-    pub(crate) fn read_rgb(&self, texture: &Texture) -> Result<Vec<[f32; 3]>> {
-        let texels: Vec<[u16; 4]> = self.read(texture)?;
-        Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b].map(|bits| f16::from_bits(bits).to_f32())).collect())
-    }
 }
 
-fn extent(size: [u32; 2], layers: u32) -> Extent3d {
+pub(super) fn extent(size: [u32; 2], layers: u32) -> Extent3d {
     Extent3d { width: size[0], height: size[1], depth_or_array_layers: layers }
-}
-
-/// How a shader sees a binding.
-#[derive(Clone, Copy)]
-pub(crate) enum Slot {
-    /// A uniform block.
-    Uniform,
-    /// A float texture, loaded and never filtered.
-    Float,
-    /// Layers of one.
-    FloatLayers,
-    /// What passes keep, [`Gpu::kept`].
-    Kept,
-    /// Layers of it.
-    KeptLayers,
-    /// A float texture that is filtered.
-    Filtered,
-    /// Layers of one.
-    FilteredLayers,
-    /// What filters them.
-    Sampler,
-    /// One that does not filter: textures are looked up at texels, and wrapped.
-    Nearest,
-    /// An unsigned integer texture.
-    Uint,
-    /// Layers of one.
-    UintLayers,
-}
-
-/// Layout entries of a bind group whose bindings are `slots`, seen by both stages.
-pub(crate) fn layout_entries(slots: &[Slot], keeping: Keeping) -> Vec<BindGroupLayoutEntry> {
-    let texture =
-        |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };
-    let unfiltered = TextureSampleType::Float { filterable: false };
-    let kept = match keeping {
-        Keeping::Halves => unfiltered,
-        Keeping::Packed => TextureSampleType::Uint,
-    };
-    let filtered = TextureSampleType::Float { filterable: true };
-    let bindings = slots.iter().zip(0..);
-    bindings
-        .map(|(slot, binding)| BindGroupLayoutEntry {
-            binding,
-            visibility: ShaderStages::VERTEX_FRAGMENT,
-            ty: match slot {
-                Slot::Uniform => BindingType::Buffer {
-                    ty: BufferBindingType::Uniform,
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                Slot::Float => texture(unfiltered, TextureViewDimension::D2),
-                Slot::FloatLayers => texture(unfiltered, TextureViewDimension::D2Array),
-                Slot::Kept => texture(kept, TextureViewDimension::D2),
-                Slot::KeptLayers => texture(kept, TextureViewDimension::D2Array),
-                Slot::Filtered => texture(filtered, TextureViewDimension::D2),
-                Slot::FilteredLayers => texture(filtered, TextureViewDimension::D2Array),
-                Slot::Sampler => BindingType::Sampler(SamplerBindingType::Filtering),
-                Slot::Nearest => BindingType::Sampler(SamplerBindingType::NonFiltering),
-                Slot::Uint => texture(TextureSampleType::Uint, TextureViewDimension::D2),
-                Slot::UintLayers => texture(TextureSampleType::Uint, TextureViewDimension::D2Array),
-            },
-            count: None,
-        })
-        .collect()
 }

@@ -4,11 +4,9 @@ use subsurf_decoder::btf::Sample;
 use subsurf_shaders::{BtfStorage, source};
 use wgpu::{BindingResource, CommandEncoderDescriptor, TextureFormat};
 
-use super::material::{BtfMaterial, slots};
-use crate::context::Gpu;
+use crate::asset::{BtfMaterial, btf_slots};
 use crate::error::Result;
-use crate::pass::{CoverPass, Rows};
-use crate::resource::{Slot, Surface2d, TextureSpec, array_size};
+use crate::gpu::{CoverPass, Gpu, Rows, Slot, Surface2d, TextureSpec, array_size};
 
 /// What is asked of a texel. Directions are unit vectors: x along the rows, y down the columns, z the normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +48,7 @@ impl BtfQueries {
     /// # Errors
     /// [`crate::Error::Device`] if the driver refuses it.
     pub fn new(gpu: &Gpu, storage: BtfStorage) -> Result<Self> {
-        let groups: [&[Slot]; 2] = [&[Slot::Float; 3], &slots(storage)];
+        let groups: [&[Slot]; 2] = [&[Slot::Float; 3], &btf_slots(storage)];
         let pass = CoverPass::new(gpu, source::btf_query(storage), "answer", &groups, &[BITS; 2])?;
         Ok(Self { storage, pass })
     }

@@ -1,13 +1,12 @@
 //! Draws a flat patch: irradiance in, exitance and a picture out.
 
 use subsurf_shaders::{Storage, source, uniform};
-use wgpu::{BindingResource, TextureFormat, TextureView};
+use wgpu::{BindingResource, TextureFormat};
 
-use crate::context::Gpu;
-use crate::error::{Error, Result};
-use crate::material::{Material, slots};
-use crate::pass::{CoverPass, Rows};
-use crate::resource::{Slot, Surface2d, TextureSpec};
+use super::surface::{Exitance, PatchLight, Region};
+use crate::asset::{Material, slots};
+use crate::error::Result;
+use crate::gpu::{CoverPass, Gpu, Rows, Slot, TextureSpec};
 
 /// Renders flat patches of one storage; its pipelines are made once.
 #[derive(Debug)]
@@ -15,26 +14,6 @@ pub struct PatchRenderer {
     storage: Storage,
     gather: CoverPass,
     present: CoverPass,
-}
-
-/// Irradiance on the patch, on the device.
-#[derive(Debug)]
-pub struct PatchLight(Surface2d);
-
-/// Exitance of a region of the patch, on the device, as half floats or their bits.
-#[derive(Debug)]
-pub struct Exitance {
-    surface: Surface2d,
-    size: [u32; 2],
-}
-
-/// Pixels of a patch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Region {
-    /// Column and row of the first pixel.
-    pub origin: [u32; 2],
-    /// Pixels in x and y.
-    pub size: [u32; 2],
 }
 
 impl PatchRenderer {
@@ -85,48 +64,5 @@ impl PatchRenderer {
         self.present.draw(gpu, &target.view, &[&group], Rows::all(size))?;
         let texels: Vec<[u8; 4]> = gpu.read(&target.texture)?;
         Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect())
-    }
-}
-
-impl PatchLight {
-    /// Uploads irradiance that has entered the material, one linear rgb value per pixel of a patch of `size`, row by row.
-    ///
-    /// # Errors
-    /// [`crate::Error::Unsupported`] if the patch is too large for a texture.
-    pub fn upload(gpu: &Gpu, size: [u32; 2], irradiance: &[[f32; 3]]) -> Result<Self> {
-        let texels: Vec<[f32; 4]> = irradiance.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]).collect();
-        let spec = TextureSpec::table("patch irradiance", size, TextureFormat::Rgba32Float);
-        Ok(Self(gpu.filled(&spec, bytemuck::cast_slice(&texels))?))
-    }
-
-    pub(crate) fn view(&self) -> &TextureView {
-        &self.0.view
-    }
-
-    /// Refuses light of another size than the patch: texels beyond it are not there.
-    pub(crate) fn expect(&self, size: [u32; 2]) -> Result<()> {
-        let have = [self.0.texture.width(), self.0.texture.height()];
-        if have == size {
-            return Ok(());
-        }
-        Err(Error::Device(format!("light for a patch of {have:?} pixels, the material has {size:?}")))
-    }
-}
-
-impl Exitance {
-    pub(crate) fn new(surface: Surface2d, size: [u32; 2]) -> Self {
-        Self { surface, size }
-    }
-
-    pub(crate) fn view(&self) -> &TextureView {
-        &self.surface.view
-    }
-
-    /// Reads it back, linear rgb, row by row.
-    ///
-    /// # Errors
-    /// [`crate::Error::Device`].
-    pub fn read(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>> {
-        gpu.read_rgb(&self.surface.texture)
     }
 }

@@ -1,22 +1,12 @@
-//! A mesh on the device, and passes that draw it.
+//! A mesh on the device.
 
 use glam::{Vec2, Vec3, Vec4};
 use subsurf_scene::{Mapping, Mesh, Outline};
-use wgpu::{
-    BindGroup, BindingResource, Buffer, BufferUsages, Color, CommandEncoder, CompareFunction, DepthStencilState,
-    IndexFormat, LoadOp, MultisampleState, RenderPassColorAttachment, TextureFormat, TextureView, VertexBufferLayout,
-    VertexStepMode, vertex_attr_array,
-};
+use wgpu::{Buffer, BufferUsages, IndexFormat, RenderPass, VertexBufferLayout, VertexStepMode, vertex_attr_array};
 
-use crate::ambient::SkyShare;
-use crate::context::Gpu;
+use super::ambient::SkyShare;
 use crate::error::{Error, Result};
-use crate::ledger::Tracked;
-use crate::pipeline::{Drawing, Pipeline, Program, attachment};
-use crate::resource::Slot;
-
-/// Depth of the pictures.
-pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth24Plus;
+use crate::gpu::{Gpu, Tracked};
 
 /// A mesh on the device.
 #[derive(Debug)]
@@ -121,6 +111,16 @@ impl GpuMesh {
         self.tangents.as_ref().map(|_| ()).ok_or_else(missing)
     }
 
+    /// Draws all triangles in a pass that was begun with their shader.
+    pub(crate) fn draw(&self, pass: &mut RenderPass<'_>) {
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        if let Some(tangents) = &self.tangents {
+            pass.set_vertex_buffer(1, tangents.slice(..));
+        }
+        pass.set_index_buffer(self.indices.slice(..), IndexFormat::Uint32);
+        pass.draw_indexed(0..self.index_count, 0, 0..1);
+    }
+
     /// Bytes on the device.
     #[must_use]
     pub fn gpu_bytes(&self) -> u64 {
@@ -129,7 +129,7 @@ impl GpuMesh {
     }
 }
 
-const VERTICES: VertexBufferLayout<'static> = VertexBufferLayout {
+pub(crate) const VERTICES: VertexBufferLayout<'static> = VertexBufferLayout {
     array_stride: size_of::<Vertex>() as u64,
     step_mode: VertexStepMode::Vertex,
     attributes: &vertex_attr_array![
@@ -137,94 +137,8 @@ const VERTICES: VertexBufferLayout<'static> = VertexBufferLayout {
     ],
 };
 
-const TANGENTS: VertexBufferLayout<'static> = VertexBufferLayout {
+pub(crate) const TANGENTS: VertexBufferLayout<'static> = VertexBufferLayout {
     array_stride: size_of::<Vec4>() as u64,
     step_mode: VertexStepMode::Vertex,
     attributes: &vertex_attr_array![6 => Float32x4],
 };
-
-/// A pass that draws meshes.
-#[derive(Debug)]
-pub(crate) struct MeshPass(Pipeline);
-
-/// A colour target of a pass, and what is there before; drawn to with several samples, `resolved` gets their mean.
-pub(crate) struct Target<'a> {
-    pub(crate) view: &'a TextureView,
-    pub(crate) clear: Color,
-    pub(crate) resolved: Option<&'a TextureView>,
-}
-
-impl<'a> Target<'a> {
-    fn cleared(&self) -> RenderPassColorAttachment<'a> {
-        let plain = attachment(self.view, LoadOp::Clear(self.clear));
-        RenderPassColorAttachment { resolve_target: self.resolved, ..plain }
-    }
-}
-
-impl MeshPass {
-    /// Builds the pipeline of a shader with the entry points `project` and `fragment`.
-    pub(crate) fn new(
-        gpu: &Gpu,
-        shader: &str,
-        fragment: &str,
-        groups: &[&[Slot]],
-        targets: &[TextureFormat],
-        samples: u32,
-    ) -> Result<Self> {
-        let program = Program { shader, vertex: "project", fragment, groups, targets };
-        Self::with(gpu, &program, &[VERTICES], samples)
-    }
-
-    /// The same for a shader that takes tangents; it draws meshes that have them.
-    pub(crate) fn textured(
-        gpu: &Gpu,
-        shader: &str,
-        fragment: &str,
-        groups: &[&[Slot]],
-        targets: &[TextureFormat],
-        samples: u32,
-    ) -> Result<Self> {
-        let program = Program { shader, vertex: "project", fragment, groups, targets };
-        Self::with(gpu, &program, &[VERTICES, TANGENTS], samples)
-    }
-
-    fn with(gpu: &Gpu, program: &Program<'_>, vertices: &[VertexBufferLayout<'_>], samples: u32) -> Result<Self> {
-        let drawing = Drawing {
-            vertices,
-            depth: Some(DepthStencilState {
-                format: DEPTH,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(CompareFunction::Less),
-                stencil: Default::default(),
-                bias: Default::default(),
-            }),
-            multisample: MultisampleState { count: samples, ..Default::default() },
-            ..Default::default()
-        };
-        Ok(Self(Pipeline::new(gpu, program, drawing)?))
-    }
-
-    /// Binds resources, in order, to bind group number `group`.
-    pub(crate) fn bind(&self, gpu: &Gpu, group: usize, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
-        self.0.bind(gpu, group, resources)
-    }
-
-    /// Draws a mesh.
-    pub(crate) fn record(
-        &self,
-        encoder: &mut CommandEncoder,
-        targets: &[Target<'_>],
-        depth: &TextureView,
-        groups: &[&BindGroup],
-        mesh: &GpuMesh,
-    ) {
-        let attachments: Vec<_> = targets.iter().map(|target| Some(target.cleared())).collect();
-        let mut pass = self.0.begin(encoder, &attachments, Some(depth), groups);
-        pass.set_vertex_buffer(0, mesh.vertices.slice(..));
-        if let Some(tangents) = &mesh.tangents {
-            pass.set_vertex_buffer(1, tangents.slice(..));
-        }
-        pass.set_index_buffer(mesh.indices.slice(..), IndexFormat::Uint32);
-        pass.draw_indexed(0..mesh.index_count, 0, 0..1);
-    }
-}
