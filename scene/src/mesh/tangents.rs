@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3, Vec4};
 
-use super::Mesh;
+use super::triangles::Mesh;
 use crate::error::{Error, Result};
 
 impl Mesh {

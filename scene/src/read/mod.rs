@@ -1,22 +1,16 @@
 //! Meshes from files, and shapes by their names.
 
-mod formats;
+mod gltf;
+mod obj;
+mod ply;
+mod raw;
 
 use std::path::Path;
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, bowl, drapery, knot, relief, sphere, torus};
-
-/// A mesh as files have it.
-#[derive(Debug, Default)]
-struct Raw {
-    positions: Vec<Vec3>,
-    normals: Vec<Vec3>,
-    uvs: Option<Vec<Vec2>>,
-    triangles: Vec<[u32; 3]>,
-}
 
 /// Which way is up in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,9 +47,9 @@ pub fn load(path: &Path, extent_mm: f32, up: Up) -> Result<Mesh> {
     }
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or("").to_ascii_lowercase();
     let raw = match extension.as_str() {
-        "obj" => formats::obj(path),
-        "ply" => formats::ply(path),
-        "glb" | "gltf" => formats::gltf(path),
+        "obj" => obj::read(path),
+        "ply" => ply::read(path),
+        "glb" | "gltf" => gltf::read(path),
         _ => Err(format!("unknown kind of file, and none of the shapes {}", SHAPES.join(", "))),
     };
     let wrong = |reason: String| Error::File { path: path.to_owned(), reason };
