@@ -38,7 +38,7 @@ pub(crate) enum UpArg {
     Z,
 }
 
-impl From<UpArg> for Up {
+impl From<UpArg> for UpAxis {
     fn from(arg: UpArg) -> Self {
         match arg {
             UpArg::Y => Self::Y,

@@ -9,10 +9,11 @@ mod gpu;
 mod technique;
 
 pub use asset::{
-    BtfImages, BtfMaterial, GpuMesh, GpuPoints, Known, Material, SeparableMaterial, SkyShare, SplatMaterial, storage_of,
+    AmbientTransfer, BtfImages, BtfMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial,
+    VertexData, storage_of,
 };
 pub use error::{Error, Result};
-pub use frame::{BACKGROUND, Frame, Model, Path, Plan, Renderer, RuntimeOptions};
+pub use frame::{BACKGROUND, Drawable, Frame, Plan, Renderer, RuntimeOptions, Technique};
 pub use gpu::{Backend, Gpu, Ledger, OnScreen, PictureTarget, devices};
 pub use subsurf_shaders::source::Keeping;
 pub use subsurf_shaders::uniform::BtfFiltering;

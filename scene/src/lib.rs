@@ -2,6 +2,7 @@
 //!
 //! Lengths are in mm, y is up, colours are linear Rec. 709.
 
+mod camera;
 mod error;
 mod light;
 mod mapping;
@@ -11,11 +12,12 @@ mod points;
 mod read;
 mod scene;
 
+pub use camera::Camera;
 pub use error::{Error, Result};
 pub use light::{Environment, Light, LightShape, MAX_LIGHTS, REFLECTION_LEVELS, REFLECTION_SIZE, visibility};
 pub use mapping::{Mapping, place_in_box};
-pub use mesh::{Mesh, bowl, drapery, knot, relief, sphere, torus};
-pub use placement::Outline;
+pub use mesh::{BoundingSphere, Mesh, bowl, drapery, knot, relief, sphere, torus};
+pub use placement::Placement;
 pub use points::{PointGrid, SurfacePoints};
-pub use read::{SHAPES, Up, load};
-pub use scene::{Scene, View};
+pub use read::{SHAPES, UpAxis, load_mesh};
+pub use scene::Scene;

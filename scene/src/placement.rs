@@ -1,51 +1,52 @@
 //! Where a mesh is and how a material lies on it.
 
-use glam::Vec3;
-use subsurf_decoder::bssrdf::{Addressing, Coding, Header};
+use subsurf_decoder::bssrdf::Header;
 
 use crate::mapping::Mapping;
-use crate::mesh::Mesh;
+use crate::mesh::{BoundingSphere, Mesh};
 
-/// What is known of a mesh and its material besides their tables.
+/// Placement of a material on a mesh: all that pictures need to know of both besides their tables.
 #[derive(Clone, Copy, Debug)]
-pub struct Outline {
-    /// Middle of the mesh, in mm.
-    pub centre_mm: Vec3,
-    /// Radius of a sphere around it that holds the mesh, in mm.
-    pub radius_mm: f32,
-    /// Pitch, refractive index and so on of the material.
-    pub header: Header,
-    /// Where the material lies on the mesh.
+pub struct Placement {
+    /// Where the mesh is.
+    pub bounds: BoundingSphere,
+    /// Where which pixel of the material lies on the mesh.
     pub mapping: Mapping,
+    /// Pixels of the patch, width and height.
+    pub size: [u32; 2],
+    /// Distance of neighbouring pixels of the patch, in mm.
+    pub pitch_mm: f32,
+    /// Distance beyond which no light scatters, in mm.
+    pub r_max_mm: f32,
+    /// Refractive index against air.
+    pub eta: f32,
 }
 
-impl Outline {
-    /// Of a mesh made of a material.
+impl Placement {
+    /// Placement of a scattering material, of which `header` says the size.
     #[must_use]
     pub fn new(mesh: &Mesh, mapping: Mapping, header: &Header) -> Self {
-        let [low, high] = mesh.bounds();
-        let centre_mm = 0.5 * (low + high);
-        let radius_mm = mesh.positions.iter().map(|position| position.distance(centre_mm)).fold(1e-3, f32::max);
-        Self { centre_mm, radius_mm, header: *header, mapping }
+        Self {
+            bounds: mesh.bounding_sphere(),
+            mapping,
+            size: [header.width, header.height],
+            pitch_mm: header.pitch_mm,
+            r_max_mm: header.r_max_mm,
+            eta: header.eta,
+        }
     }
 
-    /// Of a mesh made of a BTF, which has no size of its own and lets no light in: copies of it to the unit square of
-    /// texture coordinates, in u and in v.
+    /// Placement of a BTF, which has no size of its own and lets no light in: `copies` of it to the unit square of texture
+    /// coordinates, in u and in v.
     #[must_use]
     pub fn of_btf(mesh: &Mesh, copies: [f32; 2]) -> Self {
-        let nothing = Header {
-            model: 0,
-            coding: Coding::Exact,
-            addressing: Addressing::Repeat,
-            width: 1,
-            height: 1,
-            window_radius: 1,
-            samples: 2,
-            base_materials: 1,
+        Self {
+            bounds: mesh.bounding_sphere(),
+            mapping: Mapping::Uv(copies),
+            size: [1, 1],
             pitch_mm: 1.0,
             r_max_mm: 1.0,
             eta: 1.0,
-        };
-        Self::new(mesh, Mapping::Uv(copies), &nothing)
+        }
     }
 }

@@ -1,31 +1,17 @@
-//! Lights, environment, coat and eye: all of a picture but the mesh and its material.
+//! All of a picture but the mesh and its material.
 
-use glam::Vec3;
-
+use crate::camera::Camera;
 use crate::light::{Environment, Light};
 
-/// Lights, environment, coat and eye, the same for every path.
+/// Lights, environment, coat and camera, the same for every technique.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The first four count.
+    /// Sources of light; the first [`MAX_LIGHTS`](crate::MAX_LIGHTS) count.
     pub lights: Vec<Light>,
     /// Light from all around.
     pub environment: Environment,
-    /// GGX roughness of the smooth dielectric coat over the scattering, 0 to 1.
+    /// GGX roughness of the smooth dielectric coat over the material, 0 to 1.
     pub roughness: f32,
     /// Where the picture is taken from.
-    pub view: View,
-}
-
-/// Where a picture is taken from.
-#[derive(Clone, Copy, Debug)]
-pub struct View {
-    /// Eye, in mm.
-    pub eye_mm: Vec3,
-    /// What the eye looks at, in mm.
-    pub target_mm: Vec3,
-    /// Vertical angle of view in radians.
-    pub angle: f32,
-    /// Multiplies radiance before tone mapping.
-    pub exposure: f32,
+    pub camera: Camera,
 }

@@ -9,7 +9,7 @@ use subsurf_decoder::Btf;
 use subsurf_encoder::Progress as _;
 use subsurf_encoder::btf::Images;
 use subsurf_runtime::{BACKGROUND, Backend, BtfFiltering, BtfMaterial, BtfOptions, BtfStorage, Gpu, RuntimeOptions};
-use subsurf_scene::{Light, LightShape, Mesh, Outline, REFLECTION_SIZE, Scene, relief, sphere};
+use subsurf_scene::{Light, LightShape, Mesh, Placement, REFLECTION_SIZE, Scene, relief, sphere};
 use subsurf_shaders::{cpu, uniform};
 
 use super::timing::{median, quantile};
@@ -250,11 +250,11 @@ fn on_cpu(
     let textured = Textured::new(mesh, copies)?;
     let triangles = textured.triangles(mesh, &lit);
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };
-    let outline = Outline::of_btf(mesh, copies);
+    let placement = Placement::of_btf(mesh, copies);
     let mut scene = scene.clone();
     let times = timed(args.frames, bars, || {
         turn(&mut scene);
-        let block = uniform::Scene::new(&scene, &outline, args.size.0, RuntimeOptions::default().light_texels);
+        let block = uniform::Scene::new(&scene, &placement, args.size.0, RuntimeOptions::default().light_texels);
         let picture = cpu::shade_btf(&triangles, &surface, &block, &reflections, args.size.0, [BACKGROUND; 3]);
         std::hint::black_box(picture);
         Ok(())

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::synthetic::per_pixel_of;
 use subsurf_runtime::Backend;
-use subsurf_scene::{Mesh, Up, load, relief};
+use subsurf_scene::{Mesh, UpAxis, load_mesh, relief};
 
 use super::course::{self, Course, Times};
 use super::timing::{median, quantile};
@@ -99,7 +99,7 @@ fn bumpy_sphere(rings: u16) -> anyhow::Result<(String, Mesh)> {
 
 /// A mesh and what to call it.
 pub(super) fn named(path: &Path) -> anyhow::Result<(String, Mesh)> {
-    Ok((stem(path), load(path, EXTENT_MM, Up::Y)?))
+    Ok((stem(path), load_mesh(path, EXTENT_MM, UpAxis::Y)?))
 }
 
 fn line(times: &Times) -> String {

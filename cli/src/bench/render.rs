@@ -104,7 +104,7 @@ fn compare(
         Ready::new(gpu, ingredients.upload(gpu, material, mesh)?, scene, size, RuntimeOptions::default())
     };
     let exposure = ready(gpu, &separable, &scene)?.exposure(gpu, &scene)?;
-    scene.view.exposure = exposure;
+    scene.camera.exposure = exposure;
     let reference = ready(gpu, &gather, &scene)?.picture(gpu, &scene)?;
     let mut shown = vec![image(&reference, size[0])];
     for (backend, gpu) in gpus {

@@ -14,7 +14,7 @@ use crate::error::Result;
 
 /// Light that scatters to a vertex under light from all around, by what it would be on flat ground, which is 1; rgb.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SkyShare {
+pub struct AmbientTransfer {
     /// From surface that faces the same way.
     pub front: Rgb,
     /// From surface that faces the other way: through thin parts.
@@ -33,7 +33,7 @@ struct Sample {
     area_mm2: f32,
 }
 
-impl SkyShare {
+impl AmbientTransfer {
     /// Of every vertex of a mesh made of a material, by its mean profile: Σ R(r) dA / 2π ∫ R(r) r dr, r the distance in
     /// space.
     ///

@@ -1,10 +1,10 @@
 //! A mesh on the device.
 
 use glam::{Vec2, Vec3, Vec4};
-use subsurf_scene::{Mapping, Mesh, Outline};
+use subsurf_scene::{Mapping, Mesh, Placement};
 use wgpu::{Buffer, BufferUsages, IndexFormat, RenderPass, VertexBufferLayout, VertexStepMode, vertex_attr_array};
 
-use super::ambient::SkyShare;
+use super::ambient::AmbientTransfer;
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, Tracked};
 
@@ -18,7 +18,7 @@ pub struct GpuMesh {
     index_count: u32,
     /// As many points as a surface must have whose points the vertices name.
     pub(crate) points: usize,
-    pub(crate) outline: Outline,
+    pub(crate) placement: Placement,
 }
 
 #[repr(C)]
@@ -36,11 +36,11 @@ struct Vertex {
 
 /// What a path wants to know of every vertex.
 #[derive(Clone, Copy, Debug)]
-pub enum Known<'a> {
+pub enum VertexData<'a> {
     /// Which point of a [`subsurf_scene::SurfacePoints`] it is: for the gather.
     Points(&'a [u32]),
     /// How much light from all around it gets: for all others.
-    Sky(&'a [SkyShare]),
+    Ambient(&'a [AmbientTransfer]),
     /// [`Mesh::tangents`]: for BTFs.
     Tangents(&'a [Vec4]),
 }
@@ -57,14 +57,14 @@ impl GpuMesh {
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no buffers of that size.
-    pub fn upload(gpu: &Gpu, mesh: &Mesh, outline: &Outline, known: Known<'_>) -> Result<Self> {
-        let times = match outline.mapping {
+    pub fn upload(gpu: &Gpu, mesh: &Mesh, placement: &Placement, known: VertexData<'_>) -> Result<Self> {
+        let times = match placement.mapping {
             Mapping::Uv(times) => Vec2::from(times),
             Mapping::Box => Vec2::ZERO,
         };
         let sky = |k: usize| match known {
-            Known::Sky(shares) => shares[k],
-            Known::Points(_) | Known::Tangents(_) => SkyShare { front: [1.0; 3], back: [0.0; 3] },
+            VertexData::Ambient(shares) => shares[k],
+            VertexData::Points(_) | VertexData::Tangents(_) => AmbientTransfer { front: [1.0; 3], back: [0.0; 3] },
         };
         let vertex = |k: usize| {
             let uv = mesh.uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[k]) * times;
@@ -73,8 +73,8 @@ impl GpuMesh {
                 normal: mesh.normals[k],
                 uv: Vec2::new(uv.x, 1.0 - uv.y),
                 point: match known {
-                    Known::Points(points) => points[k],
-                    Known::Sky(_) | Known::Tangents(_) => 0,
+                    VertexData::Points(points) => points[k],
+                    VertexData::Ambient(_) | VertexData::Tangents(_) => 0,
                 },
                 sky_front: halves(sky(k).front),
                 sky_back: halves(sky(k).back),
@@ -91,17 +91,17 @@ impl GpuMesh {
             vertices: gpu.buffer("vertices", bytemuck::cast_slice(&vertices), BufferUsages::VERTEX),
             indices: gpu.buffer("indices", bytemuck::cast_slice(&mesh.triangles), BufferUsages::INDEX),
             tangents: match known {
-                Known::Tangents(tangents) => {
+                VertexData::Tangents(tangents) => {
                     Some(gpu.buffer("tangents", bytemuck::cast_slice(tangents), BufferUsages::VERTEX))
                 }
-                Known::Points(_) | Known::Sky(_) => None,
+                VertexData::Points(_) | VertexData::Ambient(_) => None,
             },
             index_count: index_count.map_err(|_| Error::Mesh("more than 2³² indices".to_owned()))?,
             points: match known {
-                Known::Points(points) => points.iter().map(|point| *point as usize + 1).max().unwrap_or(0),
-                Known::Sky(_) | Known::Tangents(_) => 0,
+                VertexData::Points(points) => points.iter().map(|point| *point as usize + 1).max().unwrap_or(0),
+                VertexData::Ambient(_) | VertexData::Tangents(_) => 0,
             },
-            outline: *outline,
+            placement: *placement,
         })
     }
 

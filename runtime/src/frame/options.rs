@@ -16,7 +16,7 @@ pub struct RuntimeOptions {
     pub samples: u32,
     /// Texels to a side of what each light sees: a power of two, at least 128.
     pub light_texels: u32,
-    /// Whether taps of [`Path::Separable`] are shifted from pixel to pixel: grain instead of bands, where light changes
+    /// Whether taps of [`Technique::Separable`] are shifted from pixel to pixel: grain instead of bands, where light changes
     /// much within the reach of scattering.
     pub jitters: bool,
     /// How BTFs are looked up.

@@ -6,7 +6,7 @@ use subsurf_scene::Scene;
 use subsurf_shaders::{Storage, uniform};
 use wgpu::{BindGroup, BindingResource, CommandEncoder, CommandEncoderDescriptor, TextureView};
 
-use super::model::{Model, Path};
+use super::drawable::{Drawable, Technique};
 use super::options::RuntimeOptions;
 use super::plan::{self, LEAST_LIGHT_TEXELS, Plan};
 use crate::error::{Error, Result};
@@ -60,21 +60,21 @@ impl Renderer {
     /// # Errors
     /// [`Error::Device`] if the driver refuses them; captures are not drawn on meshes. [`Error::NoHalfFloats`] for splats
     /// where there is nothing to add them up in.
-    pub fn new(gpu: &Gpu, path: Path, options: RuntimeOptions) -> Result<Self> {
+    pub fn new(gpu: &Gpu, path: Technique, options: RuntimeOptions) -> Result<Self> {
         let RuntimeOptions { format, samples, light_texels, .. } = options;
         if !light_texels.is_power_of_two() || light_texels < LEAST_LIGHT_TEXELS {
             return Err(Error::Device(format!(
                 "light_texels is {light_texels}; it must be a power of two, at least {LEAST_LIGHT_TEXELS}"
             )));
         }
-        if let Path::Gather(Storage::Capture) | Path::Splat(Storage::Capture) = path {
+        if let Technique::Gather(Storage::Capture) | Technique::Splat(Storage::Capture) = path {
             return Err(Error::Device("captures are drawn flat, not on meshes".to_owned()));
         }
         let passes = match path {
-            Path::Gather(storage) => Passes::Gather(gather::Passes::new(gpu, storage, format, samples)?),
-            Path::Splat(storage) => Passes::Splat(splat::Passes::new(gpu, storage, format, samples)?),
-            Path::Separable(terms) => Passes::Separable(separable::Passes::new(gpu, terms, format, samples)?),
-            Path::Btf(storage) => Passes::Btf(btf::Passes::new(gpu, storage, options.btf, format, samples)?),
+            Technique::Gather(storage) => Passes::Gather(gather::Passes::new(gpu, storage, format, samples)?),
+            Technique::Splat(storage) => Passes::Splat(splat::Passes::new(gpu, storage, format, samples)?),
+            Technique::Separable(terms) => Passes::Separable(separable::Passes::new(gpu, terms, format, samples)?),
+            Technique::Btf(storage) => Passes::Btf(btf::Passes::new(gpu, storage, options.btf, format, samples)?),
         };
         Ok(Self { options, light_view: light_views::pass(gpu)?, passes })
     }
@@ -85,7 +85,7 @@ impl Renderer {
     /// # Errors
     /// [`Error::OverBudget`] if even the coarsest does not, before anything is allocated;
     /// [`Error::Device`] if the model is for another path.
-    pub fn prepare(&self, gpu: &Gpu, model: &Model<'_>, scene: &Scene, size: [u32; 2]) -> Result<Frame> {
+    pub fn prepare(&self, gpu: &Gpu, model: &Drawable<'_>, scene: &Scene, size: [u32; 2]) -> Result<Frame> {
         let lights = u32::try_from(scene.lights.len()).unwrap_or(u32::MAX);
         let plan = Plan {
             size,
@@ -94,34 +94,34 @@ impl Renderer {
             divisor: divisor(scene, model, size, self.options.light_texels),
             samples: self.options.samples,
         };
-        let outline = &model.mesh().outline;
+        let placement = &model.mesh().placement;
         let of_path = |plan: &Plan| match &self.passes {
             Passes::Gather(_) | Passes::Btf(_) => plan.light_bytes(1),
-            Passes::Splat(passes) => passes.bytes(plan, outline),
+            Passes::Splat(passes) => passes.bytes(plan, placement),
             Passes::Separable(passes) => passes.bytes(plan),
         };
         let bytes = |plan: &Plan| of_path(plan) + plan.picture_bytes(self.options.format) + Common::BYTES + UNIFORMS;
         let plan = plan.within(self.options.budget_bytes, gpu.ledger().bytes(), bytes)?;
         let common = Common::new(gpu)?;
         let levels = match &self.passes {
-            Passes::Splat(_) => splat::Levels::new(outline, plan.light_texels).count(),
+            Passes::Splat(_) => splat::Levels::new(placement, plan.light_texels).count(),
             Passes::Gather(_) | Passes::Separable(_) | Passes::Btf(_) => 1,
         };
         let lights = LightViews::new(gpu, &self.light_view, &common.block, &plan, levels)?;
         let (shade, buffers) = match (&self.passes, model) {
-            (Passes::Gather(passes), Model::Gather { mesh, points, material }) => {
+            (Passes::Gather(passes), Drawable::Gather { mesh, points, material }) => {
                 let buffers = gather::Buffers::new(gpu, passes, mesh, material, points, &common)?;
                 (&passes.shade, Buffers::Gather(buffers))
             }
-            (Passes::Splat(passes), Model::Splat { material, .. }) => {
-                let buffers = splat::Buffers::new(gpu, passes, material, &common, &lights, &plan, outline)?;
+            (Passes::Splat(passes), Drawable::Splat { material, .. }) => {
+                let buffers = splat::Buffers::new(gpu, passes, material, &common, &lights, &plan, placement)?;
                 (&passes.shade, Buffers::Splat(buffers))
             }
-            (Passes::Separable(passes), Model::Separable { material, .. }) => {
+            (Passes::Separable(passes), Drawable::Separable { material, .. }) => {
                 let buffers = separable::Buffers::new(gpu, passes, material, &common, &lights, &plan)?;
                 (&passes.shade, Buffers::Separable(buffers))
             }
-            (Passes::Btf(passes), Model::Btf { mesh, material, number }) => {
+            (Passes::Btf(passes), Drawable::Btf { mesh, material, number }) => {
                 mesh.expect_tangents()?;
                 let buffers = btf::Buffers::new(gpu, passes, material, *number, self.options.btf)?;
                 (&passes.shade, Buffers::Btf(buffers))
@@ -160,7 +160,7 @@ impl Renderer {
         &self,
         gpu: &Gpu,
         frame: &mut Frame,
-        model: &Model<'_>,
+        model: &Drawable<'_>,
         scene: &Scene,
         target: &TextureView,
     ) -> Result<()> {
@@ -181,7 +181,7 @@ impl Renderer {
         &self,
         gpu: &Gpu,
         frame: &mut Frame,
-        model: &Model<'_>,
+        model: &Drawable<'_>,
         scene: &Scene,
         target: &TextureView,
     ) -> Result<Vec<(&'static str, Duration)>> {
@@ -208,23 +208,23 @@ impl Renderer {
     }
 
     /// Uploads what has changed; gathers, where that is the path and the light has changed.
-    fn update(&self, gpu: &Gpu, frame: &mut Frame, model: &Model<'_>, scene: &Scene) -> Result<()> {
+    fn update(&self, gpu: &Gpu, frame: &mut Frame, model: &Drawable<'_>, scene: &Scene) -> Result<()> {
         let mesh = model.mesh();
         let plan = frame.plan;
-        let mut block = uniform::Scene::new(scene, &mesh.outline, plan.size, plan.light_texels);
+        let mut block = uniform::Scene::new(scene, &mesh.placement, plan.size, plan.light_texels);
         // Lights that came after the frame was prepared have no view: they shine once it is prepared anew.
         block.lights = block.lights.min(plan.lights);
         gpu.queue.write_buffer(&frame.common.block, 0, bytemuck::bytes_of(&block));
         frame.common.show(gpu, scene)?;
         match (&mut frame.buffers, &self.passes, model) {
-            (Buffers::Gather(buffers), Passes::Gather(passes), Model::Gather { points, .. }) => {
+            (Buffers::Gather(buffers), Passes::Gather(passes), Drawable::Gather { points, .. }) => {
                 buffers.gather(gpu, passes, mesh, points, &block)?;
             }
             (Buffers::Splat(buffers), Passes::Splat(_), _) => buffers.update(gpu, scene, &block, &plan),
             (Buffers::Separable(buffers), Passes::Separable(_), _) => {
                 buffers.update(gpu, scene, &block, &plan, self.options.jitters);
             }
-            (Buffers::Btf(_), Passes::Btf(_), Model::Btf { .. }) => mesh.expect_tangents()?,
+            (Buffers::Btf(_), Passes::Btf(_), Drawable::Btf { .. }) => mesh.expect_tangents()?,
             _ => return Err(Error::Device("the frame is for another path than the renderer".to_owned())),
         }
         Ok(())
@@ -235,7 +235,7 @@ impl Renderer {
         &self,
         mut encoder: CommandEncoder,
         frame: &Frame,
-        model: &Model<'_>,
+        model: &Drawable<'_>,
         scene: &Scene,
         target: &TextureView,
         lap: Lap<'_>,
@@ -271,7 +271,7 @@ impl Renderer {
     ///
     /// # Errors
     /// [`Error::Device`], also if the format of the renderer has not four bytes.
-    pub fn picture(&self, gpu: &Gpu, frame: &mut Frame, model: &Model<'_>, scene: &Scene) -> Result<Vec<[u8; 3]>> {
+    pub fn picture(&self, gpu: &Gpu, frame: &mut Frame, model: &Drawable<'_>, scene: &Scene) -> Result<Vec<[u8; 3]>> {
         let target = gpu.target(frame.plan.size, self.options.format)?;
         self.draw(gpu, frame, model, scene, target.view())?;
         let texels = gpu.read_picture(&target)?;
@@ -291,16 +291,16 @@ impl Frame {
 const NARROWEST_TEXELS: f32 = 0.8;
 
 /// Pixels of the picture to a side of a texel of the maps.
-fn divisor(scene: &Scene, model: &Model<'_>, size: [u32; 2], light_texels: u32) -> u32 {
-    let outline = &model.mesh().outline;
-    let distance = scene.view.eye_mm.distance(outline.centre_mm);
+fn divisor(scene: &Scene, model: &Drawable<'_>, size: [u32; 2], light_texels: u32) -> u32 {
+    let placement = &model.mesh().placement;
+    let distance = scene.camera.eye_mm.distance(placement.bounds.centre_mm);
     #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-    let pixels_per_mm = 0.5 * size[1] as f32 / (0.5 * scene.view.angle).tan() / distance;
+    let pixels_per_mm = 0.5 * size[1] as f32 / (0.5 * scene.camera.fov_y_rad).tan() / distance;
     match model {
-        Model::Gather { .. } | Model::Btf { .. } => 1,
-        Model::Splat { .. } => splat::divisor(outline, light_texels, pixels_per_mm),
-        Model::Separable { material, .. } => {
-            let narrowest = material.narrowest_pixels() * outline.header.pitch_mm * pixels_per_mm;
+        Drawable::Gather { .. } | Drawable::Btf { .. } => 1,
+        Drawable::Splat { .. } => splat::divisor(placement, light_texels, pixels_per_mm),
+        Drawable::Separable { material, .. } => {
+            let narrowest = material.narrowest_pixels() * placement.pitch_mm * pixels_per_mm;
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
             let divisor = (narrowest / NARROWEST_TEXELS).clamp(1.0, 4.0) as u32;
             // Of what is no number nothing is left.

@@ -102,14 +102,18 @@ impl Buffers {
     pub(crate) fn update(&mut self, gpu: &Gpu, scene: &Scene, block: &uniform::Scene, plan: &Plan, jitters: bool) {
         let domain = ScreenDomain {
             size: plan.map_size(),
-            focal_texels: plan.texels_per_tangent(&scene.view) * block.pitch_mm,
+            focal_texels: plan.texels_per_tangent(&scene.camera) * block.pitch_mm,
             middle_mm: block.middle_mm,
             pitch_mm: block.pitch_mm,
             jitters: u32::from(jitters),
             pad: [0; 2],
         };
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
-        gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&plan.upsampling(&scene.view, block.middle_mm)));
+        gpu.queue.write_buffer(
+            &self.upsampling,
+            0,
+            bytemuck::bytes_of(&plan.upsampling(&scene.camera, block.middle_mm)),
+        );
     }
 
     pub(crate) fn record(

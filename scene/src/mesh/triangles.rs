@@ -2,6 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
+use super::bounds::BoundingSphere;
 use crate::error::{Error, Result};
 
 /// A triangle mesh.
@@ -60,6 +61,15 @@ impl Mesh {
         let low = self.positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
         let high = self.positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
         [low, high]
+    }
+
+    /// Sphere around the middle of [`Mesh::bounds`] that holds all vertices.
+    #[must_use]
+    pub fn bounding_sphere(&self) -> BoundingSphere {
+        let [low, high] = self.bounds();
+        let centre_mm = 0.5 * (low + high);
+        let radius_mm = self.positions.iter().map(|position| position.distance(centre_mm)).fold(1e-3, f32::max);
+        BoundingSphere { centre_mm, radius_mm }
     }
 
     /// The mesh scaled so that its longest side is `extent_mm`, its middle at the origin.

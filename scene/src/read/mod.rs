@@ -14,7 +14,7 @@ use crate::mesh::{Mesh, bowl, drapery, knot, relief, sphere, torus};
 
 /// Which way is up in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Up {
+pub enum UpAxis {
     /// As in glTF and most OBJ files.
     Y,
     /// As in most scans and CAD files.
@@ -41,7 +41,7 @@ fn shape(name: &str) -> Option<Mesh> {
 ///
 /// # Errors
 /// [`Error::File`] if the file is not a mesh, or a broken one.
-pub fn load(path: &Path, extent_mm: f32, up: Up) -> Result<Mesh> {
+pub fn load_mesh(path: &Path, extent_mm: f32, up: UpAxis) -> Result<Mesh> {
     if let Some(mesh) = path.to_str().and_then(shape) {
         return mesh.fitted(extent_mm);
     }
@@ -54,7 +54,7 @@ pub fn load(path: &Path, extent_mm: f32, up: Up) -> Result<Mesh> {
     };
     let wrong = |reason: String| Error::File { path: path.to_owned(), reason };
     let mut raw = raw.map_err(|reason| wrong(format!("{reason}; expected a mesh in .obj, .ply, .glb or .gltf")))?;
-    if up == Up::Z {
+    if up == UpAxis::Z {
         for v in raw.positions.iter_mut().chain(&mut raw.normals) {
             *v = Vec3::new(v.x, v.z, -v.y);
         }

@@ -3,7 +3,7 @@
 use glam::camera::rh::proj::directx::{orthographic, perspective};
 use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec3};
-use subsurf_scene::{Light, LightShape, MAX_LIGHTS, Mapping, Outline, SurfacePoints};
+use subsurf_scene::{Light, LightShape, MAX_LIGHTS, Mapping, Placement, SurfacePoints};
 
 use super::{LightSource, ROW, Scene, Surface};
 use crate::cpu::diffuse_transmittance;
@@ -25,35 +25,36 @@ impl Surface {
 impl Scene {
     /// The uniform block for a picture of `size` of one mesh, when lights have views of `light_texels` to a side.
     #[must_use]
-    pub fn new(scene: &subsurf_scene::Scene, outline: &Outline, size: [u32; 2], light_texels: u32) -> Self {
+    pub fn new(scene: &subsurf_scene::Scene, placement: &Placement, size: [u32; 2], light_texels: u32) -> Self {
         #[allow(clippy::cast_precision_loss, reason = "pictures and patches are a few thousand pixels wide")]
         let [aspect, width, height] =
-            [size[0] as f32 / size[1] as f32, outline.header.width as f32, outline.header.height as f32];
-        let view = &scene.view;
-        let forward = (view.target_mm - view.eye_mm).normalize_or(Vec3::NEG_Z);
-        let middle_mm = (outline.centre_mm - view.eye_mm).dot(forward);
+            [size[0] as f32 / size[1] as f32, placement.size[0] as f32, placement.size[1] as f32];
+        let camera = &scene.camera;
+        let bounds = placement.bounds;
+        let forward = (camera.target_mm - camera.eye_mm).normalize_or(Vec3::NEG_Z);
+        let middle_mm = (bounds.centre_mm - camera.eye_mm).dot(forward);
         // Near and far hold the mesh; an eye within it still sees what is further away than a hundredth of its size.
-        let near = (middle_mm - outline.radius_mm).max(0.01 * outline.radius_mm);
-        let far = (middle_mm + outline.radius_mm).max(2.0 * near);
-        let clip_from_view = perspective(view.angle, aspect, near, far);
+        let near = (middle_mm - bounds.radius_mm).max(0.01 * bounds.radius_mm);
+        let far = (middle_mm + bounds.radius_mm).max(2.0 * near);
+        let clip_from_view = perspective(camera.fov_y_rad, aspect, near, far);
         let up = if forward.y.abs() > 0.999 { Vec3::Z } else { Vec3::Y };
-        let view_from_world = look_at_mat4(view.eye_mm, view.eye_mm + forward, up);
-        let pitch_mm = outline.header.pitch_mm;
+        let view_from_world = look_at_mat4(camera.eye_mm, camera.eye_mm + forward, up);
+        let pitch_mm = placement.pitch_mm;
         let mut block = Self {
             clip_from_world: (clip_from_view * view_from_world).to_cols_array_2d(),
-            eye_mm: view.eye_mm.into(),
-            exposure: view.exposure,
+            eye_mm: camera.eye_mm.into(),
+            exposure: camera.exposure,
             forward: forward.into(),
             middle_mm,
-            centre_mm: outline.centre_mm.into(),
-            eta: outline.header.eta,
-            sky_transmittance: diffuse_transmittance(outline.header.eta),
+            centre_mm: bounds.centre_mm.into(),
+            eta: placement.eta,
+            sky_transmittance: diffuse_transmittance(placement.eta),
             roughness: scene.roughness.clamp(0.0, 1.0),
             lights: u32::try_from(scene.lights.len().min(MAX_LIGHTS)).unwrap_or(0),
             row: ROW,
             patches_per_mm: [1.0 / (pitch_mm * width), 1.0 / (pitch_mm * height)],
             pitch_mm,
-            is_boxed: u32::from(outline.mapping == Mapping::Box),
+            is_boxed: u32::from(placement.mapping == Mapping::Box),
             sky: [[0.0; 4]; 9],
             light: [LightSource::default(); MAX_LIGHTS],
         };
@@ -61,7 +62,7 @@ impl Scene {
             *to = [*r, *g, *b, 0.0];
         }
         for (to, light) in block.light.iter_mut().zip(&scene.lights) {
-            *to = LightSource::of(light, outline.centre_mm, outline.radius_mm, light_texels);
+            *to = LightSource::of(light, bounds.centre_mm, bounds.radius_mm, light_texels);
         }
         block
     }

@@ -1,7 +1,7 @@
 //! What splats draw to for one size of picture, and how they are recorded.
 
 use glam::{Mat4, Vec3};
-use subsurf_scene::{Outline, Scene};
+use subsurf_scene::{Placement, Scene};
 use subsurf_shaders::uniform::{self, MAX_RINGS, Rings, Splat, Upsampling, Which};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureView};
 
@@ -67,10 +67,10 @@ impl Buffers {
         common: &Common,
         lights: &LightViews,
         plan: &Plan,
-        outline: &Outline,
+        placement: &Placement,
     ) -> Result<Self> {
         material.planes.expect(passes.storage)?;
-        let levels = Levels::new(outline, plan.light_texels);
+        let levels = Levels::new(placement, plan.light_texels);
         let size = plan.map_size();
         let target = |label, size| gpu.texture(&TextureSpec::target(label, size, HALF));
         let visible = [target("positions", size)?, target("places", size)?, target("albedos", size)?];
@@ -142,21 +142,21 @@ impl Buffers {
             upsampling,
             which,
             softened: material.softened.map(|[r, g, b]| [r, g, b, 0.0]),
-            pitch_mm: outline.header.pitch_mm,
+            pitch_mm: placement.pitch_mm,
             size,
         })
     }
 
     /// Tells the passes where lights and eye are.
     pub(crate) fn update(&mut self, gpu: &Gpu, scene: &Scene, block: &uniform::Scene, plan: &Plan) {
-        let upsampling = plan.upsampling(&scene.view, block.middle_mm);
+        let upsampling = plan.upsampling(&scene.camera, block.middle_mm);
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&upsampling));
         let rings = Rings { count: self.levels.rings, near_mm: upsampling.near_mm, pad: [0; 2] };
         gpu.queue.write_buffer(&self.rings_block, 0, bytemuck::bytes_of(&rings));
 
         #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
         let [width, height] = plan.size.map(|side| side as f32);
-        let cotangent = 1.0 / (0.5 * scene.view.angle).tan();
+        let cotangent = 1.0 / (0.5 * scene.camera.fov_y_rad).tan();
         let clip_from_world = Mat4::from_cols_array_2d(&block.clip_from_world);
         let clip_from_centre = clip_from_world * Mat4::from_translation(Vec3::from(block.centre_mm));
         for draw in &self.draws {

@@ -1,6 +1,6 @@
 //! Pipelines of splats.
 
-use subsurf_scene::Outline;
+use subsurf_scene::Placement;
 use subsurf_shaders::uniform::MAX_RINGS;
 use subsurf_shaders::{Storage, source};
 use wgpu::TextureFormat;
@@ -47,8 +47,8 @@ impl Passes {
     }
 
     /// Bytes that a plan takes for a mesh.
-    pub(crate) fn bytes(&self, plan: &Plan, outline: &Outline) -> u64 {
-        let levels = Levels::new(outline, plan.light_texels);
+    pub(crate) fn bytes(&self, plan: &Plan, placement: &Placement) -> u64 {
+        let levels = Levels::new(placement, plan.light_texels);
         let size = plan.map_size();
         let half = |size| TextureSpec::target("", size, HALF).bytes();
         let rings: u64 = (0..levels.rings).map(|ring| half(ring_size(size, ring))).sum();

@@ -6,7 +6,7 @@ use crate::asset::{BtfMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial,
 
 /// How light scatters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Path {
+pub enum Technique {
     /// Every vertex gathers from all others within reach: the reference, and slow.
     Gather(Storage),
     /// Multiresolution splatting: every sample that a light sees is spread over what lies around it.
@@ -19,8 +19,8 @@ pub enum Path {
 
 /// What is drawn: a mesh, and its material as the path wants it.
 #[derive(Clone, Copy, Debug)]
-pub enum Model<'a> {
-    /// For [`Path::Gather`].
+pub enum Drawable<'a> {
+    /// For [`Technique::Gather`].
     Gather {
         /// The mesh, with the point of every vertex.
         mesh: &'a GpuMesh,
@@ -29,21 +29,21 @@ pub enum Model<'a> {
         /// Its material.
         material: &'a Material,
     },
-    /// For [`Path::Splat`].
+    /// For [`Technique::Splat`].
     Splat {
         /// The mesh.
         mesh: &'a GpuMesh,
         /// Its material.
         material: &'a SplatMaterial,
     },
-    /// For [`Path::Separable`].
+    /// For [`Technique::Separable`].
     Separable {
         /// The mesh.
         mesh: &'a GpuMesh,
         /// Its material.
         material: &'a SeparableMaterial,
     },
-    /// For [`Path::Btf`].
+    /// For [`Technique::Btf`].
     Btf {
         /// The mesh, with tangents.
         mesh: &'a GpuMesh,
@@ -54,7 +54,7 @@ pub enum Model<'a> {
     },
 }
 
-impl Model<'_> {
+impl Drawable<'_> {
     pub(crate) fn mesh(&self) -> &GpuMesh {
         match self {
             Self::Gather { mesh, .. }
