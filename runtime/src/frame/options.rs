@@ -16,9 +16,6 @@ pub struct RuntimeOptions {
     pub samples: u32,
     /// Texels to a side of what each light sees: a power of two, at least 128.
     pub light_texels: u32,
-    /// Whether taps of [`Technique::Separable`] are shifted from pixel to pixel: grain instead of bands, where light changes
-    /// much within the reach of scattering.
-    pub jitters: bool,
     /// How BTFs are looked up.
     pub btf: BtfOptions,
     /// Behind the mesh, as the target takes it.
@@ -33,7 +30,6 @@ impl Default for RuntimeOptions {
             format: TextureFormat::Rgba8Unorm,
             samples: 1,
             light_texels: 512,
-            jitters: false,
             btf: BtfOptions::default(),
             background: Color { r: grey, g: grey, b: grey, a: 1.0 },
         }

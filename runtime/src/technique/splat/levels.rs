@@ -13,7 +13,7 @@ const TEXELS_PER_SAMPLE: f32 = 2.0;
 
 /// How samples and rings go with a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Levels {
+pub(super) struct Levels {
     /// Level of what lights see that the first ring takes its samples from.
     pub(super) first: u32,
     /// Number of rings.
@@ -22,7 +22,7 @@ pub(crate) struct Levels {
 
 impl Levels {
     /// For views of `light_texels` to a side that see a mesh of a certain size.
-    pub(crate) fn new(placement: &Placement, light_texels: u32) -> Self {
+    pub(super) fn new(placement: &Placement, light_texels: u32) -> Self {
         #[allow(clippy::cast_precision_loss, reason = "a thousand")]
         let texel_mm = 2.0 * placement.bounds.radius_mm / light_texels as f32;
         let sample_mm = SAMPLE_PIXELS * placement.pitch_mm;
@@ -37,13 +37,13 @@ impl Levels {
     }
 
     /// Levels that lights' views have.
-    pub(crate) fn count(&self) -> u32 {
+    pub(super) fn count(&self) -> u32 {
         self.first + self.rings
     }
 }
 
 /// Pixels of the picture to a side of a texel of the finest target.
-pub(crate) fn divisor(placement: &Placement, light_texels: u32, pixels_per_mm: f32) -> u32 {
+pub(super) fn divisor(placement: &Placement, light_texels: u32, pixels_per_mm: f32) -> u32 {
     let levels = Levels::new(placement, light_texels);
     #[allow(clippy::cast_precision_loss, reason = "small")]
     let sample_mm = 2.0 * placement.bounds.radius_mm / light_texels as f32 * (1_u32 << levels.first) as f32;
