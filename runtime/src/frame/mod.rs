@@ -1,4 +1,4 @@
-//! A frame: how large its buffers are within a budget, and its passes, recorded one after the other.
+//! Frames: sizes of their buffers within a budget, and their passes, recorded one after the other.
 
 mod options;
 pub(crate) mod plan;

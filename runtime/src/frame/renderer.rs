@@ -1,4 +1,4 @@
-//! A frame: what lights see, light that scatters by one of the paths, and the picture.
+//! Frames: what lights see, light that scatters by a technique, and the picture, recorded one after the other.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -18,7 +18,10 @@ use crate::technique::mesh_pass::{MeshPass, Target};
 use crate::technique::pipelines::{Bindings, Pipelines};
 use crate::technique::{btf, gather, separable, splat};
 
-/// The pipelines of a path; made at load, never in a frame.
+/// Bytes that uniform blocks of all passes are sure not to exceed.
+const UNIFORMS: u64 = 32 << 10;
+
+/// Pipelines of one technique; made at load, never in a frame.
 #[derive(Debug)]
 pub struct Renderer {
     options: RuntimeOptions,
@@ -27,7 +30,7 @@ pub struct Renderer {
     pipelines: Arc<dyn Pipelines>,
 }
 
-/// Everything that a picture of one size of one drawable needs on the device.
+/// Buffers, maps and bind groups for pictures of one size of one drawable.
 #[derive(Debug)]
 pub struct Frame {
     plan: Plan,
@@ -35,14 +38,14 @@ pub struct Frame {
     lights: LightViews,
     scene: BindGroup,
     depth: Surface2d,
-    /// Where pixels have several samples.
+    /// Target of pixels with several samples.
     samples: Option<Surface2d>,
     technique: Technique,
     bindings: Box<dyn Bindings>,
 }
 
 impl Renderer {
-    /// Compiles the passes of a path.
+    /// Compiles the passes of a technique.
     ///
     /// # Errors
     /// [`Error::Device`] if the driver refuses them; captures are not drawn on meshes. [`Error::NoHalfFloats`] for splats
@@ -66,12 +69,12 @@ impl Renderer {
         Ok(Self { options, technique, light_view: light_views::pass(gpu)?, pipelines })
     }
 
-    /// Makes room for pictures of `size` of a drawable, within the budget: views of lights and maps become coarser
-    /// until everything fits.
+    /// Makes room for pictures of `size` pixels of a drawable, within the budget: lights' views and maps become coarser until
+    /// everything fits.
     ///
     /// # Errors
     /// [`Error::OverBudget`] if even the coarsest does not, before anything is allocated;
-    /// [`Error::Device`] if the drawable is for another path.
+    /// [`Error::Device`] if the drawable is for another technique.
     pub fn prepare(&self, gpu: &Gpu, drawable: &Drawable<'_>, scene: &Scene, size: [u32; 2]) -> Result<Frame> {
         let lights = u32::try_from(scene.lights.len()).unwrap_or(u32::MAX);
         let plan = Plan {
@@ -127,7 +130,7 @@ impl Renderer {
     /// Draws a scene to a view of the format and size that were agreed on.
     ///
     /// # Errors
-    /// [`Error::Device`].
+    /// [`Error::Device`] if frame or drawable are for another technique, or the device is lost.
     pub fn draw(
         &self,
         gpu: &Gpu,
@@ -144,11 +147,11 @@ impl Renderer {
         })
     }
 
-    /// The same, pass by pass: what each took until the device was through with it. The sum is more than a frame takes,
-    /// for nothing overlaps.
+    /// Draws pass by pass, and gives the name of each and the time until the device was through with it. The sum is more than
+    /// a frame takes, for nothing overlaps.
     ///
     /// # Errors
-    /// [`Error::Device`].
+    /// [`Error::Device`] if frame or drawable are for another technique, or the device is lost.
     pub fn draw_timed(
         &self,
         gpu: &Gpu,
@@ -179,7 +182,7 @@ impl Renderer {
         Ok(times)
     }
 
-    /// Uploads what has changed; gathers, where that is the path and the light has changed.
+    /// Uploads what has changed since the last frame.
     fn update(&self, gpu: &Gpu, frame: &mut Frame, drawable: &Drawable<'_>, scene: &Scene) -> Result<()> {
         if frame.technique != self.technique {
             return Err(Error::Device("the frame is for another technique than the renderer".to_owned()));
@@ -193,7 +196,7 @@ impl Renderer {
         frame.bindings.update(gpu, drawable, scene, &block, &plan)
     }
 
-    /// All passes of a frame; `lap` is called after each.
+    /// Records all passes of a frame; `lap` is called after each.
     fn record(
         &self,
         mut encoder: CommandEncoder,
@@ -218,10 +221,10 @@ impl Renderer {
         lap("shade", encoder)
     }
 
-    /// Draws a scene and reads the picture back: rows of 8-bit values from the top.
+    /// Draws a scene and reads the picture back: 8-bit rgb, row by row from the top.
     ///
     /// # Errors
-    /// [`Error::Device`], also if the format of the renderer has not four bytes.
+    /// [`Error::Device`] as [`Renderer::draw`], or if the format of the renderer has not four bytes.
     pub fn picture(
         &self,
         gpu: &Gpu,
@@ -237,12 +240,9 @@ impl Renderer {
 }
 
 impl Frame {
-    /// What was chosen within the budget.
+    /// Sizes that were chosen within the budget.
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 }
-
-/// Bytes that uniform blocks of all passes are sure not to exceed.
-const UNIFORMS: u64 = 32 << 10;

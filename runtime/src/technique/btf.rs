@@ -1,4 +1,4 @@
-//! The path of BTFs: one pass, once it is known what lights see.
+//! The technique of BTFs: one pass, once it is known what lights see.
 
 use std::sync::Arc;
 
@@ -17,13 +17,13 @@ use crate::error::{Error, Result};
 use crate::frame::plan::Plan;
 use crate::gpu::{Gpu, Slot, Tracked};
 
-/// How BTFs are looked up.
+/// Filtering and sampling of BTFs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BtfOptions {
-    /// Which texels a pixel shows.
+    /// Texels that a pixel shows.
     pub filtering: BtfFiltering,
-    /// Samples of light from all around for a pixel, at most 1024; grain falls with their square root. None leaves that
-    /// light out. Images, which say nothing of how to sample them, get four times as many, by their cosine.
+    /// Samples of light from all around for each pixel, 0 to 1024; grain falls with their square root. 0 leaves that light
+    /// out. Images, which have no sampler of their own, get four times as many, drawn by the cosine.
     pub samples: u32,
 }
 
@@ -36,7 +36,7 @@ impl Default for BtfOptions {
     }
 }
 
-/// Pipeline of BTFs of one storage.
+/// Pipeline of BTFs of one layout.
 #[derive(Debug)]
 pub(crate) struct Passes {
     storage: BtfStorage,

@@ -1,60 +1,61 @@
-//! What is drawn, and by which path.
+//! Choice of a technique, and what it draws.
 
 use subsurf_shaders::{BtfStorage, Storage};
 
 use crate::asset::{BtfMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial};
 
-/// How light scatters.
+/// Technique by which a mesh is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Technique {
-    /// Every vertex gathers from all others within reach: the reference, and slow.
+    /// Gather: every vertex sums the light of all others within reach. The reference, and slow.
     Gather(Storage),
-    /// Multiresolution splatting: every sample that a light sees is spread over what lies around it.
+    /// Multiresolution splats: every sample that a light sees is spread over what lies around it.
     Splat(Storage),
-    /// Weighted irradiance maps on the screen, blurred by shared Gaussians; of so many terms.
+    /// Separable blurs on the screen, of L weighted irradiance maps by shared Gaussians; L is 1 or 2.
     Separable(usize),
-    /// None: a BTF says what leaves where light enters.
+    /// BTF: light leaves where it enters, as the texture function says; nothing scatters between pixels.
     Btf(BtfStorage),
 }
 
-/// What is drawn: a mesh, and its material as the path wants it.
+/// Mesh and material on the device, as one technique takes them.
 #[derive(Clone, Copy, Debug)]
 pub enum Drawable<'a> {
-    /// For [`Technique::Gather`].
+    /// Drawable of [`Technique::Gather`].
     Gather {
-        /// The mesh, with the point of every vertex.
+        /// Mesh with the point of every vertex, [`crate::VertexData::Points`].
         mesh: &'a GpuMesh,
-        /// Its points.
+        /// Points that the vertices name.
         points: &'a GpuPoints,
-        /// Its material.
+        /// Material of the mesh.
         material: &'a Material,
     },
-    /// For [`Technique::Splat`].
+    /// Drawable of [`Technique::Splat`].
     Splat {
-        /// The mesh.
+        /// Mesh with [`crate::VertexData::Ambient`].
         mesh: &'a GpuMesh,
-        /// Its material.
+        /// Material of the mesh.
         material: &'a SplatMaterial,
     },
-    /// For [`Technique::Separable`].
+    /// Drawable of [`Technique::Separable`].
     Separable {
-        /// The mesh.
+        /// Mesh with [`crate::VertexData::Ambient`].
         mesh: &'a GpuMesh,
-        /// Its material.
+        /// Material of the mesh.
         material: &'a SeparableMaterial,
     },
-    /// For [`Technique::Btf`].
+    /// Drawable of [`Technique::Btf`].
     Btf {
-        /// The mesh, with tangents.
+        /// Mesh with [`crate::VertexData::Tangents`].
         mesh: &'a GpuMesh,
-        /// The file, or images.
+        /// File, or images, of the BTF.
         material: &'a BtfMaterial,
-        /// Which of the file's materials, from 0.
+        /// Number of the material in the file, from 0.
         number: usize,
     },
 }
 
 impl Drawable<'_> {
+    /// Mesh that is drawn.
     pub(crate) fn mesh(&self) -> &GpuMesh {
         match self {
             Self::Gather { mesh, .. }

@@ -1,4 +1,4 @@
-//! The reference path: every vertex gathers from all others within reach.
+//! The gather, the reference: every vertex sums the light of all others within reach.
 
 use std::sync::Arc;
 
@@ -17,10 +17,10 @@ use crate::error::Result;
 use crate::frame::plan::Plan;
 use crate::gpu::{CoverPass, Gpu, Rows, Slot, array_size};
 
-/// A point seldom has more than this many others within reach.
+/// Points within reach of a point, seldom more.
 const NEIGHBOURS: u64 = 4_096;
 
-/// Its pipelines.
+/// Pipelines for materials of one layout.
 #[derive(Debug)]
 pub(crate) struct Passes {
     storage: Storage,
@@ -136,7 +136,7 @@ impl Bindings for Bound {
     }
 }
 
-/// A scene's block without what only the eye sees.
+/// Block of a scene without what only the eye sees.
 fn lighting(block: &uniform::Scene) -> uniform::Scene {
     let none = bytemuck::Zeroable::zeroed();
     let mut light = block.light;

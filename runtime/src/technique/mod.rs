@@ -1,4 +1,6 @@
-//! The ways in which light scatters, each with its passes and what is bound to them.
+//! Techniques: the ways to draw scattering light and BTFs, each with its pipelines and what is bound to them.
+//!
+//! A technique implements [`pipelines::Pipelines`], and has its arms in [`drawable`] and in `Renderer::new`.
 
 pub(crate) mod btf;
 mod btf_query;

@@ -1,4 +1,4 @@
-//! The separable path on the screen: weighted irradiance where the eye sees the mesh, blurred by distances in space.
+//! The separable technique: weighted irradiance where the eye sees the mesh, blurred on the screen by distances in space.
 
 use std::sync::Arc;
 

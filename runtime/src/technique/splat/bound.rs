@@ -1,4 +1,4 @@
-//! What splats draw to for one size of picture, and how they are recorded.
+//! Maps and bind groups of splats for one size of picture, and their passes, recorded.
 
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ struct Bound {
     collapse: BindGroup,
     rings_block: Tracked<Buffer>,
     upsampling: Tracked<Buffer>,
-    /// Bound to the reductions.
+    /// Blocks of the reductions.
     #[expect(dead_code, reason = "kept in the ledger as long as the device has them")]
     which: Vec<Tracked<Buffer>>,
     shade: BindGroup,
@@ -44,7 +44,7 @@ struct Bound {
     size: [u32; 2],
 }
 
-/// One level of one light from the level before.
+/// Pass that makes one level of one light's view from the level before.
 #[derive(Debug)]
 struct Reduction {
     light: u32,
@@ -53,7 +53,7 @@ struct Reduction {
     size: [u32; 2],
 }
 
-/// Samples of one level of one light, for one ring.
+/// Splats of the samples of one level of one light, for one ring.
 #[derive(Debug)]
 struct Draw {
     light: u32,
