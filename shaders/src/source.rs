@@ -43,8 +43,8 @@ impl Keeping {
     #[must_use]
     pub fn complete(self, pass: &str) -> String {
         let prelude = match self {
-            Self::Halves => include_str!("../wgsl/kept_halves.wgsl"),
-            Self::Packed => include_str!("../wgsl/kept_packed.wgsl"),
+            Self::Halves => include_str!("../wgsl/lib/target_half.wgsl"),
+            Self::Packed => include_str!("../wgsl/lib/target_packed.wgsl"),
         };
         format!("{prelude}{pass}")
     }
@@ -53,7 +53,7 @@ impl Keeping {
 /// Files one after another, what all materials share first.
 macro_rules! with_material {
     ($($part:literal),+) => {
-        concat!(include_str!("../wgsl/material.wgsl"), $(include_str!(concat!("../wgsl/", $part))),+)
+        concat!(include_str!("../wgsl/material/material.wgsl"), $(include_str!(concat!("../wgsl/", $part))),+)
     };
 }
 
@@ -61,18 +61,18 @@ macro_rules! with_material {
 macro_rules! by_storage {
     ($storage:expr, $capture:expr, $($pass:literal),+) => {
         match $storage {
-            Storage::Single => with_material!("bases.wgsl", "single.wgsl", "pair.wgsl", $($pass),+),
-            Storage::Bmpp => with_material!("bases.wgsl", "two.wgsl", "bmpp.wgsl", "pair.wgsl", $($pass),+),
-            Storage::Palette => with_material!("bases.wgsl", "two.wgsl", "palette.wgsl", "pair.wgsl", $($pass),+),
+            Storage::Single => with_material!("material/base_profiles.wgsl", "material/bmpp1.wgsl", "material/reflectance.wgsl", $($pass),+),
+            Storage::Bmpp => with_material!("material/base_profiles.wgsl", "material/bmpp2.wgsl", "material/bmpp2_indices.wgsl", "material/reflectance.wgsl", $($pass),+),
+            Storage::Palette => with_material!("material/base_profiles.wgsl", "material/bmpp2.wgsl", "material/bmpp2_palette.wgsl", "material/reflectance.wgsl", $($pass),+),
             Storage::Three => concat!(
                 "const PER_PIXEL: u32 = 3u;\n",
-                with_material!("bases.wgsl", "several.wgsl", "pair.wgsl", $($pass),+)
+                with_material!("material/base_profiles.wgsl", "material/bmpp_k.wgsl", "material/reflectance.wgsl", $($pass),+)
             ),
             Storage::Five => concat!(
                 "const PER_PIXEL: u32 = 5u;\n",
-                with_material!("bases.wgsl", "several.wgsl", "pair.wgsl", $($pass),+)
+                with_material!("material/base_profiles.wgsl", "material/bmpp_k.wgsl", "material/reflectance.wgsl", $($pass),+)
             ),
-            Storage::PerPixel => with_material!("per_pixel.wgsl", "pair.wgsl", $($pass),+),
+            Storage::PerPixel => with_material!("material/per_pixel.wgsl", "material/reflectance.wgsl", $($pass),+),
             Storage::Capture => $capture,
         }
     };
@@ -81,40 +81,40 @@ macro_rules! by_storage {
 /// Exitance of a flat patch; entry points `cover` and `gather`.
 #[must_use]
 pub const fn gather(storage: Storage) -> &'static str {
-    by_storage!(storage, with_material!("capture.wgsl", "cover.wgsl", "gather.wgsl"), "cover.wgsl", "gather.wgsl")
+    by_storage!(storage, with_material!("material/capture.wgsl", "lib/fullscreen.wgsl", "pass/patch/gather.wgsl"), "lib/fullscreen.wgsl", "pass/patch/gather.wgsl")
 }
 
 /// Exitance at the points of a surface; entry points `cover` and `surface_gather`. Captures have no distances but those
 /// of their own patch: nothing for them.
 #[must_use]
 pub const fn surface_gather(storage: Storage) -> &'static str {
-    by_storage!(storage, "", "cover.wgsl", "surface_gather.wgsl")
+    by_storage!(storage, "", "lib/fullscreen.wgsl", "pass/surface/surface_gather.wgsl")
 }
 
 /// Irradiance at the points of a surface; entry points `cover` and `irradiance`.
 pub const IRRADIANCE: &str = concat!(
-    include_str!("../wgsl/fresnel.wgsl"),
-    include_str!("../wgsl/scene.wgsl"),
-    include_str!("../wgsl/cover.wgsl"),
-    include_str!("../wgsl/irradiance.wgsl")
+    include_str!("../wgsl/lib/fresnel.wgsl"),
+    include_str!("../wgsl/lib/scene.wgsl"),
+    include_str!("../wgsl/lib/fullscreen.wgsl"),
+    include_str!("../wgsl/pass/surface/irradiance.wgsl")
 );
 
 /// What a light sees of a mesh; entry points `project` and `see`.
 pub const LIGHT_VIEW: &str = concat!(
-    include_str!("../wgsl/fresnel.wgsl"),
-    include_str!("../wgsl/scene.wgsl"),
-    include_str!("../wgsl/mapping.wgsl"),
-    include_str!("../wgsl/light_depth.wgsl"),
-    include_str!("../wgsl/seen.wgsl"),
-    include_str!("../wgsl/light_view.wgsl")
+    include_str!("../wgsl/lib/fresnel.wgsl"),
+    include_str!("../wgsl/lib/scene.wgsl"),
+    include_str!("../wgsl/lib/mesh/mapping.wgsl"),
+    include_str!("../wgsl/lib/light_depth.wgsl"),
+    include_str!("../wgsl/lib/screen/tsm.wgsl"),
+    include_str!("../wgsl/pass/tsm/tsm_render.wgsl")
 );
 
 /// Files one after another, what says how many weighted maps there are first.
 macro_rules! with_terms {
     ($terms:expr, $($part:literal),+) => {
         match $terms {
-            1 => concat!(include_str!("../wgsl/terms_1.wgsl"), $(include_str!(concat!("../wgsl/", $part))),+),
-            _ => concat!(include_str!("../wgsl/terms_2.wgsl"), $(include_str!(concat!("../wgsl/", $part))),+),
+            1 => concat!(include_str!("../wgsl/lib/blur/terms_1.wgsl"), $(include_str!(concat!("../wgsl/", $part))),+),
+            _ => concat!(include_str!("../wgsl/lib/blur/terms_2.wgsl"), $(include_str!(concat!("../wgsl/", $part))),+),
         }
     };
 }
@@ -133,10 +133,10 @@ pub enum Domain {
 pub const fn blur_rows(domain: Domain, terms: usize) -> &'static str {
     match domain {
         Domain::Patch => {
-            with_terms!(terms, "cover.wgsl", "on_patch.wgsl", "blur.wgsl", "from_stage.wgsl", "blur_rows.wgsl")
+            with_terms!(terms, "lib/fullscreen.wgsl", "lib/blur/domain_patch.wgsl", "lib/blur/blur.wgsl", "lib/blur/maps_stage.wgsl", "pass/patch/blur_patch_rows.wgsl")
         }
         Domain::Screen => {
-            with_terms!(terms, "cover.wgsl", "on_screen.wgsl", "blur.wgsl", "blur_rows.wgsl")
+            with_terms!(terms, "lib/fullscreen.wgsl", "lib/blur/domain_screen.wgsl", "lib/blur/blur.wgsl", "pass/patch/blur_patch_rows.wgsl")
         }
     }
 }
@@ -144,7 +144,7 @@ pub const fn blur_rows(domain: Domain, terms: usize) -> &'static str {
 /// The first stage along rows of a flat patch, from its factors and the light on it; entry points `cover` and `blur`.
 #[must_use]
 pub const fn first_rows(terms: usize) -> &'static str {
-    with_terms!(terms, "cover.wgsl", "on_patch.wgsl", "blur.wgsl", "from_light.wgsl", "blur_rows.wgsl")
+    with_terms!(terms, "lib/fullscreen.wgsl", "lib/blur/domain_patch.wgsl", "lib/blur/blur.wgsl", "lib/blur/maps_irradiance.wgsl", "pass/patch/blur_patch_rows.wgsl")
 }
 
 /// One stage along columns, and the sum of the stages; entry points `cover` and `blur`.
@@ -153,15 +153,15 @@ pub const fn blur_columns(domain: Domain, terms: usize) -> &'static str {
     match domain {
         Domain::Patch => with_terms!(
             terms,
-            "cover.wgsl",
-            "on_patch.wgsl",
-            "blur.wgsl",
-            "from_stage.wgsl",
-            "sum.wgsl",
-            "blur_columns.wgsl"
+            "lib/fullscreen.wgsl",
+            "lib/blur/domain_patch.wgsl",
+            "lib/blur/blur.wgsl",
+            "lib/blur/maps_stage.wgsl",
+            "lib/blur/stage_sum.wgsl",
+            "pass/patch/blur_patch_columns.wgsl"
         ),
         Domain::Screen => {
-            with_terms!(terms, "cover.wgsl", "on_screen.wgsl", "blur.wgsl", "sum.wgsl", "blur_columns.wgsl")
+            with_terms!(terms, "lib/fullscreen.wgsl", "lib/blur/domain_screen.wgsl", "lib/blur/blur.wgsl", "lib/blur/stage_sum.wgsl", "pass/patch/blur_patch_columns.wgsl")
         }
     }
 }
@@ -169,28 +169,28 @@ pub const fn blur_columns(domain: Domain, terms: usize) -> &'static str {
 /// The last stage along columns of a flat patch, and its exitance; entry points `cover` and `blur`.
 #[must_use]
 pub const fn last_columns(terms: usize) -> &'static str {
-    with_terms!(terms, "cover.wgsl", "on_patch.wgsl", "blur.wgsl", "from_stage.wgsl", "sum.wgsl", "last_columns.wgsl")
+    with_terms!(terms, "lib/fullscreen.wgsl", "lib/blur/domain_patch.wgsl", "lib/blur/blur.wgsl", "lib/blur/maps_stage.wgsl", "lib/blur/stage_sum.wgsl", "pass/patch/blur_patch_last.wgsl")
 }
 
 /// One kernel for a whole patch, along one axis; entry points `cover` and `homogeneous`.
-pub const HOMOGENEOUS: &str = concat!(include_str!("../wgsl/cover.wgsl"), include_str!("../wgsl/homogeneous.wgsl"));
+pub const HOMOGENEOUS: &str = concat!(include_str!("../wgsl/lib/fullscreen.wgsl"), include_str!("../wgsl/pass/patch/homogeneous.wgsl"));
 
 /// L weighted irradiance maps where the eye sees a mesh; entry points `project` and `weigh`.
 #[must_use]
 pub const fn weigh_mesh(terms: usize) -> &'static str {
     with_terms!(
         terms,
-        "fresnel.wgsl",
-        "scene.wgsl",
-        "mapping.wgsl",
-        "light_depth.wgsl",
-        "shadow.wgsl",
-        "patch_layers.wgsl",
-        "factors.wgsl",
-        "no_points.wgsl",
-        "vertex.wgsl",
-        "through.wgsl",
-        "weigh_mesh.wgsl"
+        "lib/fresnel.wgsl",
+        "lib/scene.wgsl",
+        "lib/mesh/mapping.wgsl",
+        "lib/light_depth.wgsl",
+        "lib/screen/tsm_visibility.wgsl",
+        "lib/mesh/patch_layers.wgsl",
+        "lib/blur/separable_basis.wgsl",
+        "lib/mesh/vertex_none.wgsl",
+        "lib/mesh/vertex.wgsl",
+        "lib/screen/transmission.wgsl",
+        "pass/separable/separable_gbuffer.wgsl"
     )
 }
 
@@ -207,8 +207,8 @@ pub enum Encoding {
 macro_rules! lit {
     ($encoding:expr, $with:ident!($($first:expr)?), $($part:literal),+) => {
         match $encoding {
-            Encoding::Here => $with!($($first,)? "encode_here.wgsl", "fresnel.wgsl", "scene.wgsl", "coat.wgsl", "tone.wgsl", "light_depth.wgsl", "shadow.wgsl", $($part),+),
-            Encoding::There => $with!($($first,)? "encode_there.wgsl", "fresnel.wgsl", "scene.wgsl", "coat.wgsl", "tone.wgsl", "light_depth.wgsl", "shadow.wgsl", $($part),+),
+            Encoding::Here => $with!($($first,)? "lib/display.wgsl", "lib/fresnel.wgsl", "lib/scene.wgsl", "lib/coat.wgsl", "lib/tone.wgsl", "lib/light_depth.wgsl", "lib/screen/tsm_visibility.wgsl", $($part),+),
+            Encoding::There => $with!($($first,)? "lib/display_none.wgsl", "lib/fresnel.wgsl", "lib/scene.wgsl", "lib/coat.wgsl", "lib/tone.wgsl", "lib/light_depth.wgsl", "lib/screen/tsm_visibility.wgsl", $($part),+),
         }
     };
 }
@@ -217,8 +217,8 @@ macro_rules! lit {
 macro_rules! shading {
     ($encoding:expr, $with:ident!($($first:expr)?), $($part:literal),+) => {
         match $encoding {
-            Encoding::Here => $with!($($first,)? "encode_here.wgsl", "fresnel.wgsl", "scene.wgsl", "coat.wgsl", "vertex.wgsl", "tone.wgsl", "shade.wgsl", $($part),+),
-            Encoding::There => $with!($($first,)? "encode_there.wgsl", "fresnel.wgsl", "scene.wgsl", "coat.wgsl", "vertex.wgsl", "tone.wgsl", "shade.wgsl", $($part),+),
+            Encoding::Here => $with!($($first,)? "lib/display.wgsl", "lib/fresnel.wgsl", "lib/scene.wgsl", "lib/coat.wgsl", "lib/mesh/vertex.wgsl", "lib/tone.wgsl", "lib/mesh/shading.wgsl", $($part),+),
+            Encoding::There => $with!($($first,)? "lib/display_none.wgsl", "lib/fresnel.wgsl", "lib/scene.wgsl", "lib/coat.wgsl", "lib/mesh/vertex.wgsl", "lib/tone.wgsl", "lib/mesh/shading.wgsl", $($part),+),
         }
     };
 }
@@ -230,7 +230,7 @@ macro_rules! joined {
 /// Picture of a mesh from the exitance of its vertices; entry points `project` and `shade`.
 #[must_use]
 pub const fn shade_points(encoding: Encoding) -> &'static str {
-    shading!(encoding, joined!(), "from_points.wgsl")
+    shading!(encoding, joined!(), "lib/mesh/exitance_vertex.wgsl")
 }
 
 /// Picture of a mesh from L blurred maps; entry points `project` and `shade`.
@@ -239,40 +239,40 @@ pub const fn shade_sums(encoding: Encoding, terms: usize) -> &'static str {
     shading!(
         encoding,
         with_terms!(terms),
-        "mapping.wgsl",
-        "light_depth.wgsl",
-        "shadow.wgsl",
-        "patch_layers.wgsl",
-        "factors.wgsl",
-        "no_points.wgsl",
-        "neighbours.wgsl",
-        "upsampling.wgsl",
-        "from_sums.wgsl"
+        "lib/mesh/mapping.wgsl",
+        "lib/light_depth.wgsl",
+        "lib/screen/tsm_visibility.wgsl",
+        "lib/mesh/patch_layers.wgsl",
+        "lib/blur/separable_basis.wgsl",
+        "lib/mesh/vertex_none.wgsl",
+        "lib/screen/neighbours.wgsl",
+        "lib/screen/upsampling.wgsl",
+        "pass/separable/shade_separable.wgsl"
     )
 }
 
 /// What the eye sees of a mesh; entry points `project` and `view`.
 pub const SURFACE_VIEW: &str = joined!(
-    "fresnel.wgsl",
-    "scene.wgsl",
-    "mapping.wgsl",
-    "patch_layers.wgsl",
-    "no_points.wgsl",
-    "vertex.wgsl",
-    "surface_view.wgsl"
+    "lib/fresnel.wgsl",
+    "lib/scene.wgsl",
+    "lib/mesh/mapping.wgsl",
+    "lib/mesh/patch_layers.wgsl",
+    "lib/mesh/vertex_none.wgsl",
+    "lib/mesh/vertex.wgsl",
+    "pass/splat/surface_gbuffer.wgsl"
 );
 
 /// The next level of what a light sees; entry points `cover` and `reduce`.
-pub const REDUCE: &str = joined!("cover.wgsl", "seen.wgsl", "reduce.wgsl");
+pub const REDUCE: &str = joined!("lib/fullscreen.wgsl", "lib/screen/tsm.wgsl", "pass/tsm/tsm_reduce.wgsl");
 
 /// Light of samples on what lies around them; entry points `spread` and `splat`. Nothing for captures.
 #[must_use]
 pub const fn splat(storage: Storage) -> &'static str {
-    by_storage!(storage, "", "splat.wgsl")
+    by_storage!(storage, "", "pass/splat/splat.wgsl")
 }
 
 /// All rings of splats in one picture; entry points `cover` and `collapse`.
-pub const COLLAPSE: &str = joined!("cover.wgsl", "neighbours.wgsl", "collapse.wgsl");
+pub const COLLAPSE: &str = joined!("lib/fullscreen.wgsl", "lib/screen/neighbours.wgsl", "pass/splat/splat_resolve.wgsl");
 
 /// Picture of a mesh from splats; entry points `project` and `shade`.
 #[must_use]
@@ -280,22 +280,22 @@ pub const fn shade_splats(encoding: Encoding) -> &'static str {
     shading!(
         encoding,
         joined!(),
-        "mapping.wgsl",
-        "light_depth.wgsl",
-        "shadow.wgsl",
-        "patch_layers.wgsl",
-        "no_points.wgsl",
-        "neighbours.wgsl",
-        "upsampling.wgsl",
-        "from_splats.wgsl"
+        "lib/mesh/mapping.wgsl",
+        "lib/light_depth.wgsl",
+        "lib/screen/tsm_visibility.wgsl",
+        "lib/mesh/patch_layers.wgsl",
+        "lib/mesh/vertex_none.wgsl",
+        "lib/screen/neighbours.wgsl",
+        "lib/screen/upsampling.wgsl",
+        "pass/splat/shade_splat.wgsl"
     )
 }
 
 /// Picture of a flat patch; entry points `cover` and `present`.
 pub const PRESENT: &str = concat!(
-    include_str!("../wgsl/cover.wgsl"),
-    include_str!("../wgsl/tone.wgsl"),
-    include_str!("../wgsl/present.wgsl")
+    include_str!("../wgsl/lib/fullscreen.wgsl"),
+    include_str!("../wgsl/lib/tone.wgsl"),
+    include_str!("../wgsl/pass/patch/present.wgsl")
 );
 
 /// How a bidirectional texture function is stored on the device; each has the functions `seen_from`, `apparent_of`,
@@ -317,23 +317,23 @@ impl BtfStorage {
 macro_rules! with_nested {
     ($($part:literal),+) => {
         joined!(
-            "btf_words.wgsl", "btf_angle.wgsl", "btf_grid.wgsl", "btf_chain.wgsl", "btf_srgb.wgsl", "btf_tone.wgsl",
-            "btf_sampler.wgsl", $($part),+
+            "material/btf/btf_words.wgsl", "material/btf/btf_angle.wgsl", "material/btf/btf_grid.wgsl", "material/btf/btf_chain.wgsl", "lib/from_srgb.wgsl", "material/btf/btf_colour.wgsl",
+            "material/btf/btf_sampler.wgsl", $($part),+
         )
     };
 }
 
 /// What reads images, and more files after it.
 macro_rules! with_images {
-    ($($part:literal),+) => { joined!("btf_angle.wgsl", "btf_srgb.wgsl", "btf_images.wgsl", $($part),+) };
+    ($($part:literal),+) => { joined!("material/btf/btf_angle.wgsl", "lib/from_srgb.wgsl", "material/btf/btf_images.wgsl", $($part),+) };
 }
 
 /// Values and samples of a BTF for lists of directions; entry points `cover` and `answer`.
 #[must_use]
 pub const fn btf_query(storage: BtfStorage) -> &'static str {
     match storage {
-        BtfStorage::Nested => with_nested!("cover.wgsl", "btf_query.wgsl"),
-        BtfStorage::Images => with_images!("cover.wgsl", "btf_query.wgsl"),
+        BtfStorage::Nested => with_nested!("lib/fullscreen.wgsl", "pass/btf/btf_query.wgsl"),
+        BtfStorage::Images => with_images!("lib/fullscreen.wgsl", "pass/btf/btf_query.wgsl"),
     }
 }
 
@@ -344,21 +344,21 @@ macro_rules! btf_picture {
             lit!(
                 $encoding,
                 $with!(),
-                "btf_vertex.wgsl",
-                "btf_texture.wgsl",
-                "btf_tangents.wgsl",
-                "btf_surroundings.wgsl",
-                "btf_shade.wgsl"
+                "lib/mesh/btf_vertex.wgsl",
+                "material/btf/btf_texture.wgsl",
+                "lib/mesh/btf_tangents.wgsl",
+                "material/btf/btf_ambient.wgsl",
+                "pass/btf/shade_btf.wgsl"
             )
         } else {
             lit!(
                 $encoding,
                 $with!(),
-                "btf_vertex.wgsl",
-                "btf_texture.wgsl",
-                "btf_tangents.wgsl",
-                "btf_dark.wgsl",
-                "btf_shade.wgsl"
+                "lib/mesh/btf_vertex.wgsl",
+                "material/btf/btf_texture.wgsl",
+                "lib/mesh/btf_tangents.wgsl",
+                "material/btf/ambient_none.wgsl",
+                "pass/btf/shade_btf.wgsl"
             )
         }
     };

@@ -2,7 +2,7 @@
 //!
 //! Colours are linear Rec. 709. Where the GPU stores a result in a half-float texture, the twin keeps f32.
 
-mod btf;
+mod shade_btf;
 mod coat;
 mod fresnel;
 mod gather;
@@ -12,11 +12,11 @@ mod present;
 mod raster;
 mod scene;
 mod separable;
-mod shade;
+mod shade_vertex;
 mod surface_gather;
 mod tone;
 
-pub use btf::{BtfSurface, BtfTriangles, shade_btf};
+pub use shade_btf::{BtfSurface, BtfTriangles, shade_btf};
 pub use coat::{Reflections, glint, sheen};
 pub use fresnel::{diffuse_transmittance, fresnel_transmittance};
 pub use gather::{Reflectance, gather};
@@ -25,7 +25,7 @@ pub use mapping::place_in_box;
 pub use present::present;
 pub use scene::{entering, incident, sky_irradiance};
 pub use separable::separable;
-pub use shade::{Triangles, shade};
+pub use shade_vertex::{Triangles, shade};
 pub use surface_gather::{Points, surface_gather};
 pub use tone::{display, linear, neutral, srgb};
 
