@@ -1,4 +1,7 @@
-// Share of unpolarised light that passes from air into a dielectric of index eta at an angle of incidence.
+// Fresnel's equations for a smooth dielectric.
+
+// Transmittance of unpolarised light from air into a dielectric of refractive index eta, 0 to 1; `cosine` is that of the
+// angle of incidence, 0 to 1.
 fn fresnel_transmittance(cosine: f32, eta: f32) -> f32 {
     // Along the surface, without a boundary, it would be 0 / 0.
     let cos_i = max(cosine, 1e-3);

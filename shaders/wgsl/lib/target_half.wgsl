@@ -1,13 +1,15 @@
-// What passes keep for later ones: half floats.
+// Texels of intermediate targets: four half floats.
 
-alias Kept = vec4<f32>;
-alias KeptImage = texture_2d<f32>;
-alias KeptLayers = texture_2d_array<f32>;
+alias TargetTexel = vec4<f32>;
+alias TargetTexture = texture_2d<f32>;
+alias TargetTextureArray = texture_2d_array<f32>;
 
-fn kept(values: vec4<f32>) -> Kept {
+// What is drawn for four values.
+fn pack(values: vec4<f32>) -> TargetTexel {
     return values;
 }
 
-fn told(texel: Kept) -> vec4<f32> {
+// Four values of a texel.
+fn unpack(texel: TargetTexel) -> vec4<f32> {
     return texel;
 }

@@ -1,10 +1,11 @@
-// 2-BMPP with an index for each of a pixel's two base materials.
+// Storage of 2-BMPP with an index for each of the two base materials of a pixel.
 
-// Mixture ratio t of the first base material.
+// Mixture ratios t of the first base material, 0 to 1.
 @group(0) @binding(2) var ratios: texture_2d<f32>;
 // Base-material indices.
 @group(0) @binding(3) var indices: texture_2d<u32>;
 
+// The pixel at a texel of the patch.
 fn load_pixel(texel: vec2<u32>) -> Pixel {
     let base = textureLoad(indices, texel, 0).xy;
     let t = textureLoad(ratios, texel, 0).x;

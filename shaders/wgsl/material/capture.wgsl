@@ -1,24 +1,27 @@
-// An uncompressed capture: every entry of every window.
+// Storage of an uncompressed capture: every entry of every window.
 
-// The array [y][x][dy][dx][rgb], row by row and layer by layer.
+// The array [y][x][dy][dx][rgb] in mm^-2, row by row and layer by layer.
 @group(0) @binding(1) var entries: texture_2d_array<f32>;
 
 struct Pixel {
+    // Number of the pixel, row by row.
     number: u32,
 }
 
+// The pixel at a texel of the patch.
 fn load_pixel(texel: vec2<u32>) -> Pixel {
     return Pixel(texel.y * material.size.x + texel.x);
 }
 
+// Entry `index` of the array.
 fn entry(index: u32) -> f32 {
     let row = index / material.row;
     let rd = textureLoad(entries, vec2<u32>(index % material.row, row % material.rows), row / material.rows, 0).x;
-    // What is not a positive number was not measured; NaN compares false.
+    // Entries that are not positive were not measured; NaN compares false.
     return select(0.0, rd, rd > 0.0);
 }
 
-// The entries of a pair are with the pixel where light enters; the other one contributes nothing.
+// Share of pixel o in its pairs at a distance: none, the entries are those of the pixel where light enters.
 struct Partner {
     r_mm: f32,
 }

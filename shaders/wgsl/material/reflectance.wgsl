@@ -1,11 +1,12 @@
-// Rd of a pair of pixels from their profiles (Yatagawa et al. 2020, eq. 4).
+// Diffuse reflectance of a pair of pixels from their log-scale profiles (Yatagawa et al. 2020, eq. 2).
 
-// What pixel o contributes to every pair at distance r.
+// Share of pixel o in its pairs at distance r.
 struct Partner {
     knot: Knot,
     log_profile: vec3<f32>,
 }
 
+// Share of pixel o at a distance in mm.
 fn partner_at(o: Pixel, r_mm: f32) -> Partner {
     let knot = knot_at(r_mm);
     return Partner(knot, log_profile(o, knot));

@@ -1,36 +1,36 @@
-// One stage of the cascade of Gaussians, along one axis, of all maps at once.
+// Blur of all irradiance maps by one stage of the cascade of Gaussians, along one axis.
 
-struct Stage {
-    // w_lma pitch^2 of this stage's a, shape [l][m]; rgb.
+struct BlurStage {
+    // w_lma pitch^2 of this stage's a, shape [l][m]; linear Rec. 709.
     weights: array<vec4<f32>, 4>,
     // (1, 0) or (0, 1).
     axis: vec2<i32>,
-    // Standard deviation and distance of taps on a flat patch, in pixels; taps to each side.
+    // On a flat patch: standard deviation and distance of taps in pixels; taps to each side.
     sigma: f32,
     stride: i32,
     taps: i32,
-    // Anywhere else: standard deviation of this stage, and distance of taps that what is blurred already allows, in pixels
-    // of the material.
+    // On the screen: standard deviation of this stage, and distance of taps that the blur so far allows, in pixels of the
+    // material.
     step: f32,
     sparse: f32,
     // 0 for the first stage: there is no sum yet.
     begun: u32,
 }
 
-@group(0) @binding(0) var<uniform> stage: Stage;
+@group(0) @binding(0) var<uniform> stage: BlurStage;
 
-// Taps at k stride texels, |k| <= count, all but the middle one shifted as the domain says.
+// Taps at k stride texels, |k| <= count, all but the middle one shifted by the domain; sigma in texels.
 struct Taps {
     stride: i32,
     count: i32,
     sigma: f32,
 }
 
-// All maps; in the fourth place of the first what the domain wants to know of a texel.
+// All maps, blurred at texel x; the fourth channel of the first keeps its depth.
 fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
     let centre = maps_at(x)[0];
     var sums: array<vec4<f32>, TERMS>;
-    // Where nothing is seen, depth is far beyond everything.
+    // Depth of the background is beyond everything.
     if centre.w > 50000.0 {
         sums[0].w = centre.w;
         return sums;

@@ -1,29 +1,30 @@
-// Blurs on a flat patch: taps as far apart as the stage says, wrapped at the border by the sampler.
+// Domain of blurs on a flat patch: taps as far apart as the stage has them, wrapped at the border by the sampler.
 
 @group(0) @binding(1) var nearest: sampler;
 
+// Taps of the stage, the same for all texels.
 fn taps_at(centre: vec4<f32>) -> Taps {
     // Depth is 0 here. Where nothing but uniforms says when a loop ends, Mesa's software Vulkan compiles it anew at every
     // draw.
     return Taps(stage.stride, stage.taps + i32(centre.w), stage.sigma);
 }
 
-// Taps stay where they are.
+// No shift.
 fn shift_at(x: vec2<i32>, stride: i32) -> i32 {
     return 0;
 }
 
-// Everything lies in one plane.
+// Everything lies in one plane: full weight.
 fn nearness(centre: vec4<f32>, other: vec4<f32>) -> f32 {
     return 1.0;
 }
 
-// Sums begin with the first stage.
+// Whether there is a sum to add to: not at the first stage.
 fn has_sum() -> bool {
     return stage.begun != 0u;
 }
 
-// The middle of a texel.
+// Texture coordinates of the middle of a texel.
 fn middle_of(x: vec2<i32>, size: vec2<u32>) -> vec2<f32> {
     return (vec2<f32>(x) + 0.5) / vec2<f32>(size);
 }

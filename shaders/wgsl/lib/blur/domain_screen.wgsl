@@ -1,13 +1,13 @@
-// Blurs on the screen: distances are those in space, from pixels and depth.
+// Domain of blurs on the screen: distances are those in space, from pixels and depth.
 
-struct Domain {
+struct ScreenDomain {
     // Texels of the maps.
     size: vec2<u32>,
-    // Texels that a pixel of the material covers at a distance of 1 mm.
+    // Texels that the pitch of the material covers at a distance of 1 mm.
     focal_texels: f32,
     // Distance from the eye to depth 0, in mm.
     middle_mm: f32,
-    // Pixel of the material in mm.
+    // Pitch of the pixels of the material in mm.
     pitch_mm: f32,
     // 1 if taps are shifted from texel to texel.
     jitters: u32,
@@ -15,14 +15,14 @@ struct Domain {
     pad_1: u32,
 }
 
-@group(0) @binding(1) var<uniform> domain: Domain;
-// c_l E, blurred by the stages before; depth in the fourth place.
-@group(0) @binding(2) var maps: KeptLayers;
+@group(0) @binding(1) var<uniform> domain: ScreenDomain;
+// c_l E, blurred by the stages before; depth in mm in the fourth channel.
+@group(0) @binding(2) var maps: TargetTextureArray;
 
 // Most taps to one side, close to the eye.
 const MOST_TAPS: f32 = 16.0;
 
-// The cascade is that of the material, seen from the distance of this texel: depth is in the fourth place, in mm.
+// Taps of the stage at the distance of a texel, whose depth in mm is in the fourth channel.
 fn taps_at(centre: vec4<f32>) -> Taps {
     let texels_per_pixel = domain.focal_texels / max(domain.middle_mm + centre.w, 1e-3);
     let sigma = stage.step * texels_per_pixel;
@@ -33,29 +33,30 @@ fn taps_at(centre: vec4<f32>) -> Taps {
     return Taps(i32(stride), i32(taps), max(sigma, 1e-3));
 }
 
-// Where taps are far apart, edges of what they see are seen several times: shifted by interleaved gradient noise (Jimenez
-// 2014), the copies become grain (Jimenez et al. 2015, fig. S.6).
+// Shift of the taps of texel x in texels. Where taps are far apart, edges show several times: shifted by interleaved gradient
+// noise (Jimenez 2014), the copies become grain (Jimenez et al. 2015, fig. S.6).
 fn shift_at(x: vec2<i32>, stride: i32) -> i32 {
     let noise = fract(52.9829189 * fract(dot(vec2<f32>(x), vec2<f32>(0.06711056, 0.00583715))));
     return select(0, i32(floor(noise * f32(stride))) - stride / 2, domain.jitters != 0u);
 }
 
-// The part of exp(-r^2 / 2 sigma^2) that lies in the difference of depth (Jimenez et al. 2015, supplement, section E).
+// Factor of exp(-r^2 / 2 sigma^2) for the difference of depth (Jimenez et al. 2015, supplement, section E).
 fn nearness(centre: vec4<f32>, other: vec4<f32>) -> f32 {
     let d = (other.w - centre.w) / (stage.step * domain.pitch_mm);
     return exp(-0.5 * min(d * d, 80.0));
 }
 
-// Sums begin with the light that comes through.
+// Whether there is a sum to add to: always, it begins with the transmitted light.
 fn has_sum() -> bool {
     return true;
 }
 
+// All maps at texel x, clamped to their size.
 fn maps_at(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
     let texel = clamp(x, vec2<i32>(0), vec2<i32>(domain.size) - 1);
     var all: array<vec4<f32>, TERMS>;
     for (var l = 0u; l < TERMS; l++) {
-        all[l] = told(textureLoad(maps, texel, l, 0));
+        all[l] = unpack(textureLoad(maps, texel, l, 0));
     }
     return all;
 }

@@ -1,19 +1,22 @@
-// One weighted irradiance map.
+// One weighted irradiance map, L = 1: targets of the passes that draw them.
+
 const TERMS: u32 = 1u;
 
 struct Maps {
-    @location(0) first: Kept,
+    @location(0) first: TargetTexel,
 }
 
 struct MapsAndSums {
-    @location(0) first: Kept,
-    @location(1) first_sum: Kept,
+    @location(0) first: TargetTexel,
+    @location(1) first_sum: TargetTexel,
 }
 
+// Targets for the maps.
 fn maps_of(maps: array<vec4<f32>, TERMS>) -> Maps {
-    return Maps(kept(maps[0]));
+    return Maps(pack(maps[0]));
 }
 
+// Targets for the maps and the sums.
 fn maps_and_sums_of(maps: array<vec4<f32>, TERMS>, sums: array<vec4<f32>, TERMS>) -> MapsAndSums {
-    return MapsAndSums(kept(maps[0]), kept(sums[0]));
+    return MapsAndSums(pack(maps[0]), pack(sums[0]));
 }

@@ -1,22 +1,25 @@
-// Two weighted irradiance maps.
+// Two weighted irradiance maps, L = 2: targets of the passes that draw them.
+
 const TERMS: u32 = 2u;
 
 struct Maps {
-    @location(0) first: Kept,
-    @location(1) second: Kept,
+    @location(0) first: TargetTexel,
+    @location(1) second: TargetTexel,
 }
 
 struct MapsAndSums {
-    @location(0) first: Kept,
-    @location(1) second: Kept,
-    @location(2) first_sum: Kept,
-    @location(3) second_sum: Kept,
+    @location(0) first: TargetTexel,
+    @location(1) second: TargetTexel,
+    @location(2) first_sum: TargetTexel,
+    @location(3) second_sum: TargetTexel,
 }
 
+// Targets for the maps.
 fn maps_of(maps: array<vec4<f32>, TERMS>) -> Maps {
-    return Maps(kept(maps[0]), kept(maps[1]));
+    return Maps(pack(maps[0]), pack(maps[1]));
 }
 
+// Targets for the maps and the sums.
 fn maps_and_sums_of(maps: array<vec4<f32>, TERMS>, sums: array<vec4<f32>, TERMS>) -> MapsAndSums {
-    return MapsAndSums(kept(maps[0]), kept(maps[1]), kept(sums[0]), kept(sums[1]));
+    return MapsAndSums(pack(maps[0]), pack(maps[1]), pack(sums[0]), pack(sums[1]));
 }

@@ -1,11 +1,16 @@
-// The material's own directions, in the world: along its rows, down its columns, and away from it.
+// Tangent frame of a textured mesh.
+
+// Unit vectors in world space.
 struct Tangents {
+    // Along the rows of the material.
     x: vec3<f32>,
+    // Down its columns.
     y: vec3<f32>,
+    // The normal, on the side that the eye sees.
     z: vec3<f32>,
 }
 
-// The side that is seen, whichever way the triangle winds: `plane` is any normal of it.
+// Frame at a fragment, for the side that is seen, whichever way the triangle winds: `plane` is any normal of the triangle.
 fn tangents_of(in: Varying, plane: vec3<f32>, to_eye: vec3<f32>) -> Tangents {
     let normal = normalize(in.normal);
     let x = normalize(in.tangent.xyz - normal * dot(in.tangent.xyz, normal));
@@ -14,6 +19,7 @@ fn tangents_of(in: Varying, plane: vec3<f32>, to_eye: vec3<f32>) -> Tangents {
     return Tangents(x, y, normal * select(-1.0, 1.0, side >= 0.0));
 }
 
+// A world-space direction in the frame of the material.
 fn into_material(tangents: Tangents, direction: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(dot(direction, tangents.x), dot(direction, tangents.y), dot(direction, tangents.z));
 }

@@ -1,23 +1,16 @@
-// Exitance that was gathered at every vertex.
+// Exitance and visibility of lights of every vertex, from the points of the reference pass.
 
-// Of every point; linear rgb.
-@group(1) @binding(0) var exitances: KeptImage;
-// How much of each light reaches the point.
+// Exitance of every point; linear Rec. 709.
+@group(1) @binding(0) var exitances: TargetTexture;
+// Visibility of each light from the point, 0 to 1.
 @group(1) @binding(1) var visibilities: texture_2d<f32>;
 
+// Exitance at a point, by its number.
 fn vertex_exitance(point: u32) -> vec3<f32> {
-    return told(textureLoad(exitances, vec2<u32>(point % scene.row, point / scene.row), 0)).xyz;
+    return unpack(textureLoad(exitances, vec2<u32>(point % scene.row, point / scene.row), 0)).xyz;
 }
 
+// Visibility of the four lights from a point, by its number.
 fn vertex_visibility(point: u32) -> vec4<f32> {
     return textureLoad(visibilities, vec2<u32>(point % scene.row, point / scene.row), 0);
-}
-
-fn exitance(in: Varying, normal: vec3<f32>) -> vec3<f32> {
-    return in.exitance;
-}
-
-fn light_visibility(i: u32, in: Varying, normal: vec3<f32>) -> f32 {
-    var seen = in.visibility;
-    return seen[min(i, 3u)];
 }

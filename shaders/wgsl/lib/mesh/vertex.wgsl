@@ -1,14 +1,16 @@
-// A mesh, seen by the eye.
+// Vertex shader of meshes, as the camera sees them.
 
 struct Varying {
+    // Position in clip space; in the fragment shader, in pixels.
     @builtin(position) clip: vec4<f32>,
     @location(0) position_mm: vec3<f32>,
     @location(1) normal: vec3<f32>,
+    // Texture coordinates in copies of the patch, v down.
     @location(2) uv: vec2<f32>,
-    // Exitance and visibility of lights, where they are known for every vertex.
+    // Exitance and visibility of the lights, where they are known for every vertex.
     @location(3) exitance: vec3<f32>,
     @location(4) visibility: vec4<f32>,
-    // Light from all around that comes from the same side and from the other, by what it is on flat ground.
+    // Ambient transfer: light from all around that comes from the same side and from the other, relative to that on a plane.
     @location(5) sky_front: vec3<f32>,
     @location(6) sky_back: vec3<f32>,
 }
@@ -35,12 +37,12 @@ fn project(
     return out;
 }
 
-// Light from all around that scatters to a place, by its albedo: it changes little within the radius of scattering.
+// Scattered light of the environment, divided by the albedo: it changes little within the radius of scattering.
 fn scattered_sky(in: Varying, normal: vec3<f32>) -> vec3<f32> {
     return in.sky_front * sky_irradiance(normal) + in.sky_back * sky_irradiance(-normal);
 }
 
-// Depth along the line of sight, from the middle of the scene, in mm.
+// Depth of a position along the axis of the camera, from the middle of the scene, in mm.
 fn depth_of(position_mm: vec3<f32>) -> f32 {
     return dot(position_mm - scene.eye_mm, scene.forward) - scene.middle_mm;
 }

@@ -1,4 +1,4 @@
-// Nothing is known of vertices.
+// Zeros for exitance and visibility, where they are not known for every vertex.
 
 fn vertex_exitance(point: u32) -> vec3<f32> {
     return vec3<f32>(0.0);

@@ -1,11 +1,12 @@
-// Texels around a place between texels: the four next to it, and the twelve around those.
+// Depth-aware bilinear filter: the four texels next to a place between texels, and the twelve around those.
 
 const NEIGHBOURS: u32 = 16u;
-// The four next to it are enough if they have this much weight together.
+// Weight of the four together with which the others are not looked at.
 const ENOUGH: f32 = 0.01;
-// Weight of those around them, should none of the four be near in depth.
+// Weight of each of the twelve, should none of the four be near in depth.
 const OUTER: f32 = 0.02;
 
+// Offset of texel k from the first of the four.
 fn neighbour(k: u32) -> vec2<i32> {
     if k < 4u {
         return vec2<i32>(i32(k & 1u), i32(k >> 1u));
@@ -18,7 +19,7 @@ fn neighbour(k: u32) -> vec2<i32> {
     return vec2<i32>(select(-1, 2, j >= 10), (j - 8) % 2);
 }
 
-// Linear between the four; `part` is where the place lies between them.
+// Bilinear weight of texel k; `part` is where the place lies between the four, 0 to 1.
 fn linear_weight(k: u32, part: vec2<f32>) -> f32 {
     if k >= 4u {
         return OUTER;
@@ -27,7 +28,7 @@ fn linear_weight(k: u32, part: vec2<f32>) -> f32 {
     return each.x * each.y;
 }
 
-// Less for texels that are `apart` times what counts as near away in depth; never nothing, for one has to count.
+// Weight, lowered for a texel whose depth differs by `apart` times what counts as near; never 0, for one has to count.
 fn near_weight(weight: f32, apart: f32) -> f32 {
     return weight / (1.0 + apart * apart) + 1e-5 / (1.0 + abs(apart));
 }

@@ -1,5 +1,5 @@
-// No light from all around.
+// No light of the environment on BTFs.
 
-fn from_all_around(in: Varying, detail: f32, seen: Seen, tangents: Tangents) -> vec3<f32> {
+fn ambient_light(in: Varying, lod: f32, eye: ViewCoord, tangents: Tangents) -> vec3<f32> {
     return vec3<f32>(0.0);
 }

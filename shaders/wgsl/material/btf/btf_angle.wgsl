@@ -1,4 +1,4 @@
-// Angles as the decoder has them: built-ins of GLSL may be off by thousands of units in the last place.
+// Angles by the polynomials of the decoder: built-ins of GLSL may be off by thousands of units in the last place.
 
 const HALF_PI: f32 = 1.57079633;
 

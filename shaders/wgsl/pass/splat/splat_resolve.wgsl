@@ -1,27 +1,30 @@
-// All rings in one picture: exitance without the albedo, which is put back where it is sharp; depth in the fourth place.
+// Needs: fullscreen, neighbours.
+// Sum of all rings of splats: exitance divided by the albedo, which is put back at full resolution; depth in the fourth channel.
 
-struct Rings {
+struct SplatRings {
+    // Number of rings, 1 to 5.
     count: u32,
-    // Differences of depth count in this, in mm, at the finest ring.
+    // Difference of depth in mm by which the weight of a texel of the finest ring falls to a half.
     near_mm: f32,
     pad_0: u32,
     pad_1: u32,
 }
 
-@group(0) @binding(0) var<uniform> rings: Rings;
-// What the eye sees.
+@group(0) @binding(0) var<uniform> rings: SplatRings;
+// G-buffer: positions and depth in mm, albedo in linear Rec. 709.
 @group(0) @binding(1) var positions: texture_2d<f32>;
 @group(0) @binding(2) var albedos: texture_2d<f32>;
-// Each half as large as the one before.
+// Rings, each half as large as the one before.
 @group(0) @binding(3) var ring_0: texture_2d<f32>;
 @group(0) @binding(4) var ring_1: texture_2d<f32>;
 @group(0) @binding(5) var ring_2: texture_2d<f32>;
 @group(0) @binding(6) var ring_3: texture_2d<f32>;
 @group(0) @binding(7) var ring_4: texture_2d<f32>;
 
-// Albedos below this are of materials that are black anyway.
+// Albedo that is divided by at least: darker materials are black anyway.
 const LEAST_ALBEDO: f32 = 1e-4;
 
+// Texel of a ring, clamped to its size.
 fn ring_texel(number: u32, texel: vec2<i32>) -> vec3<f32> {
     switch number {
         case 0u: { return textureLoad(ring_0, min(texel, vec2<i32>(textureDimensions(ring_0)) - 1), 0).xyz; }
@@ -32,7 +35,7 @@ fn ring_texel(number: u32, texel: vec2<i32>) -> vec3<f32> {
     }
 }
 
-// One ring at a texel of what the eye sees: linear between its texels, those at other depths left out.
+// One ring at a texel of the G-buffer: bilinear, texels at other depths left out.
 fn ring_at(number: u32, texel: vec2<u32>, depth: f32) -> vec3<f32> {
     let size = vec2<i32>(textureDimensions(positions));
     let stride = i32(1u << number);
@@ -57,7 +60,7 @@ fn ring_at(number: u32, texel: vec2<u32>, depth: f32) -> vec3<f32> {
 }
 
 @fragment
-fn collapse(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
+fn splat_resolve(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     let texel = vec2<u32>(at.xy);
     let depth = textureLoad(positions, texel, 0).w;
     var sum = vec3<f32>(0.0);
