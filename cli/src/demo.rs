@@ -12,8 +12,8 @@ use subsurf_encoder::capture::{Capture, Overrides, Scalar};
 use subsurf_encoder::metrics::Light;
 use subsurf_encoder::simulate::{Finish, Scene};
 use subsurf_encoder::write_bytes;
-use subsurf_runtime::scene::torus;
 use subsurf_runtime::{Backend, Gpu, Material, PatchLight, PatchRenderer, Region, storage_of};
+use subsurf_scene::torus;
 use subsurf_shaders::cpu;
 
 use crate::bench::{Case, markdown, measure};

@@ -2,7 +2,7 @@
 
 use subsurf_decoder::ReadError;
 
-use crate::context::Backend;
+use crate::gpu::Backend;
 
 /// Result of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -17,9 +17,9 @@ pub enum Error {
     /// The mesh is broken or empty.
     #[error("mesh: {0}")]
     Mesh(String),
-    /// The environment's picture is broken or empty.
-    #[error("environment: {0}")]
-    Environment(String),
+    /// What is drawn is broken, empty or too large.
+    #[error(transparent)]
+    Scene(#[from] subsurf_scene::Error),
     /// The images of a BTF cannot be drawn as they are.
     #[error("images of a BTF: {0}")]
     Images(String),

@@ -8,16 +8,15 @@ use serde_json::{Value, json};
 use subsurf_decoder::Btf;
 use subsurf_encoder::Progress as _;
 use subsurf_encoder::btf::Images;
-use subsurf_runtime::scene::{Light, LightShape, Mesh, Outline, REFLECTION_SIZE, Scene, relief, sphere};
 use subsurf_runtime::{BACKGROUND, Backend, BtfFiltering, BtfMaterial, BtfOptions, BtfStorage, Gpu, RuntimeOptions};
-use subsurf_shaders::cpu;
+use subsurf_scene::{Light, LightShape, Mesh, Placement, REFLECTION_SIZE, Scene, relief, sphere};
+use subsurf_shaders::{cpu, uniform};
 
 use super::timing::{median, quantile};
 use crate::devices::to_compare;
 use crate::failure::bad_request;
 use crate::info::{parse_btf, read_file};
 use crate::memory::human;
-use crate::mesh::fitted;
 use crate::options::Size;
 use crate::progress::Bars;
 use crate::render::{BtfArgs, Ready, Shot, Textured, prepare_btf, read_images, upload_images};
@@ -70,7 +69,7 @@ fn subjects() -> anyhow::Result<Vec<Subject>> {
         ("relief", "dragon, 115k faces", relief(20.0, 8, 170), [1.1, 8.0, 10.0]),
     ];
     let subject = |(name, stands_for, mesh, published_fps)| {
-        Ok(Subject { name, stands_for, mesh: fitted(mesh, EXTENT_MM)?, published_fps })
+        Ok(Subject { name, stands_for, mesh: mesh.fitted(EXTENT_MM)?, published_fps })
     };
     all.into_iter().map(subject).collect()
 }
@@ -251,11 +250,11 @@ fn on_cpu(
     let textured = Textured::new(mesh, copies)?;
     let triangles = textured.triangles(mesh, &lit);
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };
-    let outline = Outline::of_btf(mesh, copies);
+    let placement = Placement::of_btf(mesh, copies);
     let mut scene = scene.clone();
     let times = timed(args.frames, bars, || {
         turn(&mut scene);
-        let block = scene.block(&outline, args.size.0, RuntimeOptions::default().light_texels);
+        let block = uniform::Scene::new(&scene, &placement, args.size.0, RuntimeOptions::default().light_texels);
         let picture = cpu::shade_btf(&triangles, &surface, &block, &reflections, args.size.0, [BACKGROUND; 3]);
         std::hint::black_box(picture);
         Ok(())

@@ -8,10 +8,10 @@ use subsurf_decoder::Btf;
 use subsurf_encoder::Progress as _;
 use subsurf_encoder::Unfinished;
 use subsurf_encoder::btf::{Folder, Images};
-use subsurf_runtime::scene::{Mesh, Outline, Scene, relief};
 use subsurf_runtime::{
-    BtfImages, BtfMaterial, BtfStorage, Gpu, GpuMesh, Known, Model, Path as DrawPath, Renderer, RuntimeOptions,
+    BtfImages, BtfMaterial, BtfStorage, Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, Technique, VertexData,
 };
+use subsurf_scene::{Mesh, Placement, Scene, relief};
 
 use super::load::{self, load_one, micros};
 use super::load_one::Clock;
@@ -126,9 +126,12 @@ impl<'a> Bench<'a> {
         let storage = if is_array { BtfStorage::Images } else { BtfStorage::Nested };
         let mesh: Mesh = relief(20.0, 8, 22);
         let draw = |gpu: &Gpu| -> anyhow::Result<_> {
-            let renderer = Renderer::new(gpu, DrawPath::Btf(storage), RuntimeOptions::default())?;
+            let renderer = Renderer::new(gpu, Technique::Btf(storage), RuntimeOptions::default())?;
             let tangents = mesh.tangents()?;
-            Ok((renderer, GpuMesh::upload(gpu, &mesh, &Outline::of_btf(&mesh, COPIES), Known::Tangents(&tangents))?))
+            Ok((
+                renderer,
+                GpuMesh::upload(gpu, &mesh, &Placement::of_btf(&mesh, COPIES), VertexData::Tangents(&tangents))?,
+            ))
         };
         Ok(Self {
             gpu,
@@ -159,7 +162,7 @@ impl<'a> Bench<'a> {
                 let material = self.upload(gpu, btf.as_ref(), &bytes)?;
                 gpu.finish()?;
                 let upload = clock.lap();
-                let model = Model::Btf { mesh, material: &material, number: 0 };
+                let model = Drawable::Btf { mesh, material: &material, number: 0 };
                 let target = gpu.target(FRAME, RuntimeOptions::default().format)?;
                 let mut frame = renderer.prepare(gpu, &model, &self.scene, FRAME)?;
                 renderer.draw(gpu, &mut frame, &model, &self.scene, target.view())?;

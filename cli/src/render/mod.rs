@@ -15,16 +15,15 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::Light;
-use subsurf_runtime::scene::Environment;
 use subsurf_runtime::{Keeping, RuntimeOptions};
+use subsurf_scene::{Environment, load_mesh};
 use subsurf_shaders::cpu::{self, Rgb};
 
 use crate::devices::{self, BackendArg, check_picture};
 use crate::failure::bad_request;
 use crate::info::{Parsed, parse_any, read_file};
 use crate::memory::human;
-use crate::mesh::{Up, load};
-use crate::options::Size;
+use crate::options::{Size, UpArg};
 use crate::picture::write_png;
 use crate::say::say;
 
@@ -63,7 +62,7 @@ pub(crate) struct Args {
     roughness: Option<f32>,
     /// Which way is up in the mesh
     #[arg(long, value_enum, default_value = "y", requires = "mesh")]
-    up: Up,
+    up: UpArg,
     /// Where the material lies on the mesh
     #[arg(long, value_enum, default_value = "auto", requires = "mesh")]
     mapping: MappingArg,
@@ -185,7 +184,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             args.refuse_scattering()?;
             let gpu = args.backend.open()?;
             let shape = args.mesh.as_deref().unwrap_or(Path::new(BTF_SHAPE));
-            let mesh = load(shape, args.extent, args.up)?;
+            let mesh = load_mesh(shape, args.extent, args.up.into())?;
             let (picture, facts) = draw_btf(gpu.as_ref(), &btf, &mesh, &args.btf, &args.shot()?)?;
             (picture, facts, devices::name(gpu.as_ref()))
         }
@@ -234,7 +233,7 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, 
             return Err(bad_request("--light X,Y,Z is for meshes; on a patch it is uniform, disc or line"));
         }
         (Some(shape), _) => {
-            let mesh = load(shape, args.extent, args.up)?;
+            let mesh = load_mesh(shape, args.extent, args.up.into())?;
             draw_mesh(gpu.as_ref(), material, &mesh, args.mapping, path, &args.shot()?)?
         }
     };

@@ -1,11 +1,11 @@
 //! How large the buffers of a frame are, and what they take, before any of them is made.
 
-use subsurf_shaders::uniform::{MAX_LIGHTS, Upsampling};
+use subsurf_scene::{Camera, MAX_LIGHTS};
+use subsurf_shaders::uniform::Upsampling;
 use wgpu::TextureFormat;
 
 use crate::error::{Error, Result};
-use crate::mesh::DEPTH;
-use crate::scene::View;
+use crate::gpu::DEPTH;
 
 /// Sizes of everything that a frame allocates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,18 +36,18 @@ impl Plan {
     }
 
     /// Texels of the maps that something spans whose angle to the eye has a tangent of 1.
-    pub(crate) fn texels_per_tangent(&self, view: &View) -> f32 {
+    pub(crate) fn texels_per_tangent(&self, camera: &Camera) -> f32 {
         #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
         let height = self.map_size()[1] as f32;
-        0.5 * height / (0.5 * view.angle).tan()
+        0.5 * height / (0.5 * camera.fov_y_rad).tan()
     }
 
     /// How pixels of the picture lie on the maps, when the middle of the scene is `middle_mm` away.
-    pub(crate) fn upsampling(&self, view: &View, middle_mm: f32) -> Upsampling {
+    pub(crate) fn upsampling(&self, camera: &Camera, middle_mm: f32) -> Upsampling {
         #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
         let [maps, picture] = [self.map_size(), self.size].map(|size| size.map(|side| side as f32));
         // Surfaces that are not seen at too flat an angle are the same two texels away.
-        let near_mm = 2.0 * middle_mm.max(1e-3) / self.texels_per_tangent(view);
+        let near_mm = 2.0 * middle_mm.max(1e-3) / self.texels_per_tangent(camera);
         Upsampling { texels_per_pixel: [maps[0] / picture[0], maps[1] / picture[1]], near_mm, pad: 0 }
     }
 

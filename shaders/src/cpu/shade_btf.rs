@@ -1,16 +1,17 @@
-//! Twin of `btf_shade.wgsl` and `btf_texture.wgsl`; that of the shaders before them is the decoder.
+//! Twin of `shade_btf.wgsl`, `btf_texture.wgsl`, `btf_tangents.wgsl` and `btf_ambient.wgsl`; that of the other BTF files is the decoder.
 
 use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3, Vec4};
 use subsurf_decoder::Btf;
 use subsurf_decoder::btf::{Texel, View};
+use subsurf_scene::MAX_LIGHTS;
 
 use super::raster::{Covered, rasterise};
 use super::{Reflections, display, incident, neutral, srgb};
-use crate::uniform::{BtfFiltering, MAX_LIGHTS, Scene};
+use crate::uniform::{BtfFiltering, Scene};
 
-/// One material of a BTF, and how it is looked up.
+/// Material of a BTF, and how it is filtered.
 #[derive(Clone, Copy, Debug)]
 pub struct BtfSurface<'a> {
     /// The file.
@@ -19,28 +20,28 @@ pub struct BtfSurface<'a> {
     pub material: usize,
     /// Which texels a pixel shows.
     pub filtering: BtfFiltering,
-    /// Samples of light from all around, for a pixel.
+    /// Number of samples of the environment for a pixel.
     pub samples: u32,
 }
 
-/// A textured mesh.
+/// Mesh with tangents.
 #[derive(Clone, Copy, Debug)]
 pub struct BtfTriangles<'a> {
     /// Positions of the vertices in mm.
     pub positions: &'a [Vec3],
     /// Unit normals of the vertices.
     pub normals: &'a [Vec3],
-    /// Copies of the material, v down.
+    /// Texture coordinates in copies of the material, v down.
     pub uvs: &'a [Vec2],
-    /// Along the rows of the material; in the fourth place, 1 if normal × tangent goes down its columns, −1 if up.
+    /// Unit vectors along the rows of the material; in the fourth place, 1 if normal × tangent goes down its columns, −1 if up.
     pub tangents: &'a [Vec4],
-    /// How much of each light reaches the vertices.
+    /// Visibility of each light from the vertices, 0 to 1.
     pub visibilities: &'a [[f32; MAX_LIGHTS]],
-    /// Vertices of the triangles.
+    /// Numbers of the vertices of the triangles.
     pub triangles: &'a [[u32; 3]],
 }
 
-/// Draws a mesh in front of a `background` of display values, `size` pixels, row by row from the top.
+/// Picture of a mesh in display values, `size` pixels, row by row from the top, in front of a `background`.
 ///
 /// # Panics
 /// If an index leads outside the vertices, or there is no such material.
@@ -61,11 +62,11 @@ pub fn shade_btf(
     })
 }
 
-/// The material's own directions, in the world: along its rows, down its columns, and away from it.
+/// Tangent frame in world space: unit vectors along the rows of the material, down its columns, and along its normal.
 struct Tangents([Vec3; 3]);
 
 impl Tangents {
-    /// The side that is seen, whichever way the triangle winds: `plane` is any normal of it.
+    /// Frame for the side that is seen, whichever way the triangle winds: `plane` is any normal of it.
     fn new(normal: Vec3, tangent: Vec4, plane: Vec3, to_eye: Vec3) -> Self {
         let normal = normal.normalize();
         let x = (tangent.truncate() - normal * tangent.truncate().dot(normal)).normalize();
@@ -74,10 +75,12 @@ impl Tangents {
         Self([x, y, normal * if side >= 0.0 { 1.0 } else { -1.0 }])
     }
 
+    /// World-space direction in the frame.
     fn local(&self, direction: Vec3) -> [f32; 3] {
         self.0.map(|axis| direction.dot(axis))
     }
 
+    /// Direction of the frame in world space.
     fn world(&self, direction: [f32; 3]) -> Vec3 {
         self.0.iter().zip(direction).map(|(axis, part)| *axis * part).sum()
     }
@@ -93,13 +96,13 @@ fn light_of(
     visibility: [f32; MAX_LIGHTS],
 ) -> Vec3 {
     let (uv, position) = (covered.blend(mesh.uvs), covered.blend(mesh.positions));
-    let detail = surface.detail(covered.slopes(mesh.uvs));
+    let lod = surface.level_of_detail(covered.slopes(mesh.uvs));
     let [dx, dy] = covered.slopes(mesh.positions);
     let to_eye = (Vec3::from(scene.eye_mm) - position).normalize();
     let tangents = Tangents::new(covered.blend(mesh.normals), covered.blend(mesh.tangents), dx.cross(dy), to_eye);
     let seen = surface.btf.grid().view(tangents.local(to_eye));
-    let taps = surface.taps(uv, detail);
-    let mut light = surface.around(&taps, &seen, &tangents, reflections, covered.pixel);
+    let taps = surface.taps(uv, lod);
+    let mut light = surface.ambient_light(&taps, &seen, &tangents, reflections, covered.pixel);
     for number in 0..scene.lights as usize {
         let (towards, irradiance) = incident(scene, number, position);
         let towards = tangents.local(towards);
@@ -109,8 +112,8 @@ fn light_of(
     light
 }
 
-/// Three numbers from 0 to 1 for a pixel (hash of three integers by Jarzynski and Olano 2020).
-fn chances([x, y]: [u32; 2]) -> [f32; 3] {
+/// Three random numbers, 0 to 1, of a pixel, always the same (hash of three integers by Jarzynski and Olano 2020).
+fn random_numbers([x, y]: [u32; 2]) -> [f32; 3] {
     let mut v = [x, y, 0].map(|k: u32| k.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
     let mix = |v: &mut [u32; 3]| {
         for (to, a, b) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
@@ -125,20 +128,23 @@ fn chances([x, y]: [u32; 2]) -> [f32; 3] {
 }
 
 impl BtfSurface<'_> {
+    /// Value of a texel: π times the radiance under light of unit irradiance on a plane that faces it.
     fn value(&self, texel: Texel, light: [f32; 3], seen: &View) -> Vec3 {
         self.btf.header().tone.linear(self.btf.eval_for(texel, light, seen)).into()
     }
 
+    /// Texels of a mipmap level, columns and rows.
     fn size(&self, level: u8) -> [u32; 2] {
         self.btf.materials().nth(self.material).expect("a material of the file").size(level)
     }
 
+    /// Number of mipmap levels.
     fn levels(&self) -> u8 {
         self.btf.materials().nth(self.material).expect("a material of the file").levels
     }
 
-    /// Mipmap level, not rounded, where texture coordinates change like this from pixel to pixel.
-    fn detail(&self, slopes: [Vec2; 2]) -> f32 {
+    /// Mipmap level, not rounded, for screen-space derivatives of the texture coordinates.
+    fn level_of_detail(&self, slopes: [Vec2; 2]) -> f32 {
         #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
         let size = Vec2::from(self.size(0).map(|side| side as f32));
         let texels2 = slopes.map(|slope| (slope * size).length_squared()).into_iter().fold(1e-12, f32::max);
@@ -146,18 +152,18 @@ impl BtfSurface<'_> {
     }
 
     /// Texels and weights of a pixel.
-    fn taps(&self, uv: Vec2, detail: f32) -> Vec<(Texel, f32)> {
+    fn taps(&self, uv: Vec2, lod: f32) -> Vec<(Texel, f32)> {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a level")]
-        let level = |detail: f32| detail as u8;
+        let level = |lod: f32| lod as u8;
         let texel = |level, at: Vec2| {
             #[allow(clippy::cast_possible_truncation, reason = "texels")]
             let at = at.to_array().map(|k| k as i32);
             self.btf.texel(self.material, level, at).expect("a level of the material")
         };
         #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
-        let place = |level| (uv - uv.floor()) * Vec2::from(self.size(level).map(|side| side as f32));
+        let texel_coord = |level| (uv - uv.floor()) * Vec2::from(self.size(level).map(|side| side as f32));
         let of_level = |level: u8, share: f32| {
-            let at = place(level) - 0.5;
+            let at = texel_coord(level) - 0.5;
             let (low, part) = (at.floor(), at - at.floor());
             let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(Vec2::from);
             corners.map(|corner| {
@@ -167,20 +173,20 @@ impl BtfSurface<'_> {
         };
         match self.filtering {
             BtfFiltering::Nearest => {
-                let level = level(detail + 0.5);
-                vec![(texel(level, place(level)), 1.0)]
+                let level = level(lod + 0.5);
+                vec![(texel(level, texel_coord(level)), 1.0)]
             }
-            BtfFiltering::Bilinear => of_level(level(detail + 0.5), 1.0).to_vec(),
+            BtfFiltering::Bilinear => of_level(level(lod + 0.5), 1.0).to_vec(),
             BtfFiltering::Trilinear => {
-                let (finer, part) = (level(detail), detail.fract());
+                let (finer, part) = (level(lod), lod.fract());
                 let coarser = (finer + 1).min(self.levels() - 1);
                 [of_level(finer, 1.0 - part), of_level(coarser, part)].concat()
             }
         }
     }
 
-    /// π times the radiance under light from all around: the mean of F(light) L(light) / density over samples.
-    fn around(
+    /// π times the radiance under the environment: the mean of F(light) L(light) / density over samples.
+    fn ambient_light(
         &self,
         taps: &[(Texel, f32)],
         seen: &View,
@@ -188,7 +194,7 @@ impl BtfSurface<'_> {
         reflections: &Reflections<'_>,
         pixel: [u32; 2],
     ) -> Vec3 {
-        let chance = chances(pixel);
+        let chance = random_numbers(pixel);
         let mut left = chance[2];
         let mut drawn = taps[0].0;
         for (texel, weight) in taps.iter().filter(|(_, weight)| *weight > 0.0) {

@@ -1,32 +1,36 @@
-//! Twin of `shade.wgsl`.
+//! Twin of `shade_vertex.wgsl` and `shading.wgsl`.
 
 use glam::{Vec3, Vec4};
+use subsurf_scene::MAX_LIGHTS;
 
 use super::raster::rasterise;
-use super::{Reflections, Rgb, display, fresnel_transmittance, glint, incident, neutral, sheen, srgb};
-use crate::uniform::{MAX_LIGHTS, Scene};
+use super::{
+    Reflections, display, fresnel_transmittance, incident, neutral, specular_ambient, specular_direct, srgb,
+};
+use crate::rgb::Rgb;
+use crate::uniform::Scene;
 
-/// A mesh to draw.
+/// Mesh with the exitance of its vertices.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangles<'a> {
     /// Positions of the vertices in mm.
     pub positions: &'a [Vec3],
     /// Unit normals of the vertices.
     pub normals: &'a [Vec3],
-    /// Exitance of the vertices.
+    /// Exitance of the vertices, linear Rec. 709.
     pub exitances: &'a [Rgb],
-    /// How much of each light reaches the vertices.
+    /// Visibility of each light from the vertices, 0 to 1.
     pub visibilities: &'a [[f32; MAX_LIGHTS]],
-    /// Vertices of the triangles.
+    /// Numbers of the vertices of the triangles.
     pub triangles: &'a [[u32; 3]],
 }
 
-/// Draws a mesh in front of a `background` of display values, `size` pixels, row by row from the top.
+/// Picture of a mesh in display values, `size` pixels, row by row from the top, in front of a `background`.
 ///
 /// # Panics
 /// If an index leads outside the vertices.
 #[must_use]
-pub fn shade(
+pub fn shade_vertex(
     mesh: &Triangles<'_>,
     scene: &Scene,
     reflections: &Reflections<'_>,
@@ -47,7 +51,7 @@ pub fn shade(
     })
 }
 
-/// What is known of a point of the surface.
+/// Point of the surface.
 struct Point {
     position_mm: Vec3,
     normal: Vec3,
@@ -59,16 +63,16 @@ struct Point {
 fn radiance(scene: &Scene, reflections: &Reflections<'_>, point: &Point) -> Vec3 {
     let to_eye = (Vec3::from(scene.eye_mm) - point.position_mm).normalize();
     let normal = point.normal.normalize();
-    // What scattered, by Lambert's law with Fresnel transmission on the way out: L = M F_t / (π (1 − F_dr)).
+    // Scattered light, by Lambert's law with Fresnel transmission on the way out: L = M F_t / (π (1 − F_dr)).
     let cosine = normal.dot(to_eye).abs().clamp(0.0, 1.0);
     let transmittance = fresnel_transmittance(cosine, scene.eta);
     let scattered = point.exitance * transmittance / (scene.sky_transmittance * std::f32::consts::PI);
-    // What the coat reflects.
+    // Light that the coat reflects.
     let mirrored = (-to_eye).reflect(normal);
-    let sky = sheen(scene, cosine) * reflections.radiance(mirrored, scene.roughness);
+    let sky = specular_ambient(scene, cosine) * reflections.radiance(mirrored, scene.roughness);
     let lights = (0..scene.lights as usize).map(|light| {
         let (towards, irradiance) = incident(scene, light, point.position_mm);
-        irradiance * glint(scene, normal, to_eye, towards) * point.visibility[light]
+        irradiance * specular_direct(scene, normal, to_eye, towards) * point.visibility[light]
     });
     scattered + sky + lights.sum::<Vec3>()
 }

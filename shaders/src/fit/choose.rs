@@ -1,20 +1,21 @@
-//! As few terms and Gaussians as an error allows.
+//! The cheapest size that an error allows.
 
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Header;
 
 use super::radial::Radial;
-use super::{Detail, Factors, MAX_TERMS};
-use crate::cpu::{Rgb, gather, separable};
+use crate::cpu::{gather, separable};
+use crate::rgb::Rgb;
+use crate::separable::{BasisSize, MAX_TERMS, SeparableBasis};
 
-/// Columns of the patch that are compared.
+/// Number of columns of the patch that are compared.
 const COLUMNS: usize = 16;
-/// From cheap to dear.
-const DETAILS: [[usize; 2]; 6] = [[1, 3], [1, 4], [2, 3], [2, 4], [2, 5], [2, 6]];
+/// Sizes `[L, A]` that are tried, from cheap to dear.
+const SIZES: [[usize; 2]; 6] = [[1, 3], [1, 4], [2, 3], [2, 4], [2, 5], [2, 6]];
 
-impl Factors {
-    /// The cheapest factors whose light on some columns of the patch, lit from everywhere, by a disc and by a row, is at least
-    /// `least_db` (PSNR, by the largest value) from the gather's; the closest where none are.
+impl SeparableBasis {
+    /// Cheapest basis whose light on some columns of the patch, lit from everywhere, by a disc and by a row, has a PSNR of at
+    /// least `least_db` against the reference sum (by the largest value); the closest where none has.
     ///
     /// Takes some tenths of a second for a patch of 96 × 96 pixels.
     #[must_use]
@@ -32,9 +33,9 @@ impl Factors {
             })
             .into();
         let width = header.width as usize;
-        let quality = |factors: &Self| {
+        let quality = |basis: &Self| {
             let of_trial = |(light, expected): &(Vec<Rgb>, Vec<Rgb>)| {
-                let all = separable(factors, light);
+                let all = separable(basis, light);
                 let found: Vec<Rgb> =
                     columns.iter().flat_map(|&column| all[column as usize..].iter().step_by(width).copied()).collect();
                 psnr_db(expected, &found)
@@ -43,17 +44,17 @@ impl Factors {
         };
         let radial = Radial::of(material, MAX_TERMS);
         let mut best: Option<(f32, Self)> = None;
-        for [terms, gaussians] in DETAILS {
-            let factors = Self::from_radial(header, radial.clone().truncated(terms), Detail { terms, gaussians });
-            let reached = quality(&factors);
+        for [terms, gaussians] in SIZES {
+            let basis = Self::from_radial(header, radial.clone().truncated(terms), BasisSize { terms, gaussians });
+            let reached = quality(&basis);
             if reached >= least_db {
-                return factors;
+                return basis;
             }
             if best.as_ref().is_none_or(|(most, _)| reached > *most) {
-                best = Some((reached, factors));
+                best = Some((reached, basis));
             }
         }
-        best.map_or_else(|| Self::of(material, Detail::default()), |(_, factors)| factors)
+        best.map_or_else(|| Self::of(material, BasisSize::default()), |(_, basis)| basis)
     }
 }
 
@@ -75,7 +76,7 @@ fn lights(header: &Header) -> [Vec<Rgb>; 3] {
     [of(&|_, _| true), of(&|x, y| from_middle(x, y) < radius), of(&|_, y| y == line)]
 }
 
-/// By the largest expected value.
+/// PSNR in dB, by the largest expected value.
 fn psnr_db(expected: &[Rgb], found: &[Rgb]) -> f32 {
     let peak = expected.iter().flatten().copied().fold(1e-30, f32::max);
     let squares = expected.iter().flatten().zip(found.iter().flatten()).map(|(a, b)| ((a - b) / peak).powi(2));

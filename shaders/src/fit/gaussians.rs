@@ -5,35 +5,38 @@
 use nalgebra::{DMatrix, DVector};
 use subsurf_decoder::bssrdf::Header;
 
-use super::Detail;
 use super::radial::Radial;
-use crate::cpu::Rgb;
+use crate::rgb::Rgb;
+use crate::separable::BasisSize;
 
-/// Widest and narrowest σ: pixels, and share of the window radius.
+/// Narrowest σ to begin with, in pixels.
 const NARROWEST: f64 = 0.45;
+/// Widest σ to begin with, as a share of the window radius.
 const WIDEST: f64 = 0.45;
-/// Errors count relative to the kernel, and to this share of its largest value where it is smaller than that.
+/// Share of the largest value of a kernel that errors are taken relative to at least.
 const FLOOR: f64 = 0.02;
-/// Keeps weights of Gaussians that are alike from growing against each other: half floats have to hold their sums.
+/// Regularisation that keeps weights of similar Gaussians from growing against each other: half floats have to hold their sums.
 const RIDGE: f64 = 1e-4;
-/// Rounds of looking for better widths.
+/// Rounds of the search for better widths.
 const ROUNDS: usize = 12;
 
-/// Offsets of one length and how many there are.
+/// Offsets of one length.
 struct Ring {
+    /// Length in pixels.
     r: f64,
+    /// Number of offsets.
     count: f64,
 }
 
-/// Widths and weights `[L][L][A]` for offsets of whole pixels in the window.
-pub(super) fn fit(header: &Header, radial: &Radial, detail: Detail) -> (Vec<f32>, Vec<Rgb>) {
+/// Widths σ_a in pixels, shape `[A]`, and weights, shape `[L][L][A]`, for offsets of whole pixels in the window.
+pub(super) fn fit(header: &Header, radial: &Radial, size: BasisSize) -> (Vec<f32>, Vec<Rgb>) {
     let rings = rings(header);
-    let kernels = kernels(&rings, radial, detail.terms);
+    let kernels = kernels(&rings, radial, size.terms);
     let radius = f64::from(header.window_radius.max(1));
     // Widths by equal factors, then each moved as long as that helps.
     let (low, high) = (NARROWEST, (WIDEST * radius).max(2.0 * NARROWEST));
-    let part = |a: usize| if detail.gaussians > 1 { a as f64 / (detail.gaussians - 1) as f64 } else { 0.5 };
-    let mut logs: Vec<f64> = (0..detail.gaussians).map(|a| low.ln() + part(a) * (high / low).ln()).collect();
+    let part = |a: usize| if size.gaussians > 1 { a as f64 / (size.gaussians - 1) as f64 } else { 0.5 };
+    let mut logs: Vec<f64> = (0..size.gaussians).map(|a| low.ln() + part(a) * (high / low).ln()).collect();
     let mut loss = solve(&rings, &kernels, &logs).1;
     let mut step = 0.3;
     for _ in 0..ROUNDS {
@@ -58,6 +61,7 @@ pub(super) fn fit(header: &Header, radial: &Radial, detail: Detail) -> (Vec<f32>
     (logs.iter().map(|log| log.exp() as f32).collect(), weights)
 }
 
+/// Rings of the window within r_max, by rising length.
 fn rings(header: &Header) -> Vec<Ring> {
     let radius = i32::from(header.window_radius);
     let r_max = f64::from(header.r_max_mm / header.pitch_mm);
@@ -69,13 +73,13 @@ fn rings(header: &Header) -> Vec<Ring> {
     rings.filter(|ring| ring.r <= r_max).collect()
 }
 
-/// One kernel at every ring, and the weight of its errors there.
+/// One kernel g_l g_m of a channel at every ring, and the weight of its errors there.
 struct Kernel {
     values: Vec<f64>,
     importance: Vec<f64>,
 }
 
-/// g_l g_m of all l, m and channels, `[l][m][c]`.
+/// Kernels of all l, m and channels, shape `[l][m][c]`.
 fn kernels(rings: &[Ring], radial: &Radial, terms: usize) -> Vec<Kernel> {
     let all = (0..terms).flat_map(|l| (0..terms).flat_map(move |m| (0..3).map(move |c| (l, m, c))));
     let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs())).max(1e-30);
@@ -100,7 +104,7 @@ fn kernels(rings: &[Ring], radial: &Radial, terms: usize) -> Vec<Kernel> {
     kernels
 }
 
-/// The best weights for given widths, `[l][m][a]`, and what is left of the error.
+/// Best weights for given logarithms of widths, shape `[l][m][a]`, and the error that is left.
 ///
 /// Least squares with each kernel's sum over the window held: no light is lost or made.
 fn solve(rings: &[Ring], kernels: &[Kernel], logs: &[f64]) -> (Vec<[f64; 3]>, f64) {
@@ -134,11 +138,12 @@ fn solve(rings: &[Ring], kernels: &[Kernel], logs: &[f64]) -> (Vec<[f64; 3]>, f6
     (weights, loss)
 }
 
+/// Sum of the products of three vectors.
 fn dot3(a: &[f64], b: &[f64], c: &[f64]) -> f64 {
     a.iter().zip(b).zip(c).map(|((a, b), c)| a * b * c).sum()
 }
 
-/// A Gaussian at every ring, of sum 1 over all pixels of the plane.
+/// Gaussian of σ pixels at every ring, of sum 1 over all pixels of the plane.
 fn shape(rings: &[Ring], sigma: f64) -> Vec<f64> {
     let tail = (8.0 * sigma).ceil() as i32 + 1;
     let line: f64 = (-tail..=tail).map(|x| (-0.5 * (f64::from(x) / sigma).powi(2)).exp()).sum();

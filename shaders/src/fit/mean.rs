@@ -1,12 +1,12 @@
-//! What separable scattering is without heterogeneity: one profile for the whole patch.
+//! What is drawn without heterogeneity: one profile for the whole patch.
 
 use subsurf_decoder::Bssrdf;
 
 use super::radial::mean_profile;
-use crate::cpu::Rgb;
+use crate::rgb::Rgb;
 
-/// Share of the light of the mean profile that is left when distances are √(r² + s²), inverted, for s = k / 2 pixels:
-/// ∫ R(r) r dr from 0 and from s. At least 0.1 is taken to be left.
+/// Factors that give back the light that softened distances √(r² + s²) take from the mean profile, for s = k / 2 pixels; shape
+/// `[k]`: ∫ R(r) r dr from 0, divided by that from s, which is taken to be at least a tenth of it.
 #[must_use]
 pub fn softened(material: &Bssrdf<'_>) -> [Rgb; 8] {
     const STEPS: u16 = 4_096;

@@ -6,24 +6,26 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
 
-use crate::cpu::Rgb;
+use crate::rgb::Rgb;
 
-/// Radii at which functions are sampled, 0 to r_max.
+/// Number of radii at which functions are sampled, 0 to r_max.
 const RADII: usize = 64;
-/// Weight of a radius is its share of the area, max(r, this many pixels): light near the beam is not forgotten.
+/// Least weight of a radius in pixels: weights are shares of the area, max(r, this), so that light near the beam counts.
 const LEAST_RADIUS: f64 = 0.3;
 
+/// Radial functions of a material, and their coefficients.
 #[derive(Clone)]
 pub(super) struct Radial {
-    /// `[L][pixel]`.
+    /// Coefficients c_l, shape `[L][pixel]`, mm⁻¹.
     pub(super) coefficients: Vec<Rgb>,
-    /// g_l at the radii, `[L][radius]`.
+    /// Functions g_l at the radii, shape `[L][radius]`.
     functions: Vec<Rgb>,
     /// Pixels from one radius to the next.
     step: f64,
 }
 
 impl Radial {
+    /// Decomposition of a material into `terms` radial functions.
     pub(super) fn of(material: &Bssrdf<'_>, terms: usize) -> Self {
         let header = material.header();
         let step = f64::from(header.r_max_mm / header.pitch_mm) / (RADII - 1) as f64;
@@ -60,7 +62,7 @@ impl Radial {
         Self { coefficients, functions, step }
     }
 
-    /// The same function for all pixels: the root of the mean reflectance.
+    /// One function for all pixels: the root of the mean reflectance.
     pub(super) fn mean_of(material: &Bssrdf<'_>) -> Self {
         let header = material.header();
         let mean = mean_profile(material);
@@ -72,7 +74,7 @@ impl Radial {
         }
     }
 
-    /// The first terms alone.
+    /// The first `terms` functions alone.
     pub(super) fn truncated(mut self, terms: usize) -> Self {
         let pixels = self.coefficients.len() * RADII / self.functions.len();
         self.coefficients.truncate(terms * pixels);
@@ -80,7 +82,7 @@ impl Radial {
         self
     }
 
-    /// g_l(r), r in pixels, at most r_max.
+    /// Value g_l(r) of a channel, r in pixels, at most r_max.
     pub(super) fn at(&self, l: usize, r: f64, c: usize) -> f64 {
         let position = (r / self.step).min((RADII - 1) as f64);
         let k = (position as usize).min(RADII - 2);
@@ -90,7 +92,8 @@ impl Radial {
     }
 }
 
-/// Mean over all pixels of Rd between two pixels alike, in mm⁻², as a function of their distance in mm; 0 beyond r_max.
+/// Mean profile of a material: Rd in mm⁻² between two pixels alike, the mean over all pixels, as a function of their distance in
+/// mm; 0 beyond r_max.
 pub fn mean_profile(material: &Bssrdf<'_>) -> impl Fn(f32) -> Rgb + Sync + use<> {
     let r_max_mm = material.header().r_max_mm;
     let samples = samples(material);
@@ -110,7 +113,7 @@ pub fn mean_profile(material: &Bssrdf<'_>) -> impl Fn(f32) -> Rgb + Sync + use<>
     }
 }
 
-/// f_x at all radii, mm⁻¹.
+/// Profiles f_x at all radii, shape `[pixel][radius]`, mm⁻¹.
 fn samples(material: &Bssrdf<'_>) -> Vec<Vec<Rgb>> {
     let header = material.header();
     let positions = (0..header.height).flat_map(|y| (0..header.width).map(move |x| [x, y].map(u32::cast_signed)));
@@ -125,7 +128,7 @@ fn samples(material: &Bssrdf<'_>) -> Vec<Vec<Rgb>> {
     positions.par_iter().map(profile).collect()
 }
 
-/// Σ_x w_k^½ f_x(r_k) f_x(r_l) w_l^½. Sums of fixed blocks of pixels are added in order: the same on any number of threads.
+/// Gram matrix Σ_x w_k^½ f_x(r_k) f_x(r_l) w_l^½. Sums of fixed blocks of pixels are added in order: the same on any number of threads.
 fn gram(samples: &[Vec<Rgb>], weight: &[f64], c: usize) -> DMatrix<f64> {
     const BLOCK: usize = 1024;
     let blocks: Vec<DMatrix<f64>> = samples

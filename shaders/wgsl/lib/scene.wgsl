@@ -4,7 +4,7 @@ struct LightSource {
     // Projection of the light's own view; column-major, depth 0 to 1.
     clip_from_world: mat4x4<f32>,
     // Unit vector towards the light, or its position in mm.
-    place: vec3<f32>,
+    position_or_direction: vec3<f32>,
     // 0 for a direction, 1 for a position.
     is_local: u32,
     // Irradiance on a plane that faces the light: of a direction anywhere, of a position 1 mm away; linear Rec. 709.
@@ -72,9 +72,9 @@ struct Incident {
 fn incident(i: u32, position_mm: vec3<f32>) -> Incident {
     let source = scene.light[min(i, 3u)];
     if source.is_local == 0u {
-        return Incident(source.place, source.irradiance);
+        return Incident(source.position_or_direction, source.irradiance);
     }
-    let to_light = source.place - position_mm;
+    let to_light = source.position_or_direction - position_mm;
     let distance2 = max(dot(to_light, to_light), 1e-6);
     let towards = to_light * inverseSqrt(distance2);
     // Full inside the inner cone, none outside the outer one.

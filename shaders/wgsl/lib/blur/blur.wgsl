@@ -13,8 +13,8 @@ struct BlurStage {
     // material.
     step: f32,
     sparse: f32,
-    // 0 for the first stage: there is no sum yet.
-    begun: u32,
+    // 1 if there is a sum of earlier stages, 0 for the first.
+    has_sum: u32,
 }
 
 @group(0) @binding(0) var<uniform> stage: BlurStage;

@@ -21,7 +21,7 @@ fn nearness(centre: vec4<f32>, other: vec4<f32>) -> f32 {
 
 // Whether there is a sum to add to: not at the first stage.
 fn has_sum() -> bool {
-    return stage.begun != 0u;
+    return stage.has_sum != 0u;
 }
 
 // Texture coordinates of the middle of a texel.

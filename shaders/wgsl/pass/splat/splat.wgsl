@@ -4,7 +4,7 @@
 
 struct Splat {
     // Factor that gives back the light that softening by k / 2 pixels of the material takes from a sample; linear Rec. 709.
-    softened: array<vec4<f32>, 8>,
+    softening_gain: array<vec4<f32>, 8>,
     // Projection of positions relative to the middle of the scene; column-major, depth 0 to 1.
     clip_from_centre: mat4x4<f32>,
     // Distances in mm where the ring begins and ends to fade in; both 0 for the first.
@@ -61,7 +61,7 @@ const SOFTENING: f32 = 0.6;
 fn softening_gain(softening_mm: f32) -> vec3<f32> {
     let at = min(softening_mm / (0.5 * splat_block.pitch_mm), 6.99);
     let k = u32(at);
-    return mix(splat_block.softened[min(k, 7u)].xyz, splat_block.softened[min(k + 1u, 7u)].xyz, at - f32(k));
+    return mix(splat_block.softening_gain[min(k, 7u)].xyz, splat_block.softening_gain[min(k + 1u, 7u)].xyz, at - f32(k));
 }
 
 // Whether a texel is full, and flat along the axis of the light.

@@ -1,0 +1,199 @@
+//! A device to draw with.
+
+use std::fmt;
+
+use half::f16;
+use pollster::block_on;
+use subsurf_shaders::source::Keeping;
+use wgpu::rwh::HasDisplayHandle;
+use wgpu::{
+    Adapter, AdapterInfo, Color, Device, DeviceDescriptor, ErrorFilter, ExperimentalFeatures, Extent3d, Features,
+    Instance, Limits, MemoryHints, Queue, Surface, SurfaceTarget, TextureDescriptor, TextureDimension, TextureFormat,
+    TextureUsages, Trace,
+};
+
+use super::backend::{Backend, adapters, instance};
+use super::ledger::Ledger;
+use crate::error::{Error, Result};
+
+/// A device and its queue, opened with the limits of WebGL2 and the ledger of what lives on it.
+#[derive(Debug)]
+pub struct Gpu {
+    pub(crate) device: Device,
+    pub(crate) queue: Queue,
+    keeping: Keeping,
+    info: AdapterInfo,
+    ledger: Ledger,
+}
+
+/// A device that draws to a window, and what makes the window's surface anew when it is lost.
+#[derive(Debug)]
+pub struct OnScreen<'w> {
+    /// The device.
+    pub gpu: Gpu,
+    /// The window's surface, not configured yet. Drop it before the window.
+    pub surface: Surface<'w>,
+    /// Where it came from.
+    pub instance: Instance,
+    /// Knows which formats the surface has.
+    pub adapter: Adapter,
+}
+
+/// Half floats where they can be drawn to: it takes GL_EXT_color_buffer_half_float or GL_EXT_color_buffer_float.
+fn keeping_of(device: &Device) -> Keeping {
+    let scope = device.push_error_scope(ErrorFilter::Validation);
+    let _ = device.create_texture(&TextureDescriptor {
+        label: Some("probe"),
+        size: Extent3d::default(),
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: TextureDimension::D2,
+        format: TextureFormat::Rgba16Float,
+        usage: TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    });
+    if block_on(scope.pop()).is_some() { Keeping::Packed } else { Keeping::Halves }
+}
+
+impl Gpu {
+    /// Opens the best device of a backend, without a window, within `Limits::downlevel_webgl2_defaults()` but for the
+    /// size of textures.
+    ///
+    /// # Errors
+    /// [`Error::NoDevice`].
+    pub fn open(backend: Backend) -> Result<Self> {
+        let adapter = adapters(&Instance::new(instance(backend)), backend).into_iter().next();
+        let none = || Error::NoDevice { backend, reason: "the driver lists none".to_owned() };
+        Self::of(&adapter.ok_or_else(none)?, backend)
+    }
+
+    /// Opens the best device of a backend that draws to a window, within the same limits.
+    ///
+    /// # Errors
+    /// [`Error::NoDevice`].
+    pub fn open_for<'w>(
+        backend: Backend,
+        display: impl HasDisplayHandle + fmt::Debug + Send + Sync + 'static,
+        window: impl Into<SurfaceTarget<'w>>,
+    ) -> Result<OnScreen<'w>> {
+        let none = |reason: String| Error::NoDevice { backend, reason };
+        let instance = Instance::new(instance(backend).with_display_handle(Box::new(display)));
+        let surface = instance.create_surface(window).map_err(|error| none(error.to_string()))?;
+        let adapter = adapters(&instance, backend).into_iter().find(|adapter| adapter.is_surface_supported(&surface));
+        let adapter = adapter.ok_or_else(|| none("the driver lists none that draws to this window".to_owned()))?;
+        Ok(OnScreen { gpu: Self::of(&adapter, backend)?, surface, instance, adapter })
+    }
+
+    fn of(adapter: &Adapter, backend: Backend) -> Result<Self> {
+        let request = adapter.request_device(&DeviceDescriptor {
+            label: Some("subsurf"),
+            required_features: Features::empty(),
+            required_limits: Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits()),
+            experimental_features: ExperimentalFeatures::disabled(),
+            memory_hints: MemoryHints::MemoryUsage,
+            trace: Trace::Off,
+        });
+        let none = |reason: String| Error::NoDevice { backend, reason };
+        let (device, queue) = block_on(request).map_err(|error| none(error.to_string()))?;
+        Ok(Self::from_device(device, queue, adapter.get_info()))
+    }
+
+    /// Draws with a device that the caller owns; `info` is what its adapter says. Within
+    /// `Limits::downlevel_webgl2_defaults()` everything works.
+    #[must_use]
+    pub fn from_device(device: Device, queue: Queue, info: AdapterInfo) -> Self {
+        Self { keeping: keeping_of(&device), device, queue, info, ledger: Ledger::default() }
+    }
+
+    /// How passes keep values for later ones.
+    #[must_use]
+    pub fn keeping(&self) -> Keeping {
+        self.keeping
+    }
+
+    /// The same device, with values kept in another way: for drivers that claim to draw to half floats and fail.
+    #[must_use]
+    pub fn keep(self, keeping: Keeping) -> Self {
+        Self { keeping, ..self }
+    }
+
+    /// Format of what passes keep.
+    pub(crate) fn kept(&self) -> TextureFormat {
+        match self.keeping {
+            Keeping::Halves => TextureFormat::Rgba16Float,
+            Keeping::Packed => TextureFormat::Rgba16Uint,
+        }
+    }
+
+    /// What to clear a target of that format with.
+    pub(crate) fn kept_colour(&self, colour: Color) -> Color {
+        match self.keeping {
+            Keeping::Halves => colour,
+            Keeping::Packed => {
+                let bits = |value: f64| f16::from_f64(value).to_bits().into();
+                Color { r: bits(colour.r), g: bits(colour.g), b: bits(colour.b), a: bits(colour.a) }
+            }
+        }
+    }
+
+    /// Refuses to do what takes half floats that can be drawn to.
+    pub(crate) fn expect_halves(&self, what: &'static str) -> Result<()> {
+        match self.keeping {
+            Keeping::Halves => Ok(()),
+            Keeping::Packed => Err(Error::NoHalfFloats { what }),
+        }
+    }
+
+    /// The device, to share it.
+    #[must_use]
+    pub fn device(&self) -> &Device {
+        &self.device
+    }
+
+    /// Its queue.
+    #[must_use]
+    pub fn queue(&self) -> &Queue {
+        &self.queue
+    }
+
+    /// What the driver says of itself.
+    #[must_use]
+    pub fn info(&self) -> &AdapterInfo {
+        &self.info
+    }
+
+    /// Bytes on the device.
+    #[must_use]
+    pub fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    /// Runs `work` and turns what the device complains about into an error.
+    pub(crate) fn checked<T>(&self, work: impl FnOnce() -> T) -> Result<T> {
+        // Shader errors of GLES come as internal ones.
+        let filters = [ErrorFilter::Validation, ErrorFilter::Internal, ErrorFilter::OutOfMemory];
+        let scopes = filters.map(|filter| self.device.push_error_scope(filter));
+        let result = work();
+        let mut failed = None;
+        for scope in scopes.into_iter().rev() {
+            failed = failed.or(block_on(scope.pop()));
+        }
+        failed.map_or(Ok(result), |error| Err(Error::Device(error.to_string())))
+    }
+
+    /// Hands over what is still waiting to be uploaded, and waits until the device has done everything.
+    ///
+    /// # Errors
+    /// [`Error::Device`] if the device is lost.
+    pub fn finish(&self) -> Result<()> {
+        self.queue.submit([]);
+        loop {
+            // The GL backend gives up after two seconds of waiting, however long it was asked to wait.
+            match self.device.poll(wgpu::PollType::wait_indefinitely()) {
+                Ok(_) => return Ok(()),
+                Err(wgpu::PollError::Timeout) => {}
+                Err(error) => return Err(Error::Device(error.to_string())),
+            }
+        }
+    }
+}
