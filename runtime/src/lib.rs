@@ -13,13 +13,13 @@ pub use asset::{
     VertexData, storage_of,
 };
 pub use error::{Error, Result};
-pub use frame::{BACKGROUND, Drawable, Frame, Plan, Renderer, RuntimeOptions, Technique};
+pub use frame::{BACKGROUND, Frame, Plan, Renderer, RuntimeOptions};
 pub use gpu::{Backend, Gpu, Ledger, OnScreen, PictureTarget, devices};
 pub use subsurf_shaders::source::Keeping;
 pub use subsurf_shaders::uniform::BtfFiltering;
 pub use subsurf_shaders::{BtfStorage, Storage};
 pub use technique::{
-    BtfAnswer, BtfOptions, BtfQueries, BtfQuery, Exitance, HomogeneousPatch, HomogeneousRenderer, PatchLight,
-    PatchRenderer, Region, SeparablePatch, SeparableRenderer,
+    BtfAnswer, BtfOptions, BtfQueries, BtfQuery, Drawable, Exitance, HomogeneousPatch, HomogeneousRenderer, PatchLight,
+    PatchRenderer, Region, SeparablePatch, SeparableRenderer, Technique,
 };
 pub use wgpu;

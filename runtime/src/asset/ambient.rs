@@ -1,5 +1,5 @@
-//! How much of the light from all around a place of a mesh gets: more than flat ground where the mesh is thin or folded,
-//! less on tips.
+//! Light from all around that scatters to the vertices of a mesh: more than on flat ground where the mesh is thin or
+//! folded, less on tips.
 
 use std::collections::HashMap;
 
@@ -12,21 +12,22 @@ use subsurf_shaders::separable::mean_profile;
 
 use crate::error::Result;
 
-/// Light that scatters to a vertex under light from all around, by what it would be on flat ground, which is 1; rgb.
+/// Exitance of a vertex under uniform light from all around, relative to that of flat ground of the same material; rgb, 0 to
+/// about 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AmbientTransfer {
-    /// From surface that faces the same way.
+    /// Share from surface that faces the same way as the vertex.
     pub front: Rgb,
-    /// From surface that faces the other way: through thin parts.
+    /// Share from surface that faces the other way: light that passes through thin parts.
     pub back: Rgb,
 }
 
 /// Longest edge of the mesh between whose vertices light scatters, in pixels of the material.
 const LONGEST_EDGE: f32 = 1.5;
-/// Vertices to a square pixel of the material that are enough.
+/// Number of vertices to a square pixel of the material that is enough.
 const DENSITY: f32 = 1.5;
 
-/// A vertex that stands for a piece of the surface.
+/// Vertex that stands for a piece of the surface.
 struct Sample {
     position_mm: Vec3,
     normal: Vec3,
@@ -34,8 +35,8 @@ struct Sample {
 }
 
 impl AmbientTransfer {
-    /// Of every vertex of a mesh made of a material, by its mean profile: Σ R(r) dA / 2π ∫ R(r) r dr, r the distance in
-    /// space.
+    /// Transfer of every vertex of a mesh made of a material, by its mean profile: Σ R(r) dA / 2π ∫ R(r) r dr, r the
+    /// distance in space. Approximate: heterogeneity and occlusion of the light are left out.
     ///
     /// # Errors
     /// [`crate::Error::Scene`] if the mesh is too large for the material's pixels.
@@ -72,7 +73,7 @@ impl AmbientTransfer {
     }
 }
 
-/// Vertices with a third of the triangles around each; some of them, with more area, where they are dense.
+/// Vertices with a third of the area of the triangles around each; every n-th with n times the area where they are dense.
 fn samples(mesh: Mesh, pitch_mm: f32) -> Vec<Sample> {
     let areas = mesh.vertex_areas();
     let total: f32 = areas.iter().sum();
@@ -90,7 +91,7 @@ fn samples(mesh: Mesh, pitch_mm: f32) -> Vec<Sample> {
     vertices.step_by(stride).map(sample).collect()
 }
 
-/// 2π ∫ R(r) r dr, by the midpoint rule.
+/// Exitance of flat ground, 2π ∫ R(r) r dr, by the midpoint rule.
 fn flat(profile: impl Fn(f32) -> Rgb, r_max_mm: f32) -> Rgb {
     const STEPS: u16 = 2_048;
     let step = r_max_mm / f32::from(STEPS);
@@ -101,6 +102,7 @@ fn flat(profile: impl Fn(f32) -> Rgb, r_max_mm: f32) -> Rgb {
     (0..STEPS).map(ring).fold([1e-12; 3], |sum, ring| [0, 1, 2].map(|c| sum[c] + ring[c]))
 }
 
+/// Steps to the cells at most `reach` away along each axis.
 fn around(reach: i32) -> impl Iterator<Item = (i32, i32, i32)> {
     let line = move || -reach..=reach;
     line().flat_map(move |z| line().flat_map(move |y| line().map(move |x| (x, y, z))))

@@ -1,4 +1,4 @@
-//! A material on the device, in one of the storages.
+//! Scattering materials on the device: the planes of a file, or an uncompressed capture.
 
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{BaseMaterials, Header, Mixtures, Model, Profiles};
@@ -9,7 +9,7 @@ use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, Slot, Surface2d, TextureSpec, Tracked, layers_of};
 
-/// How a file is stored on the device.
+/// Layout of a file on the device.
 #[must_use]
 pub fn storage_of(material: &Bssrdf<'_>) -> Storage {
     let Model::BaseMaterials(planes) = material.model() else {
@@ -24,7 +24,7 @@ pub fn storage_of(material: &Bssrdf<'_>) -> Storage {
     }
 }
 
-/// Bindings of the material's group.
+/// Bindings of a material's group.
 pub(crate) fn slots(storage: Storage) -> &'static [Slot] {
     match storage {
         Storage::Single => &[Slot::Uniform, Slot::Float, Slot::Uint],
@@ -35,7 +35,7 @@ pub(crate) fn slots(storage: Storage) -> &'static [Slot] {
     }
 }
 
-/// A material that was uploaded.
+/// Scattering material on the device, in one of the layouts.
 #[derive(Debug)]
 pub struct Material {
     storage: Storage,
@@ -104,19 +104,19 @@ impl Material {
         Self { storage, header: *header, uniform: gpu.uniform("material", &block), textures, views }
     }
 
-    /// How it is stored.
+    /// Layout of the material on the device.
     #[must_use]
     pub fn storage(&self) -> Storage {
         self.storage
     }
 
-    /// Size, pitch, window and so on.
+    /// Header of the file: size, pitch and window of the patch.
     #[must_use]
     pub fn header(&self) -> &Header {
         &self.header
     }
 
-    /// Bytes of its textures and uniforms on the device.
+    /// Bytes of textures and blocks on the device.
     #[must_use]
     pub fn gpu_bytes(&self) -> u64 {
         self.textures.iter().map(|surface| surface.texture.bytes()).sum::<u64>() + self.uniform.bytes()
@@ -128,7 +128,7 @@ impl Material {
         uniform.chain(self.views.iter().map(BindingResource::TextureView)).collect()
     }
 
-    /// Refuses a material of another storage than a renderer was built for.
+    /// Refuses a material of another layout than a pass was built for.
     pub(crate) fn expect(&self, storage: Storage) -> Result<()> {
         if self.storage == storage {
             return Ok(());
@@ -137,15 +137,16 @@ impl Material {
     }
 }
 
-/// The textures of a file, in the order of [`slots`], each with the view that the shader takes.
+/// Textures of a file, in the order of [`slots`], each with the view that shaders take.
 struct Planes<'a> {
     gpu: &'a Gpu,
-    /// Pixels of the patch.
+    /// Width and height of the patch in pixels.
     size: [u32; 2],
     all: Vec<(Surface2d, TextureView)>,
 }
 
 impl Planes<'_> {
+    /// Adds a texture of one layer.
     fn texture(&mut self, spec: &TextureSpec, bytes: &[u8]) -> Result<()> {
         let surface = self.gpu.filled(spec, bytes)?;
         let view = surface.view.clone();
@@ -153,12 +154,12 @@ impl Planes<'_> {
         Ok(())
     }
 
-    /// One texel per pixel of the patch.
+    /// Adds a texture of one texel for each pixel of the patch.
     fn table(&mut self, label: &'static str, format: TextureFormat, bytes: &[u8]) -> Result<()> {
         self.texture(&TextureSpec::table(label, self.size, format), bytes)
     }
 
-    /// `count` layers of that.
+    /// Adds `count` layers of one texel for each pixel of the patch.
     fn layers(&mut self, label: &'static str, count: u32, format: TextureFormat, bytes: &[u8]) -> Result<()> {
         let surface = self.gpu.texture(&TextureSpec::layered(label, self.size, count, format))?;
         let plane = bytes.len() / count as usize;
@@ -172,7 +173,7 @@ impl Planes<'_> {
         Ok(())
     }
 
-    /// The table of base profiles, widened to four channels; columns of [`BASE_ROWS`] materials stand beside each other.
+    /// Adds the table of base profiles, widened to four channels; columns of [`BASE_ROWS`] materials stand beside each other.
     fn base_profiles(&mut self, header: &Header, profiles: Profiles<'_>) -> Result<()> {
         let (format, channel, source) = match profiles {
             Profiles::F32(values) => (TextureFormat::Rgba32Float, 4, values.as_bytes()),
@@ -195,6 +196,7 @@ impl Planes<'_> {
         Ok(())
     }
 
+    /// Adds the planes that say of which base materials a pixel is mixed.
     fn mixtures(&mut self, mixtures: Mixtures<'_>) -> Result<()> {
         match mixtures {
             Mixtures::One(indices) => self.table("base indices", TextureFormat::R8Uint, indices),

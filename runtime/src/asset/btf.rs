@@ -1,4 +1,4 @@
-//! A BTF file on the device, as it is.
+//! BTFs on the device: the file as it is.
 
 use subsurf_decoder::Btf;
 use subsurf_shaders::BtfStorage;
@@ -8,18 +8,18 @@ use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, Slot, Surface2d, TextureSpec, Tracked};
 
-/// A BTF that was uploaded: its file, word by word, with a block that says where its codebooks are; or its images.
+/// BTF on the device: its file, word by word, and a block that says where its codebooks are; or its images.
 #[derive(Debug)]
 pub struct BtfMaterial {
     storage: BtfStorage,
-    /// Of its materials.
+    /// Mipmap levels of each material.
     textures: Vec<BtfTexture>,
     texture: Surface2d,
     view: TextureView,
     block: Tracked<Buffer>,
 }
 
-/// Bindings of a BTF's group, but for what says which of its materials is drawn.
+/// Bindings of a BTF's group, but for the last, the block of the material that is drawn.
 pub(crate) fn slots(storage: BtfStorage) -> [Slot; 2] {
     match storage {
         BtfStorage::Nested => [Slot::Uniform, Slot::Uint],
@@ -58,13 +58,13 @@ impl BtfMaterial {
         Self { storage, textures, texture, view, block }
     }
 
-    /// How it is stored.
+    /// Layout of the BTF on the device.
     #[must_use]
     pub fn storage(&self) -> BtfStorage {
         self.storage
     }
 
-    /// Refuses a material of another storage than a pass was built for.
+    /// Refuses a BTF of another layout than a pass was built for.
     pub(crate) fn expect(&self, storage: BtfStorage) -> Result<()> {
         if self.storage == storage {
             return Ok(());
@@ -72,13 +72,13 @@ impl BtfMaterial {
         Err(Error::Device(format!("this draws BTFs as {storage:?}, the material is stored as {:?}", self.storage)))
     }
 
-    /// Bytes of its texture and uniforms on the device.
+    /// Bytes of textures and blocks on the device.
     #[must_use]
     pub fn gpu_bytes(&self) -> u64 {
         self.texture.texture.bytes() + self.block.bytes()
     }
 
-    /// Levels of its materials.
+    /// Mipmap levels of each material.
     pub(crate) fn textures(&self) -> &[BtfTexture] {
         &self.textures
     }

@@ -1,4 +1,4 @@
-//! The images of a BTF on the device, uncompressed: what a compressed one is compared with.
+//! BTFs on the device, uncompressed: every image. What a compressed BTF is compared with.
 
 use glam::Vec3;
 use subsurf_shaders::BtfStorage;
@@ -9,15 +9,15 @@ use super::btf::BtfMaterial;
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, TextureSpec, layers_of};
 
-/// Images of one material, one for every pair of a light and a view.
+/// Size and directions of the images of one material, one for every pair of a light and a view.
 #[derive(Clone, Copy, Debug)]
 pub struct BtfImages<'a> {
-    /// Pixels in x and in y.
+    /// Width and height of an image in pixels.
     pub size: [u32; 2],
     /// Unit vectors towards the lights: x along the rows, y down the columns, z the normal. They lie on rings around the
     /// normal, each with equal steps of azimuth from 0 on.
     pub lights: &'a [Vec3],
-    /// Unit vectors towards the eyes, likewise.
+    /// Unit vectors towards the eyes, on rings likewise.
     pub views: &'a [Vec3],
     /// Linear value of display white.
     pub white: f32,
@@ -26,7 +26,7 @@ pub struct BtfImages<'a> {
 /// Directions on rings around the normal.
 #[derive(Debug, PartialEq)]
 struct Rings {
-    /// Angle from the normal in rad, number of directions, number of the first.
+    /// Of each ring, angle from the normal in rad, number of directions, number of the first.
     rings: Vec<[f32; 3]>,
     /// For each place on the rings, from the innermost, the direction that was given.
     order: Vec<usize>,
@@ -36,6 +36,7 @@ struct Rings {
 const APART: f32 = 2e-3;
 
 impl Rings {
+    /// Sorts directions into rings; `what` names them in errors.
     fn of(directions: &[Vec3], what: &str) -> Result<Self> {
         let wrong = |reason: String| Error::Images(format!("{what}: {reason}"));
         let angles = |k: &usize| {
@@ -79,6 +80,7 @@ impl Rings {
         Ok(Self { rings, order: sorted })
     }
 
+    /// Rings as the uniform block has them.
     fn block(&self) -> [[f32; 4]; MAX_RINGS_OF_DIRECTIONS] {
         let mut block = [[0.0; 4]; MAX_RINGS_OF_DIRECTIONS];
         for (to, [theta, count, first]) in block.iter_mut().zip(&self.rings) {

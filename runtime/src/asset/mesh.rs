@@ -1,4 +1,4 @@
-//! A mesh on the device.
+//! Meshes on the device, with what techniques need to know of every vertex.
 
 use glam::{Vec2, Vec3, Vec4};
 use subsurf_scene::{Mapping, Mesh, Placement};
@@ -8,15 +8,15 @@ use super::ambient::AmbientTransfer;
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, Tracked};
 
-/// A mesh on the device.
+/// Mesh on the device.
 #[derive(Debug)]
 pub struct GpuMesh {
     vertices: Tracked<Buffer>,
     indices: Tracked<Buffer>,
-    /// Of a mesh for BTFs.
+    /// Tangents, of a mesh for BTFs.
     tangents: Option<Tracked<Buffer>>,
     index_count: u32,
-    /// As many points as a surface must have whose points the vertices name.
+    /// One more than the largest point that a vertex names; 0 if none does.
     pub(crate) points: usize,
     pub(crate) placement: Placement,
 }
@@ -26,26 +26,27 @@ pub struct GpuMesh {
 struct Vertex {
     position_mm: Vec3,
     normal: Vec3,
-    /// Copies of the patch, v down.
+    /// Texture coordinates in copies of the patch, v down.
     uv: Vec2,
     point: u32,
-    /// Halves of the light that comes from all around, from the same side and from the other.
+    /// [`AmbientTransfer::front`], 0 to 2 as 0 to 255.
     sky_front: [u8; 4],
+    /// [`AmbientTransfer::back`], likewise.
     sky_back: [u8; 4],
 }
 
-/// What a path wants to know of every vertex.
+/// What a technique needs to know of every vertex, in the order of the mesh.
 #[derive(Clone, Copy, Debug)]
 pub enum VertexData<'a> {
-    /// Which point of a [`subsurf_scene::SurfacePoints`] it is: for the gather.
+    /// Number of the vertex's point, [`subsurf_scene::SurfacePoints::point_of`]: for the gather.
     Points(&'a [u32]),
-    /// How much light from all around it gets: for all others.
+    /// Light from all around that scatters to the vertex: for splats and separable blurs.
     Ambient(&'a [AmbientTransfer]),
-    /// [`Mesh::tangents`]: for BTFs.
+    /// Tangents, [`Mesh::tangents`]: for BTFs.
     Tangents(&'a [Vec4]),
 }
 
-/// 0 to 2 in a byte.
+/// Values of 0 to 2 as bytes of 0 to 255.
 fn halves(share: [f32; 3]) -> [u8; 4] {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
     let [r, g, b] = share.map(|value| (value * 127.5).round().clamp(0.0, 255.0) as u8);
@@ -53,10 +54,13 @@ fn halves(share: [f32; 3]) -> [u8; 4] {
 }
 
 impl GpuMesh {
-    /// Uploads a mesh, with what is known of its vertices.
+    /// Uploads a mesh with data of its vertices.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if the device takes no buffers of that size.
+    /// [`Error::Unsupported`] if the device takes no buffers of that size; [`Error::Mesh`] if there are more than 2³² indices.
+    ///
+    /// # Panics
+    /// If there is data for fewer vertices than the mesh has.
     pub fn upload(gpu: &Gpu, mesh: &Mesh, placement: &Placement, known: VertexData<'_>) -> Result<Self> {
         let times = match placement.mapping {
             Mapping::Uv(times) => Vec2::from(times),
@@ -121,7 +125,7 @@ impl GpuMesh {
         pass.draw_indexed(0..self.index_count, 0, 0..1);
     }
 
-    /// Bytes on the device.
+    /// Bytes of vertices and indices on the device.
     #[must_use]
     pub fn gpu_bytes(&self) -> u64 {
         let tangents = self.tangents.as_ref().map_or(0, Tracked::bytes);

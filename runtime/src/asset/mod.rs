@@ -1,4 +1,4 @@
-//! From a file or a mesh to what is on the device: one file per kind.
+//! From files and meshes to what is on the device, one file for each kind.
 
 mod ambient;
 mod bssrdf;

@@ -1,4 +1,4 @@
-//! Filtered values over a patch on the device, with levels for small pictures.
+//! Filtered values over a patch on the device, with mipmap levels.
 
 use half::f16;
 use subsurf_decoder::bssrdf::{Addressing, Header};
@@ -8,18 +8,23 @@ use wgpu::{AddressMode, FilterMode, MipmapFilterMode, Sampler, SamplerDescriptor
 use crate::error::Result;
 use crate::gpu::{Gpu, Surface2d, TextureSpec, layers_of};
 
-/// Layers of filtered values over a patch, with levels for small pictures.
+/// Array of filtered values over a patch, rgb, with mipmap levels.
 ///
 /// Indices of base materials cannot be filtered; albedos and factors can.
 #[derive(Debug)]
 pub(crate) struct PatchLayers {
     surface: Surface2d,
+    /// View of all layers and levels.
     pub(crate) all: TextureView,
+    /// Sampler that filters and wraps as the patch does.
     pub(crate) sampler: Sampler,
 }
 
 impl PatchLayers {
-    /// Uploads layers as half floats.
+    /// Uploads layers, each `[row][column]` over the patch, as half floats.
+    ///
+    /// # Errors
+    /// [`crate::Error::Unsupported`] if the device takes no texture of that size.
     pub(crate) fn upload(gpu: &Gpu, header: &Header, layers: Vec<Vec<Rgb>>) -> Result<Self> {
         let size = [header.width, header.height];
         let count = u32::try_from(layers.len()).unwrap_or(u32::MAX);
@@ -40,12 +45,13 @@ impl PatchLayers {
         Ok(Self { all: layers_of(&surface), surface, sampler: sampler(gpu, header.addressing) })
     }
 
+    /// Bytes on the device.
     pub(crate) fn bytes(&self) -> u64 {
         self.surface.texture.bytes()
     }
 }
 
-/// Linear between texels and levels. A patch that clamps is mirrored: its border would be drawn out otherwise.
+/// Sampler that is linear between texels and levels. A patch that clamps is mirrored: its border would be drawn out otherwise.
 fn sampler(gpu: &Gpu, addressing: Addressing) -> Sampler {
     let mode = match addressing {
         Addressing::Repeat => AddressMode::Repeat,
@@ -62,7 +68,7 @@ fn sampler(gpu: &Gpu, addressing: Addressing) -> Sampler {
     })
 }
 
-/// Means over the pixels, and parts of pixels, that each pixel of the next level covers.
+/// Next mipmap level: means over the pixels, and parts of pixels, that each of its pixels covers; and its size.
 fn halved(pixels: &[Rgb], size: [u32; 2]) -> (Vec<Rgb>, [u32; 2]) {
     let half = size.map(|side| (side / 2).max(1));
     let column = |image: &[Rgb], width: u32, x: u32, y: u32| image[(y * width + x) as usize];
@@ -76,7 +82,7 @@ fn halved(pixels: &[Rgb], size: [u32; 2]) -> (Vec<Rgb>, [u32; 2]) {
     (all.map(|(x, span)| mean(span, |y| column(&rows, half[0], x, y))).collect(), half)
 }
 
-/// The pixels of a line of `from` that each of `to` covers, and how much of each.
+/// For each of `to` pixels of a line, which of `from` pixels it covers, and which share of it each covers.
 #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "sides are below 65,536")]
 #[allow(clippy::cast_sign_loss, reason = "positions are not negative")]
 fn spans(from: u32, to: u32) -> Vec<Vec<(u32, f32)>> {
@@ -90,6 +96,7 @@ fn spans(from: u32, to: u32) -> Vec<Vec<(u32, f32)>> {
     (0..to).map(span).collect()
 }
 
+/// Mean over a span, with its shares as weights.
 fn mean(span: &[(u32, f32)], at: impl Fn(u32) -> Rgb) -> Rgb {
     span.iter().fold([0.0; 3], |sum, &(x, part)| {
         let value = at(x);

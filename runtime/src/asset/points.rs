@@ -1,4 +1,4 @@
-//! The points of a mesh on the device, between which light scatters.
+//! Points of a mesh on the device, between which light scatters.
 
 use subsurf_scene::SurfacePoints;
 use subsurf_shaders::uniform;
@@ -8,7 +8,7 @@ use super::mesh::GpuMesh;
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked, array_size};
 
-/// The points of a mesh on the device, and the light at them.
+/// Points of a mesh on the device, and irradiance and exitance at them.
 #[derive(Debug)]
 pub struct GpuPoints {
     pub(crate) grid: Tracked<Buffer>,
@@ -23,7 +23,7 @@ pub struct GpuPoints {
 }
 
 impl GpuPoints {
-    /// Uploads the points of a mesh.
+    /// Uploads the points of a surface.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no textures of that size.
@@ -50,7 +50,7 @@ impl GpuPoints {
         })
     }
 
-    /// Refuses points that are not those of a mesh, or not those of which there are `bound`.
+    /// Refuses points that are fewer than a mesh names, or not `bound` in number.
     pub(crate) fn expect(&self, mesh: &GpuMesh, bound: usize) -> Result<()> {
         if mesh.points <= self.count && self.count == bound {
             return Ok(());
@@ -59,10 +59,10 @@ impl GpuPoints {
         Err(Error::Device(format!("{have} points for a mesh that names {want}: they are of another surface")))
     }
 
-    /// Exitance of every point as it was last gathered, linear rgb.
+    /// Exitance of every point as it was last gathered, linear Rec. 709, relative to irradiance in the scene's unit.
     ///
     /// # Errors
-    /// [`Error::Device`].
+    /// [`Error::Device`] if the device is lost.
     pub fn read(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>> {
         let mut texels = gpu.read_rgb(&self.exitance.texture)?;
         texels.truncate(self.count);

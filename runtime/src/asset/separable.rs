@@ -1,4 +1,4 @@
-//! A factorised material on the device.
+//! Materials for separable blurs on the device.
 
 use subsurf_decoder::bssrdf::Header;
 use subsurf_shaders::cpu::{self, Rgb};
@@ -10,7 +10,7 @@ use super::patch_layers::PatchLayers;
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, Tracked};
 
-/// Refuses factors that are not as many as they say.
+/// Refuses a basis whose tables are not as long as it says.
 pub(super) fn whole(factors: &Factors) -> Result<()> {
     let detail = factors.detail;
     let error = || Error::Device(format!("factors that are not as many as {detail:?} and the patch take"));
@@ -22,21 +22,21 @@ pub(super) fn albedo(factors: &Factors) -> Vec<Rgb> {
     cpu::separable(factors, &vec![[1.0; 3]; factors.coefficients_of(0).len()])
 }
 
-/// A factorised material: factors c_l and albedo over the patch, and the cascade that goes with them.
+/// Separable material on the device: factors c_l and albedo over the patch, and blocks of the cascade of Gaussians.
 #[derive(Debug)]
 pub struct SeparableMaterial {
     header: Header,
     terms: usize,
-    /// c_l, a layer each, and the albedo under uniform light.
+    /// Layers c_l, l < L, and the albedo under uniform light.
     pub(crate) layers: PatchLayers,
-    /// Along rows and along columns, for each a.
+    /// Blocks along rows and along columns, for each Gaussian a.
     stages: Vec<[Tracked<Buffer>; 2]>,
     through: Tracked<Buffer>,
     narrowest_pixels: f32,
 }
 
 impl SeparableMaterial {
-    /// Uploads factors as half floats.
+    /// Uploads a basis; factors become half floats.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if some are missing.
@@ -55,19 +55,19 @@ impl SeparableMaterial {
         })
     }
 
-    /// Size, pitch, window and so on.
+    /// Header of the file: size, pitch and window of the patch.
     #[must_use]
     pub fn header(&self) -> &Header {
         &self.header
     }
 
-    /// L.
+    /// Number of terms L, 1 or 2.
     #[must_use]
     pub fn terms(&self) -> usize {
         self.terms
     }
 
-    /// Refuses passes for another number of terms.
+    /// Refuses a material of another number of terms than a pass was built for.
     pub(crate) fn expect(&self, terms: usize) -> Result<()> {
         if self.terms == terms {
             return Ok(());
@@ -75,22 +75,23 @@ impl SeparableMaterial {
         Err(Error::Device(format!("this renderer draws L = {terms}, the material has L = {}", self.terms)))
     }
 
-    /// Bytes on the device.
+    /// Bytes of layers and blocks on the device.
     #[must_use]
     pub fn gpu_bytes(&self) -> u64 {
         self.layers.bytes() + self.stages.iter().flatten().chain([&self.through]).map(Tracked::bytes).sum::<u64>()
     }
 
-    /// Weights of all Gaussians.
+    /// Block of the weights of all Gaussians, for light that passes through thin parts.
     pub(crate) fn through(&self) -> &Buffer {
         &self.through
     }
 
-    /// σ of the narrowest Gaussian, in pixels of the patch.
+    /// Standard deviation of the narrowest Gaussian, in pixels of the patch.
     pub(crate) fn narrowest_pixels(&self) -> f32 {
         self.narrowest_pixels
     }
 
+    /// Blocks along rows and along columns, for each Gaussian.
     pub(crate) fn stages(&self) -> &[[Tracked<Buffer>; 2]] {
         &self.stages
     }

@@ -1,4 +1,4 @@
-//! A material for splatting on the device.
+//! Materials for splats on the device.
 
 use subsurf_decoder::Bssrdf;
 use subsurf_shaders::cpu::Rgb;
@@ -10,17 +10,19 @@ use super::separable::{albedo, whole};
 use crate::error::Result;
 use crate::gpu::Gpu;
 
-/// A material for splatting: its planes, and its albedo under uniform light.
+/// Material for splats on the device: the planes of its file, and its albedo under uniform light.
 #[derive(Debug)]
 pub struct SplatMaterial {
+    /// Planes of the file.
     pub(crate) planes: Material,
+    /// One layer: albedo under uniform light.
     pub(crate) albedo: PatchLayers,
-    /// What softening takes, by [`softened`].
+    /// Factors that give back the light that softened distances take, by [`softened`].
     pub(crate) softened: [Rgb; 8],
 }
 
 impl SplatMaterial {
-    /// Uploads the planes of a file as they stand in it, and the albedo that its factors give.
+    /// Uploads the planes of a file as they stand in it, and the albedo that its separable basis gives.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if some factors are missing.
@@ -33,13 +35,13 @@ impl SplatMaterial {
         })
     }
 
-    /// The planes alone.
+    /// Planes of the file.
     #[must_use]
     pub fn planes(&self) -> &Material {
         &self.planes
     }
 
-    /// Bytes on the device.
+    /// Bytes of planes and albedo on the device.
     #[must_use]
     pub fn gpu_bytes(&self) -> u64 {
         self.planes.gpu_bytes() + self.albedo.bytes()

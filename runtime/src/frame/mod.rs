@@ -1,11 +1,9 @@
-//! A frame: how large its buffers are within a budget, and its passes, recorded one after the other.
+//! Frames: sizes of their buffers within a budget, and their passes, recorded one after the other.
 
-mod drawable;
 mod options;
 pub(crate) mod plan;
 mod renderer;
 
-pub use drawable::{Drawable, Technique};
 pub use options::{BACKGROUND, RuntimeOptions};
 pub use plan::Plan;
 pub use renderer::{Frame, Renderer};

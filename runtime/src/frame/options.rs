@@ -1,27 +1,24 @@
-//! What a renderer may use and what it draws to.
+//! Options of renderers.
 
 use wgpu::{Color, TextureFormat};
 
 use crate::technique::BtfOptions;
 
-/// What a renderer may use and what it draws to.
+/// Budget of a renderer, and what it draws to.
 #[derive(Clone, Copy, Debug)]
 pub struct RuntimeOptions {
-    /// Most bytes on the device, those of meshes and materials included; no limit if there is none. The target is the
-    /// caller's, and what [`Renderer::picture`] draws to and reads back is not counted.
+    /// Most bytes on the device, those of meshes and materials included; no limit if `None`. The target is the
+    /// caller's, and what [`crate::Renderer::picture`] draws to and reads back is not counted.
     pub budget_bytes: Option<u64>,
     /// Format of the picture. Where it is one of sRGB, the device encodes; else the shader does.
     pub format: TextureFormat,
-    /// Samples to a pixel, 1 or 4.
+    /// Samples to a pixel of the picture, 1 or 4.
     pub samples: u32,
     /// Texels to a side of what each light sees: a power of two, at least 128.
     pub light_texels: u32,
-    /// Whether taps of [`Technique::Separable`] are shifted from pixel to pixel: grain instead of bands, where light changes
-    /// much within the reach of scattering.
-    pub jitters: bool,
-    /// How BTFs are looked up.
+    /// Filtering and sampling of BTFs.
     pub btf: BtfOptions,
-    /// Behind the mesh, as the target takes it.
+    /// Colour behind the mesh, in the values that the target takes.
     pub background: Color,
 }
 
@@ -33,12 +30,11 @@ impl Default for RuntimeOptions {
             format: TextureFormat::Rgba8Unorm,
             samples: 1,
             light_texels: 512,
-            jitters: false,
             btf: BtfOptions::default(),
             background: Color { r: grey, g: grey, b: grey, a: 1.0 },
         }
     }
 }
 
-/// Dark grey, as 8-bit display value.
+/// Display value of red, green and blue of the usual background, 0 to 255: a dark grey.
 pub const BACKGROUND: u8 = 46;

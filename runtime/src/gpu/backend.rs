@@ -5,7 +5,7 @@ use std::fmt;
 use pollster::block_on;
 use wgpu::{Adapter, AdapterInfo, Backends, DeviceType, GlDebugFns, Instance, InstanceDescriptor, InstanceFlags};
 
-/// A graphics API.
+/// Graphics API.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Backend {
     /// Vulkan.
@@ -24,7 +24,7 @@ impl fmt::Display for Backend {
 }
 
 impl Backend {
-    /// Both of them.
+    /// Both APIs.
     pub const ALL: [Self; 2] = [Self::Vulkan, Self::Gl];
 
     fn flag(self) -> Backends {
@@ -35,6 +35,7 @@ impl Backend {
     }
 }
 
+/// Entry to an API, without debug layers.
 pub(super) fn instance(backend: Backend) -> InstanceDescriptor {
     let mut descriptor = InstanceDescriptor {
         backends: backend.flag(),
@@ -46,7 +47,7 @@ pub(super) fn instance(backend: Backend) -> InstanceDescriptor {
     descriptor
 }
 
-/// Devices before software renderers, large before small.
+/// Rank of an adapter, 0 the best: discrete GPUs first, software renderers last.
 fn rank(info: &AdapterInfo) -> u8 {
     match info.device_type {
         DeviceType::DiscreteGpu => 0,
@@ -57,13 +58,14 @@ fn rank(info: &AdapterInfo) -> u8 {
     }
 }
 
+/// Adapters of an API, the best first.
 pub(super) fn adapters(instance: &Instance, backend: Backend) -> Vec<Adapter> {
     let mut adapters = block_on(instance.enumerate_adapters(backend.flag()));
     adapters.sort_by_key(|adapter| rank(&adapter.get_info()));
     adapters
 }
 
-/// What there is to draw with on this machine, the best first.
+/// Devices of this machine for an API, the best first.
 #[must_use]
 pub fn devices(backend: Backend) -> Vec<AdapterInfo> {
     adapters(&Instance::new(instance(backend)), backend).iter().map(Adapter::get_info).collect()

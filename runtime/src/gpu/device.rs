@@ -1,4 +1,4 @@
-//! A device to draw with.
+//! The device that everything is drawn with.
 
 use std::fmt;
 
@@ -16,7 +16,7 @@ use super::backend::{Backend, adapters, instance};
 use super::ledger::Ledger;
 use crate::error::{Error, Result};
 
-/// A device and its queue, opened with the limits of WebGL2 and the ledger of what lives on it.
+/// Device and queue, within the limits of WebGL2, and the ledger of what lives on the device.
 #[derive(Debug)]
 pub struct Gpu {
     pub(crate) device: Device,
@@ -26,20 +26,20 @@ pub struct Gpu {
     ledger: Ledger,
 }
 
-/// A device that draws to a window, and what makes the window's surface anew when it is lost.
+/// Device that draws to a window, and what it takes to make the window's surface anew when it is lost.
 #[derive(Debug)]
 pub struct OnScreen<'w> {
-    /// The device.
+    /// Device that draws to the surface.
     pub gpu: Gpu,
-    /// The window's surface, not configured yet. Drop it before the window.
+    /// Surface of the window, not configured yet. Drop it before the window.
     pub surface: Surface<'w>,
-    /// Where it came from.
+    /// Entry to the API, which made the surface.
     pub instance: Instance,
-    /// Knows which formats the surface has.
+    /// Adapter, which knows the formats of the surface.
     pub adapter: Adapter,
 }
 
-/// Half floats where they can be drawn to: it takes GL_EXT_color_buffer_half_float or GL_EXT_color_buffer_float.
+/// Format of targets: half floats where they can be drawn to, which takes GL_EXT_color_buffer_half_float or GL_EXT_color_buffer_float.
 fn keeping_of(device: &Device) -> Keeping {
     let scope = device.push_error_scope(ErrorFilter::Validation);
     let _ = device.create_texture(&TextureDescriptor {
@@ -60,7 +60,7 @@ impl Gpu {
     /// size of textures.
     ///
     /// # Errors
-    /// [`Error::NoDevice`].
+    /// [`Error::NoDevice`] if the driver lists none, or refuses it.
     pub fn open(backend: Backend) -> Result<Self> {
         let adapter = adapters(&Instance::new(instance(backend)), backend).into_iter().next();
         let none = || Error::NoDevice { backend, reason: "the driver lists none".to_owned() };
@@ -70,7 +70,7 @@ impl Gpu {
     /// Opens the best device of a backend that draws to a window, within the same limits.
     ///
     /// # Errors
-    /// [`Error::NoDevice`].
+    /// [`Error::NoDevice`] if the driver lists none for this window, or refuses it.
     pub fn open_for<'w>(
         backend: Backend,
         display: impl HasDisplayHandle + fmt::Debug + Send + Sync + 'static,
@@ -98,8 +98,7 @@ impl Gpu {
         Ok(Self::from_device(device, queue, adapter.get_info()))
     }
 
-    /// Draws with a device that the caller owns; `info` is what its adapter says. Within
-    /// `Limits::downlevel_webgl2_defaults()` everything works.
+    /// Wraps a device that the caller owns; `info` is what its adapter says. `Limits::downlevel_webgl2_defaults()` are enough.
     #[must_use]
     pub fn from_device(device: Device, queue: Queue, info: AdapterInfo) -> Self {
         Self { keeping: keeping_of(&device), device, queue, info, ledger: Ledger::default() }
@@ -144,31 +143,34 @@ impl Gpu {
         }
     }
 
-    /// The device, to share it.
+    /// Device, for passes of the host's own.
     #[must_use]
     pub fn device(&self) -> &Device {
         &self.device
     }
 
-    /// Its queue.
+    /// Queue of the device.
     #[must_use]
     pub fn queue(&self) -> &Queue {
         &self.queue
     }
 
-    /// What the driver says of itself.
+    /// Name, kind and driver of the device.
     #[must_use]
     pub fn info(&self) -> &AdapterInfo {
         &self.info
     }
 
-    /// Bytes on the device.
+    /// Ledger of the bytes on the device.
     #[must_use]
     pub fn ledger(&self) -> &Ledger {
         &self.ledger
     }
 
-    /// Runs `work` and turns what the device complains about into an error.
+    /// Runs `work`.
+    ///
+    /// # Errors
+    /// [`Error::Device`] with the first complaint of the device about it.
     pub(crate) fn checked<T>(&self, work: impl FnOnce() -> T) -> Result<T> {
         // Shader errors of GLES come as internal ones.
         let filters = [ErrorFilter::Validation, ErrorFilter::Internal, ErrorFilter::OutOfMemory];
@@ -181,7 +183,7 @@ impl Gpu {
         failed.map_or(Ok(result), |error| Err(Error::Device(error.to_string())))
     }
 
-    /// Hands over what is still waiting to be uploaded, and waits until the device has done everything.
+    /// Submits what is still waiting to be uploaded, and waits until the device has done everything.
     ///
     /// # Errors
     /// [`Error::Device`] if the device is lost.

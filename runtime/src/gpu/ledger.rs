@@ -1,28 +1,28 @@
-//! Bytes on the device, by our own count: GLES drivers do not tell.
+//! Ledger of the bytes on the device: GLES drivers do not tell how many are in use.
 
 use std::ops::Deref;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Counts the bytes of all textures and buffers that are alive.
+/// Sum of the bytes of all textures and buffers that are alive; copies share one sum.
 #[derive(Clone, Debug, Default)]
 pub struct Ledger(Arc<AtomicU64>);
 
 impl Ledger {
-    /// Bytes that are in use now: format × extent of textures, length of buffers; alignment of the driver not included.
+    /// Bytes in use now: texel size × extent of textures, length of buffers. What drivers add for alignment is not known.
     #[must_use]
     pub fn bytes(&self) -> u64 {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Enters a resource; it leaves the ledger when it is dropped.
+    /// Enters a resource of so many bytes, which leave the sum when the resource is dropped.
     pub(crate) fn enter<T>(&self, resource: T, bytes: u64) -> Tracked<T> {
         self.0.fetch_add(bytes, Ordering::Relaxed);
         Tracked { resource, bytes, ledger: self.clone() }
     }
 }
 
-/// A resource that the ledger knows.
+/// Resource whose bytes are in the ledger as long as it lives.
 #[derive(Debug)]
 pub(crate) struct Tracked<T> {
     resource: T,

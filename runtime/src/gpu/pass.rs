@@ -1,4 +1,4 @@
-//! Passes without a mesh: one triangle over the whole target, or squares that add up.
+//! Passes without a mesh: one triangle over the whole target, or squares that are added up.
 
 use wgpu::{
     BindGroup, BindingResource, BlendComponent, BlendFactor, BlendOperation, BlendState, Color, CommandEncoder,
@@ -10,7 +10,7 @@ use super::pipeline::{Drawing, Pipeline, Program, attachment};
 use super::slot::Slot;
 use crate::error::Result;
 
-/// A pass that covers its whole target with one triangle.
+/// Pass that covers its whole target with one triangle.
 #[derive(Debug)]
 pub(crate) struct CoverPass(Pipeline);
 
@@ -49,7 +49,7 @@ impl CoverPass {
         pass.draw(0..3, 0..1);
     }
 
-    /// The same on one target, handed to the device.
+    /// Draws `rows` rows of one target, in a submission of its own.
     pub(crate) fn draw(&self, gpu: &Gpu, target: &TextureView, groups: &[&BindGroup], rows: Rows) -> Result<()> {
         gpu.checked(|| {
             let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
@@ -59,12 +59,12 @@ impl CoverPass {
     }
 }
 
-/// A pass that adds instances of a square to its target.
+/// Pass that adds instances of a square to its target.
 #[derive(Debug)]
 pub(crate) struct SquarePass(Pipeline);
 
 impl SquarePass {
-    /// Builds the pipeline of a shader with the entry points `spread` and `fragment`.
+    /// Builds the pipeline of a shader with the entry points `spread` and `fragment`; values are added to the target.
     pub(crate) fn new(
         gpu: &Gpu,
         shader: &str,
@@ -88,7 +88,7 @@ impl SquarePass {
         self.0.bind(gpu, group, resources)
     }
 
-    /// Adds squares to a target that begins black: bind group 1 of each draw, and how many squares it has.
+    /// Adds squares to a target that is cleared to 0; of each draw, bind group 1 and the number of squares.
     pub(crate) fn record(
         &self,
         encoder: &mut CommandEncoder,
@@ -105,21 +105,24 @@ impl SquarePass {
     }
 }
 
-/// Rows of a target.
+/// Band of rows of a target.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rows {
+    /// Texels of a row.
     pub(crate) width: u32,
+    /// Number of the first row, from the top.
     pub(crate) first: u32,
+    /// Number of rows.
     pub(crate) count: u32,
 }
 
 impl Rows {
-    /// All of a target of `size`.
+    /// All rows of a target of `size`, width and height.
     pub(crate) fn all(size: [u32; 2]) -> Self {
         Self { width: size[0], first: 0, count: size[1] }
     }
 
-    /// All of a target of `size`, in bands of at most `work_per_row` · rows ≈ 2²⁸ steps of a loop each: one submission
+    /// All rows of a target of `size`, in bands of at most `work_per_row` · rows ≈ 2²⁸ steps of a loop each: one submission
     /// that runs for seconds trips a driver's watchdog.
     pub(crate) fn bands(size: [u32; 2], work_per_row: u64) -> impl Iterator<Item = Self> {
         let rows = ((1_u64 << 28) / work_per_row.max(1)).clamp(1, u64::from(size[1].max(1)));

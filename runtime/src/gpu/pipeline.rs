@@ -1,4 +1,4 @@
-//! What all passes share: a shader with its bind groups and targets, compiled, and begun.
+//! Render pipelines: a shader compiled for its targets, its bind groups, and the beginning of a pass.
 
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindingResource,
@@ -13,28 +13,32 @@ use super::device::Gpu;
 use super::slot::{Slot, layout_entries};
 use crate::error::Result;
 
-/// A shader that is compiled for its targets, and the layouts of its bind groups.
+/// Render pipeline, and the layouts of its bind groups.
 #[derive(Debug)]
 pub(crate) struct Pipeline {
     pipeline: RenderPipeline,
     groups: Vec<BindGroupLayout>,
 }
 
-/// A shader, what it reads and what it draws to.
+/// Shader of a pipeline, what it reads and what it draws to.
 pub(crate) struct Program<'a> {
+    /// WGSL, without what says how targets hold values.
     pub(crate) shader: &'a str,
-    /// Its entry points.
+    /// Entry point of the vertex stage.
     pub(crate) vertex: &'a str,
+    /// Entry point of the fragment stage.
     pub(crate) fragment: &'a str,
+    /// Bindings of each bind group.
     pub(crate) groups: &'a [&'a [Slot]],
+    /// Format of each colour target.
     pub(crate) targets: &'a [TextureFormat],
 }
 
-/// How primitives become pixels.
+/// Fixed state of a pipeline: from vertices to samples of the targets.
 #[derive(Default)]
 pub(crate) struct Drawing<'a> {
     pub(crate) topology: PrimitiveTopology,
-    /// What is done with what stands there already.
+    /// How values are added to those of the target; replaced if `None`.
     pub(crate) blend: Option<BlendState>,
     pub(crate) vertices: &'a [VertexBufferLayout<'a>],
     pub(crate) depth: Option<DepthStencilState>,
@@ -42,6 +46,10 @@ pub(crate) struct Drawing<'a> {
 }
 
 impl Pipeline {
+    /// Compiles a shader.
+    ///
+    /// # Errors
+    /// [`crate::Error::Device`] if the driver refuses it.
     pub(crate) fn new(gpu: &Gpu, program: &Program<'_>, drawing: Drawing<'_>) -> Result<Self> {
         let label = Some(program.fragment);
         gpu.checked(|| {
@@ -96,7 +104,7 @@ impl Pipeline {
         gpu.checked(|| gpu.device.create_bind_group(&BindGroupDescriptor { label: None, layout, entries: &entries }))
     }
 
-    /// Begins to draw to these attachments, with these groups bound from 0 on; depth begins far away and is not kept.
+    /// Begins a pass that draws to `attachments`, with `groups` bound from 0 on. Depth is cleared to 1 and discarded at the end.
     pub(crate) fn begin<'e>(
         &self,
         encoder: &'e mut CommandEncoder,
@@ -124,7 +132,7 @@ impl Pipeline {
     }
 }
 
-/// A colour target that is kept.
+/// Attachment of a colour target whose values are stored.
 pub(crate) fn attachment<'a>(view: &'a TextureView, load: LoadOp<Color>) -> RenderPassColorAttachment<'a> {
     RenderPassColorAttachment {
         view,

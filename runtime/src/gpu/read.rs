@@ -1,4 +1,4 @@
-//! Texels read back from the device.
+//! Pictures to draw to, and reading texels back from the device.
 
 use bytemuck::Pod;
 use half::f16;
@@ -8,12 +8,12 @@ use super::device::Gpu;
 use super::resource::{Surface2d, TextureSpec, extent};
 use crate::error::{Error, Result};
 
-/// A picture that stays on the device.
+/// Picture on the device.
 #[derive(Debug)]
 pub struct PictureTarget(pub(crate) Surface2d);
 
 impl PictureTarget {
-    /// To be drawn to.
+    /// View to draw to.
     #[must_use]
     pub fn view(&self) -> &wgpu::TextureView {
         &self.0.view
@@ -21,23 +21,23 @@ impl PictureTarget {
 }
 
 impl Gpu {
-    /// A texture to draw pictures of `size` to.
+    /// Creates a picture of `size` pixels, width and height, to draw to.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if it is too large.
+    /// [`Error::Unsupported`] if `size` is more than the device takes.
     pub fn target(&self, size: [u32; 2], format: wgpu::TextureFormat) -> Result<PictureTarget> {
         Ok(PictureTarget(self.texture(&TextureSpec::target("picture", size, format))?))
     }
 
-    /// The texels of such a picture of four bytes to a texel, row by row from the top, as they stand in it.
+    /// Texels of a picture, row by row from the top, as they stand in it; the picture must have four bytes to a texel.
     ///
     /// # Errors
-    /// [`Error::Device`].
+    /// [`Error::Device`] if the device is lost.
     pub fn read_picture(&self, target: &PictureTarget) -> Result<Vec<[u8; 4]>> {
         self.read(&target.0.texture)
     }
 
-    /// The texels of a texture of one layer, row by row.
+    /// Texels of a texture of one layer, row by row.
     pub(crate) fn read<T: Pod>(&self, texture: &Texture) -> Result<Vec<T>> {
         let texel = texture.format().block_copy_size(None).unwrap_or(4);
         let (width, height) = (texture.width(), texture.height());
@@ -53,7 +53,7 @@ impl Gpu {
         Ok(texels)
     }
 
-    /// Some rows from `first` on, each `row` bytes apart on the way.
+    /// Appends the texels of some rows from `first` on to `texels`; in the buffer between, rows are `row` bytes apart.
     fn read_rows<T: Pod>(
         &self,
         texture: &Texture,
@@ -97,7 +97,7 @@ impl Gpu {
         Ok(())
     }
 
-    /// The first three channels of what was kept: half floats, or their bits.
+    /// Linear rgb of every texel of a target of [`Gpu::map_format`], half floats or their bits, row by row.
     pub(crate) fn read_rgb(&self, texture: &Texture) -> Result<Vec<[f32; 3]>> {
         let texels: Vec<[u16; 4]> = self.read(texture)?;
         Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b].map(|bits| f16::from_bits(bits).to_f32())).collect())

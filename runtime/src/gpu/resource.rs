@@ -11,18 +11,20 @@ use super::device::Gpu;
 use super::ledger::Tracked;
 use crate::error::{Error, Result};
 
-/// Depth of the pictures.
+/// Format of depth.
 pub(crate) const DEPTH: TextureFormat = TextureFormat::Depth24Plus;
-/// Values that passes add up or sample.
+/// Format of maps that passes add up or sample.
 pub(crate) const HALF: TextureFormat = TextureFormat::Rgba16Float;
 
-/// What a texture is to hold.
+/// Size, format and use of a texture.
 pub(crate) struct TextureSpec {
+    /// Name for debuggers.
     pub(crate) label: &'static str,
+    /// Width and height in texels.
     pub(crate) size: [u32; 2],
-    /// More than one makes an array.
+    /// Layers; more than one make an array.
     pub(crate) layers: u32,
-    /// Levels, each half as large as the one before.
+    /// Mipmap levels, each half as large as the one before.
     pub(crate) levels: u32,
     /// Samples to a texel.
     pub(crate) samples: u32,
@@ -31,7 +33,7 @@ pub(crate) struct TextureSpec {
 }
 
 impl TextureSpec {
-    /// A texture that is written from the CPU and read by shaders.
+    /// Table: written from the CPU, read by shaders.
     pub(crate) fn table(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
         Self {
             label,
@@ -44,18 +46,18 @@ impl TextureSpec {
         }
     }
 
-    /// A texture that shaders write and read, and that can be read back.
+    /// Target: written and read by shaders, and read back.
     pub(crate) fn target(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
         Self { usage, ..Self::table(label, size, format) }
     }
 
-    /// A texture that is only drawn to.
+    /// Attachment: only drawn to.
     pub(crate) fn attachment(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
         Self { usage: TextureUsages::RENDER_ATTACHMENT, ..Self::table(label, size, format) }
     }
 
-    /// Layers of a table, at least as many as asked for.
+    /// Table of layers, at least as many as asked for.
     ///
     /// The GL backend makes a plain texture of one layer and a cube of six square ones (or a multiple of six), whatever
     /// the shader wants to see: such numbers get a layer more, which stays empty.
@@ -65,11 +67,12 @@ impl TextureSpec {
         Self { layers, ..Self::table(label, size, format) }
     }
 
-    /// Room for an array of `len` entries, [`ROW`] to a row.
+    /// Table for a plain array of `len` entries, [`ROW`] to a row.
     pub(crate) fn array(label: &'static str, len: usize, format: TextureFormat) -> Self {
         Self::table(label, array_size(len), format)
     }
 
+    /// Bytes on the device: texel size × texels of all levels, layers and samples.
     pub(crate) fn bytes(&self) -> u64 {
         let texel = u64::from(self.format.block_copy_size(None).unwrap_or(4));
         let texels = |level: u32| self.size.map(|side| u64::from((side >> level).max(1))).iter().product::<u64>();
@@ -77,25 +80,25 @@ impl TextureSpec {
     }
 }
 
-/// Width and height of a texture for an array of `len` entries.
+/// Width and height of a texture for a plain array of `len` entries.
 pub(crate) fn array_size(len: usize) -> [u32; 2] {
     let len = u32::try_from(len).unwrap_or(u32::MAX);
     [ROW, len.div_ceil(ROW).max(1)]
 }
 
-/// A texture and the view of all of it.
+/// Texture, and the view of all of it.
 #[derive(Debug)]
 pub(crate) struct Surface2d {
     pub(crate) texture: Tracked<Texture>,
     pub(crate) view: TextureView,
 }
 
-/// One layer, to be drawn to.
+/// View of the finest level of one layer, to draw to.
 pub(crate) fn layer_of(surface: &Surface2d, layer: u32) -> TextureView {
     level_of(surface, layer, 0)
 }
 
-/// One level of a layer, to be drawn to.
+/// View of one level of one layer, to draw to.
 pub(crate) fn level_of(surface: &Surface2d, layer: u32, level: u32) -> TextureView {
     surface.texture.create_view(&TextureViewDescriptor {
         dimension: Some(TextureViewDimension::D2),
@@ -107,7 +110,7 @@ pub(crate) fn level_of(surface: &Surface2d, layer: u32, level: u32) -> TextureVi
     })
 }
 
-/// All layers of one level.
+/// View of one level of all layers, to read.
 pub(crate) fn layers_of_level(surface: &Surface2d, level: u32) -> TextureView {
     surface.texture.create_view(&TextureViewDescriptor {
         dimension: Some(TextureViewDimension::D2Array),
@@ -117,6 +120,7 @@ pub(crate) fn layers_of_level(surface: &Surface2d, level: u32) -> TextureView {
     })
 }
 
+/// View of all layers and levels, to read.
 pub(crate) fn layers_of(surface: &Surface2d) -> TextureView {
     surface
         .texture
@@ -124,7 +128,10 @@ pub(crate) fn layers_of(surface: &Surface2d) -> TextureView {
 }
 
 impl Gpu {
-    /// Creates a texture, if the device takes its size.
+    /// Creates a texture.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no texture of that size.
     pub(crate) fn texture(&self, spec: &TextureSpec) -> Result<Surface2d> {
         let limits = self.device.limits();
         let unsupported =
@@ -152,12 +159,12 @@ impl Gpu {
         Ok(Surface2d { texture: self.ledger().enter(texture, spec.bytes()), view })
     }
 
-    /// Fills whole rows of one layer from `bytes`; what is missing of the last row is left alone.
+    /// Fills the finest level of one layer from `bytes`, row by row; texels beyond the last byte stay as they are.
     pub(crate) fn fill(&self, texture: &Texture, layer: u32, bytes: &[u8]) {
         self.fill_level(texture, layer, 0, bytes);
     }
 
-    /// The same on a level of a layer.
+    /// Fills one level of one layer from `bytes`, row by row; texels beyond the last byte stay as they are.
     pub(crate) fn fill_level(&self, texture: &Texture, layer: u32, mip_level: u32, bytes: &[u8]) {
         let texel = texture.format().block_copy_size(None).unwrap_or(4);
         let columns = (texture.width() >> mip_level).max(1);
@@ -179,14 +186,17 @@ impl Gpu {
         }
     }
 
-    /// A texture of one layer with its contents.
+    /// Creates a texture of one layer with its contents.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no texture of that size.
     pub(crate) fn filled(&self, spec: &TextureSpec, bytes: &[u8]) -> Result<Surface2d> {
         let surface = self.texture(spec)?;
         self.checked(|| self.fill(&surface.texture, 0, bytes))?;
         Ok(surface)
     }
 
-    /// A buffer with its contents, a multiple of four bytes.
+    /// Creates a buffer with its contents, a multiple of four bytes.
     ///
     /// Where the device is lost or full, the buffer is invalid, and the first pass that uses it says so:
     /// `create_buffer_init` would panic.
@@ -206,12 +216,13 @@ impl Gpu {
         self.ledger().enter(buffer.expect("made above, valid or not"), bytes)
     }
 
-    /// A uniform block.
+    /// Creates the buffer of a uniform block.
     pub(crate) fn uniform<T: Pod>(&self, label: &'static str, block: &T) -> Tracked<Buffer> {
         self.buffer(label, bytemuck::bytes_of(block), BufferUsages::UNIFORM | BufferUsages::COPY_DST)
     }
 }
 
+/// Extent of a copy or a texture.
 pub(super) fn extent(size: [u32; 2], layers: u32) -> Extent3d {
     Extent3d { width: size[0], height: size[1], depth_or_array_layers: layers }
 }

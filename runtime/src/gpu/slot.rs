@@ -1,4 +1,4 @@
-//! How shaders see what is bound to them.
+//! Kinds of bindings, as shaders declare them.
 
 use subsurf_shaders::source::Keeping;
 use wgpu::{
@@ -6,34 +6,34 @@ use wgpu::{
     TextureViewDimension,
 };
 
-/// How a shader sees a binding.
+/// Kind of one binding of a bind group.
 #[derive(Clone, Copy)]
 pub(crate) enum Slot {
-    /// A uniform block.
+    /// Uniform block.
     Uniform,
-    /// A float texture, loaded and never filtered.
+    /// Float texture, loaded texel by texel and never filtered.
     Float,
-    /// Layers of one.
+    /// Array of float textures, never filtered.
     FloatLayers,
     /// What passes keep, [`Gpu::kept`].
     Kept,
     /// Layers of it.
     KeptLayers,
-    /// A float texture that is filtered.
+    /// Float texture that is filtered.
     Filtered,
-    /// Layers of one.
+    /// Array of float textures that are filtered.
     FilteredLayers,
-    /// What filters them.
+    /// Sampler that filters.
     Sampler,
-    /// One that does not filter: textures are looked up at texels, and wrapped.
+    /// Sampler that does not filter, but wraps coordinates.
     Nearest,
-    /// An unsigned integer texture.
+    /// Texture of unsigned integers.
     Uint,
-    /// Layers of one.
+    /// Array of textures of unsigned integers.
     UintLayers,
 }
 
-/// Layout entries of a bind group whose bindings are `slots`, seen by both stages.
+/// Layout entries of a bind group whose bindings, from 0 on, are `slots`; both shader stages see them.
 pub(crate) fn layout_entries(slots: &[Slot], keeping: Keeping) -> Vec<BindGroupLayoutEntry> {
     let texture =
         |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };

@@ -1,4 +1,4 @@
-//! Values and samples of a BTF for lists of directions: what a device makes of a file, number by number.
+//! Values and samples of BTFs for lists of directions, as the device computes them.
 
 use subsurf_decoder::btf::Sample;
 use subsurf_shaders::{BtfStorage, source};
@@ -8,38 +8,38 @@ use crate::asset::{BtfMaterial, btf_slots};
 use crate::error::Result;
 use crate::gpu::{CoverPass, Gpu, Rows, Slot, Surface2d, TextureSpec, array_size};
 
-/// What is asked of a texel. Directions are unit vectors: x along the rows, y down the columns, z the normal.
+/// Texel and directions for which a BTF is evaluated and sampled. Directions are unit vectors: x along the rows, y down the columns, z the normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BtfQuery {
     /// Number of the texel in the file ([`Texel::number`](subsurf_decoder::btf::Texel::number)); of images, row by row.
     pub texel: u32,
-    /// Towards the light.
+    /// Direction towards the light.
     pub light: [f32; 3],
-    /// Towards the eye.
+    /// Direction towards the eye.
     pub view: [f32; 3],
-    /// Two numbers for a sample, 0 to 1.
+    /// Random numbers of the sample, 0 to 1.
     pub random: [f32; 2],
 }
 
-/// What a device says to a [`BtfQuery`].
+/// Value, density and sample for a [`BtfQuery`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BtfAnswer {
-    /// π times the radiance under light of unit irradiance on a plane that faces it, linear Rec. 709.
+    /// Apparent BRDF times π: radiance under light of unit irradiance on a plane that faces it, linear Rec. 709.
     pub value: [f32; 3],
-    /// Density with which the light is drawn, per steradian.
+    /// Density with which the sampler draws the query's light, per steradian.
     pub pdf: f32,
-    /// The light that was drawn, and its density.
+    /// Direction towards the light that was drawn, and its density.
     pub sample: Sample,
 }
 
-/// Answers queries about materials of one storage; its pipeline is made once.
+/// Pipeline that answers queries about BTFs of one layout; made once.
 #[derive(Debug)]
 pub struct BtfQueries {
     storage: BtfStorage,
     pass: CoverPass,
 }
 
-/// Exact on every GLES 3.0 device, which draws to integers but not always to floats.
+/// Bits of floats: every GLES 3.0 device draws to integers, but not every one to floats.
 const BITS: TextureFormat = TextureFormat::Rgba32Uint;
 
 impl BtfQueries {

@@ -1,4 +1,4 @@
-//! Weighted irradiance maps, and the cascade of Gaussians over them.
+//! Cascade of Gaussian blurs over weighted irradiance maps.
 
 use subsurf_shaders::source::{self, Domain};
 use wgpu::{BindGroup, BindingResource, CommandEncoder, TextureView};
@@ -7,13 +7,13 @@ use crate::asset::SeparableMaterial;
 use crate::error::Result;
 use crate::gpu::{CoverPass, Gpu, HALF, Rows, Slot, Surface2d, TextureSpec, layer_of, layers_of};
 
-/// L maps in one texture.
+/// L maps in one array.
 #[derive(Debug)]
 pub(crate) struct Maps {
     surface: Surface2d,
-    /// All of them, to be read.
+    /// View of all maps, to read.
     pub(crate) all: TextureView,
-    /// Each, to be drawn to.
+    /// View of each map, to draw to.
     pub(crate) layers: Vec<TextureView>,
 }
 
@@ -27,7 +27,7 @@ impl Maps {
         Ok(Self { all: layers_of(&surface), layers, surface })
     }
 
-    /// What [`Maps::new`] takes on the device.
+    /// Bytes on the device of L maps of `size`.
     pub(crate) fn bytes_of(size: [u32; 2], terms: usize) -> u64 {
         let count = u32::try_from(terms).unwrap_or(u32::MAX);
         TextureSpec::layered("", size, count, HALF).bytes()
@@ -38,7 +38,7 @@ impl Maps {
     }
 }
 
-/// The passes of the cascade, for maps that lie on a patch or on the screen.
+/// Passes of the cascade, for maps that lie on a patch or on the screen.
 #[derive(Debug)]
 pub(crate) struct BlurPasses {
     terms: usize,
@@ -64,19 +64,19 @@ impl BlurPasses {
     }
 }
 
-/// Maps of one size, and everything that is bound to blur them.
+/// Maps of one size, and bind groups of the passes that blur them.
 #[derive(Debug)]
 pub(crate) struct Cascade {
     size: [u32; 2],
-    /// c_l E, where the cascade begins and what it leaves of it, and the same between rows and columns.
+    /// Maps c_l E, blurred in place stage by stage; and the same between rows and columns.
     pub(crate) maps: [Maps; 2],
-    /// S_m of the stage before and of this one, by turns.
+    /// Sums S_m of the stages before and with this one, by turns.
     sums: [Maps; 2],
     groups: Vec<[BindGroup; 2]>,
 }
 
 impl Cascade {
-    /// `domain` is what [`Domain`] wants bound: the block of the screen, or a sampler that wraps as the patch does.
+    /// Makes the maps of `size`. `domain` is the binding of the [`Domain`]: the block of the screen, or a sampler that wraps as the patch does.
     pub(crate) fn new(
         gpu: &Gpu,
         passes: &BlurPasses,
@@ -98,7 +98,7 @@ impl Cascade {
         Ok(Self { size, maps, sums, groups })
     }
 
-    /// Bytes of all maps of a cascade.
+    /// Bytes on the device of all maps of a cascade.
     pub(crate) fn bytes_of(size: [u32; 2], terms: usize) -> u64 {
         4 * Maps::bytes_of(size, terms)
     }
@@ -107,22 +107,22 @@ impl Cascade {
         self.maps.iter().chain(&self.sums).map(Maps::bytes).sum()
     }
 
-    /// S_m before the first stage, which only a domain that has some looks at.
+    /// Sums S_m before the first stage: light of the pass that makes the maps, on the screen.
     pub(crate) fn begun_sums(&self) -> &Maps {
         &self.sums[1]
     }
 
-    /// S_m once all stages are through.
+    /// Sums S_m after the last stage.
     pub(crate) fn sums(&self) -> &Maps {
         &self.sums[(self.groups.len() + 1) % 2]
     }
 
-    /// S_m before the last stage.
+    /// Sums S_m before the last stage.
     pub(crate) fn sums_before_last(&self) -> &Maps {
         &self.sums[self.groups.len() % 2]
     }
 
-    /// Blurs stage by stage, from the first maps to the sums; or from where `ends` begin to where they end.
+    /// Records all stages, from the maps to the sums; with `ends`, other passes take the place of the first and the last.
     pub(crate) fn record(&self, encoder: &mut CommandEncoder, passes: &BlurPasses, ends: Option<Ends<'_>>) {
         let [maps, between] = &self.maps;
         let all = Rows::all(self.size);
@@ -144,7 +144,7 @@ impl Cascade {
     }
 }
 
-/// What takes the place of the first pass and of the last one: passes, what is bound to them, and what is drawn to.
+/// Passes in place of the first along rows and the last along columns, with their bind groups and the last's target.
 #[derive(Clone, Copy)]
 pub(crate) struct Ends<'a> {
     pub(crate) first: (&'a CoverPass, &'a BindGroup),

@@ -1,4 +1,4 @@
-//! What all paths know of the scene: its block, what lights see, and the environment that coats reflect.
+//! What all techniques bind of a scene: its block, what lights see, and the environment that coats reflect.
 
 use half::f16;
 use subsurf_scene::{REFLECTION_LEVELS, REFLECTION_SIZE, Scene};
@@ -11,15 +11,15 @@ use wgpu::{
 use crate::error::Result;
 use crate::gpu::{Gpu, Slot, Surface2d, TextureSpec, Tracked};
 
-/// Is told the name of what was recorded, and gives back an encoder to go on with.
+/// Callback after each pass: is told its name, and gives back an encoder to go on with.
 pub(crate) type Lap<'a> = &'a mut dyn FnMut(&'static str, CommandEncoder) -> CommandEncoder;
 
-/// What all paths know of the scene.
+/// Block and reflections of a scene on the device.
 #[derive(Debug)]
 pub(crate) struct Common {
     pub(crate) block: Tracked<Buffer>,
     pub(crate) reflections: Surface2d,
-    /// The environment that `reflections` shows.
+    /// Levels of the environment that `reflections` shows.
     shown: Vec<Vec<[f32; 3]>>,
 }
 
@@ -27,7 +27,7 @@ pub(crate) struct Common {
 pub(crate) const COMMON: [Slot; 4] = [Slot::Uniform, Slot::KeptLayers, Slot::Filtered, Slot::Sampler];
 
 impl Common {
-    /// Bytes of the environment's picture and the block.
+    /// Bytes on the device.
     pub(crate) const BYTES: u64 = {
         let (mut bytes, mut level) = (size_of::<uniform::Scene>() as u64, 0);
         while level < REFLECTION_LEVELS {
@@ -46,7 +46,7 @@ impl Common {
         })
     }
 
-    /// Uploads the environment's picture if it is another one.
+    /// Uploads the reflections of the environment if they are others than before.
     pub(crate) fn show(&mut self, gpu: &Gpu, scene: &Scene) -> Result<()> {
         let levels = scene.environment.reflections();
         if self.shown == levels {
@@ -64,7 +64,7 @@ impl Common {
     }
 }
 
-/// Around in u, drawn out beyond the poles.
+/// Sampler of reflections: repeats in u, clamps at the poles, filters.
 pub(crate) fn reflection_sampler(gpu: &Gpu) -> Sampler {
     gpu.device.create_sampler(&SamplerDescriptor {
         label: Some("reflections"),

@@ -1,36 +1,44 @@
-//! The reference path: every vertex gathers from all others within reach.
+//! The gather, the reference: every vertex sums the light of all others within reach.
 
+use std::sync::Arc;
+
+use subsurf_scene::Scene;
 use subsurf_shaders::uniform::ROW;
 use subsurf_shaders::{Storage, source, uniform};
 use wgpu::{BindGroup, BindingResource, TextureFormat};
 
 use super::common::{COMMON, Common, encoding_of};
+use super::drawable::Drawable;
+use super::light_views::LightViews;
 use super::mesh_pass::MeshPass;
-use crate::asset::{GpuMesh, GpuPoints, Material, slots};
+use super::pipelines::{Bindings, Pipelines, wrong_drawable};
+use crate::asset::slots;
 use crate::error::Result;
+use crate::frame::plan::Plan;
 use crate::gpu::{CoverPass, Gpu, Rows, Slot, array_size};
 
-/// A point seldom has more than this many others within reach.
+/// Points within reach of a point, seldom more.
 const NEIGHBOURS: u64 = 4_096;
 
-/// Its pipelines.
+/// Pipelines for materials of one layout.
 #[derive(Debug)]
 pub(crate) struct Passes {
     storage: Storage,
     irradiance: CoverPass,
     gather: CoverPass,
-    pub(crate) shade: MeshPass,
+    shade: MeshPass,
 }
 
-/// What is bound for one frame.
+/// Bind groups of the gather, and the light that its results are of.
 #[derive(Debug)]
-pub(crate) struct Buffers {
+struct Bound {
+    passes: Arc<Passes>,
     irradiance: [BindGroup; 2],
     gather: [BindGroup; 2],
-    pub(crate) shade: BindGroup,
-    /// How many are bound.
+    shade: BindGroup,
+    /// Number of points that are bound.
     points: usize,
-    /// Lights and environment that the exitance is of.
+    /// Lights and environment of the exitance; none before the first gather.
     lit_by: Option<uniform::Scene>,
 }
 
@@ -50,16 +58,23 @@ impl Passes {
     }
 }
 
-impl Buffers {
-    pub(crate) fn new(
+impl Pipelines for Passes {
+    fn shade(&self) -> &MeshPass {
+        &self.shade
+    }
+
+    fn bind(
+        self: Arc<Self>,
         gpu: &Gpu,
-        passes: &Passes,
-        mesh: &GpuMesh,
-        material: &Material,
-        points: &GpuPoints,
+        drawable: &Drawable<'_>,
         common: &Common,
-    ) -> Result<Self> {
-        material.expect(passes.storage)?;
+        _lights: &LightViews,
+        _plan: &Plan,
+    ) -> Result<Box<dyn Bindings>> {
+        let Drawable::Gather { mesh, points, material } = drawable else {
+            return Err(wrong_drawable());
+        };
+        material.expect(self.storage)?;
         points.expect(mesh, points.count)?;
         let texture = BindingResource::TextureView;
         let of_irradiance =
@@ -72,28 +87,34 @@ impl Buffers {
             texture(&points.irradiance.view),
         ];
         let of_shade = [texture(&points.exitance.view), texture(&points.visibilities.view)];
-        Ok(Self {
+        Ok(Box::new(Bound {
             irradiance: [
-                passes.irradiance.bind(gpu, 0, &[common.block.as_entire_binding()])?,
-                passes.irradiance.bind(gpu, 1, &of_irradiance)?,
+                self.irradiance.bind(gpu, 0, &[common.block.as_entire_binding()])?,
+                self.irradiance.bind(gpu, 1, &of_irradiance)?,
             ],
-            gather: [passes.gather.bind(gpu, 0, &material.resources())?, passes.gather.bind(gpu, 1, &of_points)?],
-            shade: passes.shade.bind(gpu, 1, &of_shade)?,
+            gather: [self.gather.bind(gpu, 0, &material.resources())?, self.gather.bind(gpu, 1, &of_points)?],
+            shade: self.shade.bind(gpu, 1, &of_shade)?,
             points: points.count,
             lit_by: None,
-        })
+            passes: self,
+        }))
     }
+}
 
+impl Bindings for Bound {
     /// Light that leaves the mesh: irradiance at every point, then Σ Rd(x_i, x_o) E(x_i) dA over their neighbours, unless
     /// it is known already.
-    pub(crate) fn gather(
+    fn update(
         &mut self,
         gpu: &Gpu,
-        passes: &Passes,
-        mesh: &GpuMesh,
-        points: &GpuPoints,
+        drawable: &Drawable<'_>,
+        _scene: &Scene,
         block: &uniform::Scene,
+        _plan: &Plan,
     ) -> Result<()> {
+        let Drawable::Gather { mesh, points, .. } = drawable else {
+            return Err(wrong_drawable());
+        };
         points.expect(mesh, self.points)?;
         let lit_by = lighting(block);
         if self.lit_by.is_some_and(|before| bytemuck::bytes_of(&before) == bytemuck::bytes_of(&lit_by)) {
@@ -101,17 +122,21 @@ impl Buffers {
         }
         let size = array_size(points.count);
         let [scene, of_points] = &self.irradiance;
-        passes.irradiance.draw(gpu, &points.irradiance.view, &[scene, of_points], Rows::all(size))?;
+        self.passes.irradiance.draw(gpu, &points.irradiance.view, &[scene, of_points], Rows::all(size))?;
         let [material, of_points] = &self.gather;
         for rows in Rows::bands(size, u64::from(ROW) * NEIGHBOURS) {
-            passes.gather.draw(gpu, &points.exitance.view, &[material, of_points], rows)?;
+            self.passes.gather.draw(gpu, &points.exitance.view, &[material, of_points], rows)?;
         }
         self.lit_by = Some(lit_by);
         Ok(())
     }
+
+    fn shade(&self) -> &BindGroup {
+        &self.shade
+    }
 }
 
-/// A scene's block without what only the eye sees.
+/// Block of a scene without what only the eye sees.
 fn lighting(block: &uniform::Scene) -> uniform::Scene {
     let none = bytemuck::Zeroable::zeroed();
     let mut light = block.light;

@@ -1,4 +1,4 @@
-//! What lights see of a mesh: positions, light that enters, places on the patch.
+//! Translucent shadow maps: what each light sees of a mesh, as positions, light that enters, and places on the patch.
 
 use subsurf_shaders::source;
 use subsurf_shaders::uniform::Which;
@@ -10,24 +10,25 @@ use crate::error::Result;
 use crate::frame::plan::{Plan, light_layers};
 use crate::gpu::{DEPTH, Gpu, Slot, Surface2d, TextureSpec, Tracked, layers_of, level_of};
 
-/// Where nothing is seen, it is this far away, in mm: the largest that half floats hold, or nearly.
+/// Position where nothing is seen: 60 m away, nearly the largest that half floats hold.
 pub(crate) const FAR: Color = Color { r: 0.0, g: 0.0, b: 0.0, a: 60_000.0 };
 
-/// Positions, fluxes and places, as `light_view.wgsl` has them.
+/// Positions, fluxes and places that lights see, a layer for each light.
 #[derive(Debug)]
 pub(crate) struct LightViews {
     surfaces: [Surface2d; 3],
-    /// All layers and levels of each.
+    /// View of all layers and levels of each.
     pub(crate) all: [TextureView; 3],
-    /// Of each light, its layers at the finest level.
+    /// Of each light, views of its layers at the finest level.
     targets: Vec<[TextureView; 3]>,
     depth: Surface2d,
     which: Vec<(Tracked<Buffer>, BindGroup)>,
     scene: BindGroup,
-    /// Positions where nothing is seen.
+    /// What positions are cleared to.
     far: Color,
 }
 
+/// Compiles the pass.
 pub(crate) fn pass(gpu: &Gpu) -> Result<MeshPass> {
     MeshPass::new(gpu, source::LIGHT_VIEW, "see", &[&[Slot::Uniform], &[Slot::Uniform]], &[gpu.kept(); 3], 1)
 }
@@ -56,7 +57,7 @@ impl LightViews {
         })
     }
 
-    /// Draws what the first `lights` lights see.
+    /// Records what the first `lights` lights see, at the finest level.
     pub(crate) fn record(&self, encoder: &mut CommandEncoder, pass: &MeshPass, mesh: &GpuMesh, lights: usize) {
         for (views, (_, which)) in self.targets.iter().zip(&self.which).take(lights) {
             let clears = [self.far, Color::TRANSPARENT, Color::TRANSPARENT];
@@ -65,6 +66,7 @@ impl LightViews {
         }
     }
 
+    /// Textures of positions, fluxes and places.
     pub(crate) fn surfaces(&self) -> &[Surface2d; 3] {
         &self.surfaces
     }

@@ -9,11 +9,11 @@ use crate::asset::{GpuMesh, TANGENTS, VERTICES};
 use crate::error::Result;
 use crate::gpu::{DEPTH, Drawing, Gpu, Pipeline, Program, Slot, attachment};
 
-/// A pass that draws meshes.
+/// Pass that draws a mesh, with depth.
 #[derive(Debug)]
 pub(crate) struct MeshPass(Pipeline);
 
-/// A colour target of a pass, and what is there before; drawn to with several samples, `resolved` gets their mean.
+/// Colour target of a pass, and what it is cleared to. With several samples to a texel, `resolved` gets their mean.
 pub(crate) struct Target<'a> {
     pub(crate) view: &'a TextureView,
     pub(crate) clear: Color,
@@ -41,7 +41,7 @@ impl MeshPass {
         Self::with(gpu, &program, &[VERTICES], samples)
     }
 
-    /// The same for a shader that takes tangents; it draws meshes that have them.
+    /// Builds the pipeline of a shader that takes tangents too; it draws meshes that have them.
     pub(crate) fn textured(
         gpu: &Gpu,
         shader: &str,
@@ -75,7 +75,7 @@ impl MeshPass {
         self.0.bind(gpu, group, resources)
     }
 
-    /// Draws a mesh.
+    /// Records the pass.
     pub(crate) fn record(
         &self,
         encoder: &mut CommandEncoder,

@@ -1,6 +1,8 @@
-//! The separable path on the screen: weighted irradiance where the eye sees the mesh, blurred by distances in space.
+//! The separable technique: weighted irradiance where the eye sees the mesh, blurred on the screen by distances in space.
 
-use subsurf_scene::Scene;
+use std::sync::Arc;
+
+use subsurf_scene::{Placement, Scene};
 use subsurf_shaders::separable::MAX_TERMS;
 use subsurf_shaders::source::{self, Domain};
 use subsurf_shaders::uniform::{self, ScreenDomain, Upsampling};
@@ -8,32 +10,38 @@ use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureFor
 
 use super::cascade::{BlurPasses, Cascade};
 use super::common::{COMMON, Common, Lap, encoding_of};
+use super::drawable::Drawable;
 use super::light_views::{FAR, LightViews};
 use super::mesh_pass::{MeshPass, Target};
-use crate::asset::{GpuMesh, SeparableMaterial};
+use super::pipelines::{Bindings, Pipelines, wrong_drawable};
+use crate::asset::GpuMesh;
 use crate::error::{Error, Result};
 use crate::frame::plan::Plan;
 use crate::gpu::{DEPTH, Gpu, Slot, Surface2d, TextureSpec, Tracked};
 
-/// Its pipelines.
+/// Texels of the narrowest Gaussian, σ, at the middle of the scene: maps are made as coarse as that.
+const NARROWEST_TEXELS: f32 = 0.8;
+
+/// Pipelines for materials of one number of terms.
 #[derive(Debug)]
 pub(crate) struct Passes {
     terms: usize,
     weigh: MeshPass,
     blur: BlurPasses,
-    pub(crate) shade: MeshPass,
+    shade: MeshPass,
 }
 
-/// Its buffers, for one size of picture.
+/// Maps and blocks for one size of picture.
 #[derive(Debug)]
-pub(crate) struct Buffers {
+struct Bound {
+    passes: Arc<Passes>,
     cascade: Cascade,
     depth: Surface2d,
     domain: Tracked<Buffer>,
     upsampling: Tracked<Buffer>,
     weigh: [BindGroup; 2],
-    pub(crate) shade: BindGroup,
-    /// Maps where nothing is seen.
+    shade: BindGroup,
+    /// What maps hold where nothing is seen.
     far: Color,
 }
 
@@ -53,27 +61,45 @@ impl Passes {
             shade: MeshPass::new(gpu, shader, "shade", &[&COMMON, &of_shade], &[format], samples)?,
         })
     }
+}
 
-    pub(crate) fn bytes(&self, plan: &Plan) -> u64 {
+impl Pipelines for Passes {
+    fn bytes(&self, plan: &Plan, _placement: &Placement) -> u64 {
         let size = plan.map_size();
         let depth = TextureSpec::target("", size, DEPTH).bytes();
         Cascade::bytes_of(size, self.terms) + depth + plan.light_bytes(1)
     }
-}
 
-impl Buffers {
-    pub(crate) fn new(
+    fn divisor(&self, drawable: &Drawable<'_>, _light_texels: u32, pixels_per_mm: f32) -> u32 {
+        let Drawable::Separable { mesh, material } = drawable else {
+            return 1;
+        };
+        let narrowest = material.narrowest_pixels() * mesh.placement.pitch_mm * pixels_per_mm;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let divisor = (narrowest / NARROWEST_TEXELS).clamp(1.0, 4.0) as u32;
+        // Of what is no number nothing is left.
+        divisor.max(1)
+    }
+
+    fn shade(&self) -> &MeshPass {
+        &self.shade
+    }
+
+    fn bind(
+        self: Arc<Self>,
         gpu: &Gpu,
-        passes: &Passes,
-        material: &SeparableMaterial,
+        drawable: &Drawable<'_>,
         common: &Common,
         lights: &LightViews,
         plan: &Plan,
-    ) -> Result<Self> {
-        material.expect(passes.terms)?;
+    ) -> Result<Box<dyn Bindings>> {
+        let Drawable::Separable { material, .. } = drawable else {
+            return Err(wrong_drawable());
+        };
+        material.expect(self.terms)?;
         let size = plan.map_size();
         let domain = gpu.uniform("screen", &ScreenDomain::default());
-        let cascade = Cascade::new(gpu, &passes.blur, material, &domain.as_entire_binding(), size)?;
+        let cascade = Cascade::new(gpu, &self.blur, material, &domain.as_entire_binding(), size)?;
         let upsampling = gpu.uniform("upsampling", &Upsampling::default());
         let texture = BindingResource::TextureView;
         let factors = [texture(&material.layers.all), BindingResource::Sampler(&material.layers.sampler)];
@@ -87,48 +113,64 @@ impl Buffers {
         let of_scene = [common.block.as_entire_binding(), texture(&lights.all[0])];
         let of_shade =
             [factors[0].clone(), factors[1].clone(), upsampling.as_entire_binding(), texture(&cascade.sums().all)];
-        Ok(Self {
-            weigh: [passes.weigh.bind(gpu, 0, &of_scene)?, passes.weigh.bind(gpu, 1, &of_weigh)?],
-            shade: passes.shade.bind(gpu, 1, &of_shade)?,
+        Ok(Box::new(Bound {
+            weigh: [self.weigh.bind(gpu, 0, &of_scene)?, self.weigh.bind(gpu, 1, &of_weigh)?],
+            shade: self.shade.bind(gpu, 1, &of_shade)?,
             depth: gpu.texture(&TextureSpec::attachment("map depth", size, DEPTH))?,
             far: gpu.kept_colour(FAR),
             cascade,
             domain,
             upsampling,
-        })
+            passes: self,
+        }))
     }
+}
 
+impl Bindings for Bound {
     /// Tells the passes how large things are on the screen.
-    pub(crate) fn update(&mut self, gpu: &Gpu, scene: &Scene, block: &uniform::Scene, plan: &Plan, jitters: bool) {
+    fn update(
+        &mut self,
+        gpu: &Gpu,
+        drawable: &Drawable<'_>,
+        scene: &Scene,
+        block: &uniform::Scene,
+        plan: &Plan,
+    ) -> Result<()> {
+        let Drawable::Separable { .. } = drawable else {
+            return Err(wrong_drawable());
+        };
         let domain = ScreenDomain {
             size: plan.map_size(),
             focal_texels: plan.texels_per_tangent(&scene.camera) * block.pitch_mm,
             middle_mm: block.middle_mm,
             pitch_mm: block.pitch_mm,
-            jitters: u32::from(jitters),
+            jitters: 0,
             pad: [0; 2],
         };
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
-        gpu.queue.write_buffer(
-            &self.upsampling,
-            0,
-            bytemuck::bytes_of(&plan.upsampling(&scene.camera, block.middle_mm)),
-        );
+        let upsampling = plan.upsampling(&scene.camera, block.middle_mm);
+        gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&upsampling));
+        Ok(())
     }
 
-    pub(crate) fn record(
+    fn record(
         &self,
         mut encoder: CommandEncoder,
-        passes: &Passes,
         mesh: &GpuMesh,
+        _lights: usize,
+        _plan: &Plan,
         lap: Lap<'_>,
     ) -> CommandEncoder {
         let layers = self.cascade.maps[0].layers.iter().chain(&self.cascade.begun_sums().layers);
         let targets: Vec<_> = layers.map(|view| Target { view, clear: self.far, resolved: None }).collect();
         let [scene, factors] = &self.weigh;
-        passes.weigh.record(&mut encoder, &targets, &self.depth.view, &[scene, factors], mesh);
+        self.passes.weigh.record(&mut encoder, &targets, &self.depth.view, &[scene, factors], mesh);
         encoder = lap("weigh", encoder);
-        self.cascade.record(&mut encoder, &passes.blur, None);
+        self.cascade.record(&mut encoder, &self.passes.blur, None);
         lap("blur", encoder)
+    }
+
+    fn shade(&self) -> &BindGroup {
+        &self.shade
     }
 }

@@ -1,4 +1,4 @@
-//! Draws a flat patch: irradiance in, exitance and a picture out.
+//! Gather on flat patches: the reference.
 
 use subsurf_shaders::{Storage, source, uniform};
 use wgpu::{BindingResource, TextureFormat};
@@ -8,7 +8,7 @@ use crate::asset::{Material, slots};
 use crate::error::Result;
 use crate::gpu::{CoverPass, Gpu, Rows, Slot, TextureSpec};
 
-/// Renders flat patches of one storage; its pipelines are made once.
+/// Pipelines of the gather on flat patches of one layout; made once.
 #[derive(Debug)]
 pub struct PatchRenderer {
     storage: Storage,
@@ -17,7 +17,7 @@ pub struct PatchRenderer {
 }
 
 impl PatchRenderer {
-    /// Compiles the passes for a storage.
+    /// Compiles the passes for a layout.
     ///
     /// # Errors
     /// [`crate::Error::Device`] if the driver refuses them.
@@ -31,10 +31,10 @@ impl PatchRenderer {
         })
     }
 
-    /// Exitance Σ Rd(x_i, x_o) E(x_i) pitch² of a region.
+    /// Exitance Σ Rd(x_i, x_o) E(x_i) pitch² of a region, in the unit of the irradiance.
     ///
     /// # Errors
-    /// [`crate::Error::Device`].
+    /// [`crate::Error::Device`] if material or light are for another layout or size, or the device is lost.
     pub fn gather(&self, gpu: &Gpu, material: &Material, light: &PatchLight, region: Region) -> Result<Exitance> {
         material.expect(self.storage)?;
         light.expect([material.header().width, material.header().height])?;
@@ -51,10 +51,10 @@ impl PatchRenderer {
         Ok(Exitance::new(surface, region.size))
     }
 
-    /// The picture of an exitance: `size` pixels of 8-bit sRGB, tone-mapped after multiplication with `exposure`.
+    /// Picture of an exitance: `size` pixels of 8-bit sRGB, row by row, tone-mapped after multiplication with `exposure`.
     ///
     /// # Errors
-    /// [`crate::Error::Device`].
+    /// [`crate::Error::Device`] if the device is lost.
     pub fn picture(&self, gpu: &Gpu, exitance: &Exitance, size: [u32; 2], exposure: f32) -> Result<Vec<[u8; 3]>> {
         let target = gpu.texture(&TextureSpec::target("picture", size, TextureFormat::Rgba8Unorm))?;
         let frame = uniform::Frame { size, texels: exitance.size, exposure, pad: [0.0; 3] };

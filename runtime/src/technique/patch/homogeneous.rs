@@ -1,4 +1,4 @@
-//! Draws a flat patch with one kernel for all pixels.
+//! Flat patches with one kernel for all pixels.
 
 use subsurf_decoder::bssrdf::Header;
 use subsurf_shaders::source;
@@ -9,13 +9,13 @@ use super::surface::{Exitance, PatchLight, nearest};
 use crate::error::{Error, Result};
 use crate::gpu::{CoverPass, Gpu, HALF, Rows, Slot, Surface2d, TextureSpec};
 
-/// Renders flat patches with one kernel for all pixels: what heterogeneity is compared with.
+/// Pipeline of flat patches with one kernel for all pixels: what heterogeneity is compared with.
 #[derive(Debug)]
 pub struct HomogeneousRenderer {
     pass: CoverPass,
 }
 
-/// A patch under a light and one kernel, ready to be drawn any number of times.
+/// Patch under a light and with one kernel, ready to be drawn any number of times.
 #[derive(Debug)]
 pub struct HomogeneousPatch {
     between: Surface2d,
@@ -64,10 +64,10 @@ impl HomogeneousRenderer {
         Ok(HomogeneousPatch { between, groups, exitance: Exitance::new(surface, size), size })
     }
 
-    /// Exitance of the whole patch.
+    /// Draws the exitance of the whole patch.
     ///
     /// # Errors
-    /// [`Error::Device`].
+    /// [`Error::Device`] if the device is lost.
     pub fn draw<'a>(&self, gpu: &Gpu, patch: &'a HomogeneousPatch) -> Result<&'a Exitance> {
         let all = Rows::all(patch.size);
         gpu.checked(|| {

@@ -1,4 +1,4 @@
-//! Draws a flat patch from its factors: a cascade of Gaussians from weighted irradiance to exitance.
+//! Separable blurs on flat patches: a cascade of Gaussians from weighted irradiance to exitance.
 
 use subsurf_shaders::source::{self, Domain};
 use wgpu::{BindGroup, BindingResource, CommandEncoderDescriptor};
@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::gpu::{CoverPass, Gpu, HALF, Rows, Slot, TextureSpec};
 use crate::technique::cascade::{BlurPasses, Cascade, Ends};
 
-/// Renders flat patches of factorised materials of L terms; its pipelines are made once.
+/// Pipelines of separable blurs on flat patches of L terms; made once.
 #[derive(Debug)]
 pub struct SeparableRenderer {
     terms: usize,
@@ -18,7 +18,7 @@ pub struct SeparableRenderer {
     last: CoverPass,
 }
 
-/// A factorised patch under a light, ready to be drawn any number of times.
+/// Patch under a light, ready to be drawn any number of times.
 #[derive(Debug)]
 pub struct SeparablePatch {
     cascade: Cascade,
@@ -77,10 +77,10 @@ impl SeparableRenderer {
         })
     }
 
-    /// Exitance of the whole patch.
+    /// Draws the exitance of the whole patch.
     ///
     /// # Errors
-    /// [`Error::Device`].
+    /// [`Error::Device`] if the device is lost.
     pub fn draw<'a>(&self, gpu: &Gpu, patch: &'a SeparablePatch) -> Result<&'a Exitance> {
         let ends =
             Ends { first: (&self.first, &patch.first), last: (&self.last, &patch.last), target: patch.exitance.view() };
@@ -94,7 +94,7 @@ impl SeparableRenderer {
 }
 
 impl SeparablePatch {
-    /// What was drawn last.
+    /// Exitance that was drawn last.
     #[must_use]
     pub fn into_exitance(self) -> Exitance {
         self.exitance

@@ -6,23 +6,23 @@ use wgpu::{AddressMode, Sampler, SamplerDescriptor, TextureFormat, TextureView};
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, Surface2d, TextureSpec};
 
-/// Irradiance on the patch, on the device.
+/// Irradiance on a patch, on the device.
 #[derive(Debug)]
 pub struct PatchLight(Surface2d);
 
-/// Exitance of a region of the patch, on the device, as half floats or their bits.
+/// Exitance of a region of a patch, on the device, as half floats or their bits.
 #[derive(Debug)]
 pub struct Exitance {
     pub(super) surface: Surface2d,
     pub(super) size: [u32; 2],
 }
 
-/// Pixels of a patch.
+/// Rectangle of a patch, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {
-    /// Column and row of the first pixel.
+    /// Column and row of the upper left pixel.
     pub origin: [u32; 2],
-    /// Pixels in x and y.
+    /// Width and height.
     pub size: [u32; 2],
 }
 
@@ -37,6 +37,7 @@ impl PatchLight {
         Ok(Self(gpu.filled(&spec, bytemuck::cast_slice(&texels))?))
     }
 
+    /// View of the texture.
     pub(crate) fn view(&self) -> &TextureView {
         &self.0.view
     }
@@ -52,24 +53,26 @@ impl PatchLight {
 }
 
 impl Exitance {
+    /// Exitance in a texture of `size`.
     pub(crate) fn new(surface: Surface2d, size: [u32; 2]) -> Self {
         Self { surface, size }
     }
 
+    /// View of the texture.
     pub(crate) fn view(&self) -> &TextureView {
         &self.surface.view
     }
 
-    /// Reads it back, linear rgb, row by row.
+    /// Reads the exitance back: linear Rec. 709, row by row.
     ///
     /// # Errors
-    /// [`crate::Error::Device`].
+    /// [`crate::Error::Device`] if the device is lost.
     pub fn read(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>> {
         gpu.read_rgb(&self.surface.texture)
     }
 }
 
-/// Texels as they stand there; beyond the border as the patch says.
+/// Sampler that does not filter, and wraps as the patch says.
 pub(super) fn nearest(gpu: &Gpu, addressing: Addressing) -> Sampler {
     let mode = match addressing {
         Addressing::Clamp => AddressMode::ClampToEdge,

@@ -11,18 +11,18 @@ pub(super) const FADE: f32 = 1.6;
 /// Texels of the finest target to an edge of a sample of the first ring.
 const TEXELS_PER_SAMPLE: f32 = 2.0;
 
-/// How samples and rings go with a scene.
+/// Levels and rings for a mesh of a certain size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Levels {
-    /// Level of what lights see that the first ring takes its samples from.
+pub(super) struct Levels {
+    /// Level of lights' views that the first ring takes its samples from.
     pub(super) first: u32,
     /// Number of rings.
     pub(super) rings: u32,
 }
 
 impl Levels {
-    /// For views of `light_texels` to a side that see a mesh of a certain size.
-    pub(crate) fn new(placement: &Placement, light_texels: u32) -> Self {
+    /// Levels for views of `light_texels` to a side.
+    pub(super) fn new(placement: &Placement, light_texels: u32) -> Self {
         #[allow(clippy::cast_precision_loss, reason = "a thousand")]
         let texel_mm = 2.0 * placement.bounds.radius_mm / light_texels as f32;
         let sample_mm = SAMPLE_PIXELS * placement.pitch_mm;
@@ -36,14 +36,14 @@ impl Levels {
         Self { first, rings: rings.min(light_texels.ilog2().saturating_sub(first).max(1)) }
     }
 
-    /// Levels that lights' views have.
-    pub(crate) fn count(&self) -> u32 {
+    /// Number of levels of lights' views.
+    pub(super) fn count(&self) -> u32 {
         self.first + self.rings
     }
 }
 
 /// Pixels of the picture to a side of a texel of the finest target.
-pub(crate) fn divisor(placement: &Placement, light_texels: u32, pixels_per_mm: f32) -> u32 {
+pub(super) fn divisor(placement: &Placement, light_texels: u32, pixels_per_mm: f32) -> u32 {
     let levels = Levels::new(placement, light_texels);
     #[allow(clippy::cast_precision_loss, reason = "small")]
     let sample_mm = 2.0 * placement.bounds.radius_mm / light_texels as f32 * (1_u32 << levels.first) as f32;
@@ -53,7 +53,7 @@ pub(crate) fn divisor(placement: &Placement, light_texels: u32, pixels_per_mm: f
     divisor.max(1)
 }
 
-/// Texels of a ring's target, when the finest has `size`.
+/// Size of a ring's target, when the finest has `size`.
 pub(super) fn ring_size(size: [u32; 2], ring: u32) -> [u32; 2] {
     size.map(|side| side.div_ceil(1 << ring).max(1))
 }

@@ -4,10 +4,8 @@
 //! coarser level of what the light sees, and adds them to a target of half the size: every ring costs about as many
 //! fragments for each sample, and a quarter of the samples.
 
-mod buffers;
+mod bound;
 mod levels;
 mod passes;
 
-pub(crate) use buffers::Buffers;
-pub(crate) use levels::{Levels, divisor};
 pub(crate) use passes::Passes;

@@ -1,19 +1,16 @@
 //! Pipelines of splats.
 
-use subsurf_scene::Placement;
 use subsurf_shaders::uniform::MAX_RINGS;
 use subsurf_shaders::{Storage, source};
 use wgpu::TextureFormat;
 
-use super::levels::{Levels, ring_size};
 use crate::asset::slots;
 use crate::error::Result;
-use crate::frame::plan::Plan;
-use crate::gpu::{CoverPass, DEPTH, Gpu, HALF, Slot, SquarePass, TextureSpec};
+use crate::gpu::{CoverPass, Gpu, HALF, Slot, SquarePass};
 use crate::technique::common::{COMMON, encoding_of};
 use crate::technique::mesh_pass::MeshPass;
 
-/// Its pipelines.
+/// Pipelines for materials of one storage.
 #[derive(Debug)]
 pub(crate) struct Passes {
     pub(super) storage: Storage,
@@ -21,7 +18,7 @@ pub(crate) struct Passes {
     pub(super) reduce: CoverPass,
     pub(super) splat: SquarePass,
     pub(super) collapse: CoverPass,
-    pub(crate) shade: MeshPass,
+    pub(super) shade: MeshPass,
 }
 
 impl Passes {
@@ -44,14 +41,5 @@ impl Passes {
             collapse: CoverPass::new(gpu, source::COLLAPSE, "collapse", &[&of_collapse], &[HALF])?,
             shade: MeshPass::new(gpu, shade, "shade", &[&COMMON, &of_shade], &[format], samples)?,
         })
-    }
-
-    /// Bytes that a plan takes for a mesh.
-    pub(crate) fn bytes(&self, plan: &Plan, placement: &Placement) -> u64 {
-        let levels = Levels::new(placement, plan.light_texels);
-        let size = plan.map_size();
-        let half = |size| TextureSpec::target("", size, HALF).bytes();
-        let rings: u64 = (0..levels.rings).map(|ring| half(ring_size(size, ring))).sum();
-        4 * half(size) + TextureSpec::target("", size, DEPTH).bytes() + rings + plan.light_bytes(levels.count())
     }
 }

@@ -1,23 +1,28 @@
-//! What splats draw to for one size of picture, and how they are recorded.
+//! Maps and bind groups of splats for one size of picture, and their passes, recorded.
+
+use std::sync::Arc;
 
 use glam::{Mat4, Vec3};
 use subsurf_scene::{Placement, Scene};
 use subsurf_shaders::uniform::{self, MAX_RINGS, Rings, Splat, Upsampling, Which};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureView};
 
-use super::levels::{FADE, Levels, RING, ring_size};
+use super::levels::{FADE, Levels, RING, divisor, ring_size};
 use super::passes::Passes;
 use crate::asset::{GpuMesh, SplatMaterial};
 use crate::error::Result;
 use crate::frame::plan::Plan;
 use crate::gpu::{DEPTH, Gpu, HALF, Rows, Surface2d, TextureSpec, Tracked, layers_of_level, level_of};
 use crate::technique::common::{Common, Lap};
+use crate::technique::drawable::Drawable;
 use crate::technique::light_views::{FAR, LightViews};
-use crate::technique::mesh_pass::Target;
+use crate::technique::mesh_pass::{MeshPass, Target};
+use crate::technique::pipelines::{Bindings, Pipelines, wrong_drawable};
 
-/// Its buffers, for one size of picture.
+/// Maps, blocks and bind groups for one size of picture.
 #[derive(Debug)]
-pub(crate) struct Buffers {
+struct Bound {
+    passes: Arc<Passes>,
     levels: Levels,
     visible: [Surface2d; 3],
     depth: Surface2d,
@@ -30,16 +35,16 @@ pub(crate) struct Buffers {
     collapse: BindGroup,
     rings_block: Tracked<Buffer>,
     upsampling: Tracked<Buffer>,
-    /// Bound to the reductions.
+    /// Blocks of the reductions.
     #[expect(dead_code, reason = "kept in the ledger as long as the device has them")]
     which: Vec<Tracked<Buffer>>,
-    pub(crate) shade: BindGroup,
+    shade: BindGroup,
     softened: [[f32; 4]; 8],
     pitch_mm: f32,
     size: [u32; 2],
 }
 
-/// One level of one light from the level before.
+/// Pass that makes one level of one light's view from the level before.
 #[derive(Debug)]
 struct Reduction {
     light: u32,
@@ -48,7 +53,7 @@ struct Reduction {
     size: [u32; 2],
 }
 
-/// Samples of one level of one light, for one ring.
+/// Splats of the samples of one level of one light, for one ring.
 #[derive(Debug)]
 struct Draw {
     light: u32,
@@ -59,10 +64,10 @@ struct Draw {
     group: BindGroup,
 }
 
-impl Buffers {
-    pub(crate) fn new(
+impl Bound {
+    fn new(
         gpu: &Gpu,
-        passes: &Passes,
+        passes: Arc<Passes>,
         material: &SplatMaterial,
         common: &Common,
         lights: &LightViews,
@@ -144,11 +149,60 @@ impl Buffers {
             softened: material.softened.map(|[r, g, b]| [r, g, b, 0.0]),
             pitch_mm: placement.pitch_mm,
             size,
+            passes,
         })
     }
+}
 
+impl Pipelines for Passes {
+    fn bytes(&self, plan: &Plan, placement: &Placement) -> u64 {
+        let levels = Levels::new(placement, plan.light_texels);
+        let size = plan.map_size();
+        let half = |size| TextureSpec::target("", size, HALF).bytes();
+        let rings: u64 = (0..levels.rings).map(|ring| half(ring_size(size, ring))).sum();
+        4 * half(size) + TextureSpec::target("", size, DEPTH).bytes() + rings + plan.light_bytes(levels.count())
+    }
+
+    fn light_levels(&self, plan: &Plan, placement: &Placement) -> u32 {
+        Levels::new(placement, plan.light_texels).count()
+    }
+
+    fn divisor(&self, drawable: &Drawable<'_>, light_texels: u32, pixels_per_mm: f32) -> u32 {
+        divisor(&drawable.mesh().placement, light_texels, pixels_per_mm)
+    }
+
+    fn shade(&self) -> &MeshPass {
+        &self.shade
+    }
+
+    fn bind(
+        self: Arc<Self>,
+        gpu: &Gpu,
+        drawable: &Drawable<'_>,
+        common: &Common,
+        lights: &LightViews,
+        plan: &Plan,
+    ) -> Result<Box<dyn Bindings>> {
+        let Drawable::Splat { mesh, material } = drawable else {
+            return Err(wrong_drawable());
+        };
+        Ok(Box::new(Bound::new(gpu, self, material, common, lights, plan, &mesh.placement)?))
+    }
+}
+
+impl Bindings for Bound {
     /// Tells the passes where lights and eye are.
-    pub(crate) fn update(&mut self, gpu: &Gpu, scene: &Scene, block: &uniform::Scene, plan: &Plan) {
+    fn update(
+        &mut self,
+        gpu: &Gpu,
+        drawable: &Drawable<'_>,
+        scene: &Scene,
+        block: &uniform::Scene,
+        plan: &Plan,
+    ) -> Result<()> {
+        let Drawable::Splat { .. } = drawable else {
+            return Err(wrong_drawable());
+        };
         let upsampling = plan.upsampling(&scene.camera, block.middle_mm);
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&upsampling));
         let rings = Rings { count: self.levels.rings, near_mm: upsampling.near_mm, pad: [0; 2] };
@@ -185,12 +239,12 @@ impl Buffers {
             };
             gpu.queue.write_buffer(&draw.block, 0, bytemuck::bytes_of(&splat));
         }
+        Ok(())
     }
 
-    pub(crate) fn record(
+    fn record(
         &self,
         mut encoder: CommandEncoder,
-        passes: &Passes,
         mesh: &GpuMesh,
         lights: usize,
         plan: &Plan,
@@ -199,22 +253,26 @@ impl Buffers {
         let lit = |light: u32| (light as usize) < lights;
         for reduction in self.reductions.iter().filter(|reduction| lit(reduction.light)) {
             let targets = reduction.targets.each_ref();
-            passes.reduce.record(&mut encoder, &targets, &[&reduction.group], Rows::all(reduction.size));
+            self.passes.reduce.record(&mut encoder, &targets, &[&reduction.group], Rows::all(reduction.size));
         }
         encoder = lap("reduce", encoder);
         let clears = [FAR, Color::TRANSPARENT, Color::TRANSPARENT];
         let targets = [0, 1, 2].map(|k| Target { view: &self.visible[k].view, clear: clears[k], resolved: None });
         let [scene, albedo] = &self.view;
-        passes.view.record(&mut encoder, &targets, &self.depth.view, &[scene, albedo], mesh);
+        self.passes.view.record(&mut encoder, &targets, &self.depth.view, &[scene, albedo], mesh);
         encoder = lap("view", encoder);
         for (ring, number) in self.rings.iter().zip(0..) {
             let draws = self.draws.iter().filter(|draw| draw.ring == number && lit(draw.light));
             let squares = |draw: &Draw| (plan.light_texels >> draw.level).max(1).pow(2);
             let draws: Vec<_> = draws.map(|draw| (&draw.group, squares(draw))).collect();
-            passes.splat.record(&mut encoder, &ring.view, &self.material, &draws);
+            self.passes.splat.record(&mut encoder, &ring.view, &self.material, &draws);
         }
         encoder = lap("splat", encoder);
-        passes.collapse.record(&mut encoder, &[&self.collapsed.view], &[&self.collapse], Rows::all(self.size));
+        self.passes.collapse.record(&mut encoder, &[&self.collapsed.view], &[&self.collapse], Rows::all(self.size));
         lap("collapse", encoder)
+    }
+
+    fn shade(&self) -> &BindGroup {
+        &self.shade
     }
 }
