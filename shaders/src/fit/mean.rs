@@ -8,7 +8,7 @@ use crate::rgb::Rgb;
 /// Factors that give back the light that softened distances √(r² + s²) take from the mean profile, for s = k / 2 pixels; shape
 /// `[k]`: ∫ R(r) r dr from 0, divided by that from s, which is taken to be at least a tenth of it.
 #[must_use]
-pub fn softened(material: &Bssrdf<'_>) -> [Rgb; 8] {
+pub fn softening_gain(material: &Bssrdf<'_>) -> [Rgb; 8] {
     const STEPS: u16 = 4_096;
     let header = material.header();
     let profile = mean_profile(material);

@@ -6,7 +6,7 @@ mod gaussians;
 mod mean;
 mod radial;
 
-pub use mean::{mean_kernel, softened};
+pub use mean::{mean_kernel, softening_gain};
 pub use radial::mean_profile;
 
 #[cfg(doc)]

@@ -66,10 +66,8 @@ pub struct ScreenDomain {
     pub middle_mm: f32,
     /// Pitch of the pixels of the material in mm.
     pub pitch_mm: f32,
-    /// 1 if taps are shifted from texel to texel.
-    pub jitters: u32,
     #[doc(hidden)]
-    pub pad: [u32; 2],
+    pub pad: [u32; 3],
 }
 
 /// `Transmission` of `transmission.wgsl`.

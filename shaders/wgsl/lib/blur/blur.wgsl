@@ -19,7 +19,7 @@ struct BlurStage {
 
 @group(0) @binding(0) var<uniform> stage: BlurStage;
 
-// Taps at k stride texels, |k| <= count, all but the middle one shifted by the domain; sigma in texels.
+// Taps at k stride texels, |k| <= count; sigma in texels.
 struct Taps {
     stride: i32,
     count: i32,
@@ -36,11 +36,9 @@ fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
         return sums;
     }
     let taps = taps_at(centre);
-    let shift = shift_at(x, taps.stride);
     var weights = 0.0;
     for (var k = -taps.count; k <= taps.count; k++) {
-        // The middle one stays: all others may lie on something else.
-        let step = k * taps.stride + select(shift, 0, k == 0);
+        let step = k * taps.stride;
         var light = maps_at(x + step * stage.axis);
         let distance = f32(step) / taps.sigma;
         let weight = exp(-0.5 * distance * distance) * nearness(centre, light[0]);

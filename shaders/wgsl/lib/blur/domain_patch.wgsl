@@ -9,11 +9,6 @@ fn taps_at(centre: vec4<f32>) -> Taps {
     return Taps(stage.stride, stage.taps + i32(centre.w), stage.sigma);
 }
 
-// No shift.
-fn shift_at(x: vec2<i32>, stride: i32) -> i32 {
-    return 0;
-}
-
 // Everything lies in one plane: full weight.
 fn nearness(centre: vec4<f32>, other: vec4<f32>) -> f32 {
     return 1.0;

@@ -9,10 +9,9 @@ struct ScreenDomain {
     middle_mm: f32,
     // Pitch of the pixels of the material in mm.
     pitch_mm: f32,
-    // 1 if taps are shifted from texel to texel.
-    jitters: u32,
     pad_0: u32,
     pad_1: u32,
+    pad_2: u32,
 }
 
 @group(0) @binding(1) var<uniform> domain: ScreenDomain;
@@ -31,13 +30,6 @@ fn taps_at(centre: vec4<f32>) -> Taps {
     let taps = clamp(ceil(3.2 * sigma / sparse), 1.0, MOST_TAPS);
     let stride = max(sparse, floor(3.2 * sigma / taps));
     return Taps(i32(stride), i32(taps), max(sigma, 1e-3));
-}
-
-// Shift of the taps of texel x in texels. Where taps are far apart, edges show several times: shifted by interleaved gradient
-// noise (Jimenez 2014), the copies become grain (Jimenez et al. 2015, fig. S.6).
-fn shift_at(x: vec2<i32>, stride: i32) -> i32 {
-    let noise = fract(52.9829189 * fract(dot(vec2<f32>(x), vec2<f32>(0.06711056, 0.00583715))));
-    return select(0, i32(floor(noise * f32(stride))) - stride / 2, domain.jitters != 0u);
 }
 
 // Factor of exp(-r^2 / 2 sigma^2) for the difference of depth (Jimenez et al. 2015, supplement, section E).
