@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::ValueEnum;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::capture::Overrides;
-use subsurf_scene::Up;
+use subsurf_scene::UpAxis;
 
 /// What lies beyond the border of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

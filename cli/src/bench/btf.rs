@@ -68,7 +68,7 @@ fn subjects() -> anyhow::Result<Vec<Subject>> {
         ("sphere", "sphere, 7k faces", sphere(20.0, 42), [1.2, 10.0, 170.0]),
         ("relief", "dragon, 115k faces", relief(20.0, 8, 170), [1.1, 8.0, 10.0]),
     ];
-    let subject = |(name, stands_for, mesh, published_fps)| {
+    let subject = |(name, stands_for, mesh, published_fps): (_, _, Mesh, _)| {
         Ok(Subject { name, stands_for, mesh: mesh.fitted(EXTENT_MM)?, published_fps })
     };
     all.into_iter().map(subject).collect()

@@ -51,9 +51,6 @@ pub(crate) struct Args {
     /// How light scatters in a translucent material; gather if not given
     #[arg(long, value_enum)]
     path: Option<PathArg>,
-    /// Shift the taps of the separable path from pixel to pixel: grain instead of bands
-    #[arg(long, requires = "mesh")]
-    jitter: bool,
     /// Light from all around: an equirectangular picture, .hdr or .png; a dim studio if not given
     #[arg(long, value_name = "FILE", requires = "mesh")]
     environment: Option<PathBuf>,
@@ -216,9 +213,6 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, 
     args.btf.expect_none()?;
     let path = args.path.unwrap_or(PathArg::Gather);
     let is_separable = matches!(path, PathArg::Separable | PathArg::Homogeneous);
-    if args.jitter && !is_separable {
-        return Err(bad_request("--jitter is for --path separable and homogeneous; the others have no taps"));
-    }
     let mut gpu = args.backend.open()?;
     let is_short_of_halves = gpu.as_ref().is_some_and(|gpu| gpu.target_format() == TargetFormat::Packed);
     if is_short_of_halves && is_separable && args.mesh.is_none() && args.backend == BackendArg::Auto {
@@ -261,7 +255,7 @@ impl Args {
             angles: self.view,
             size: self.size.0,
             exposure: self.exposure,
-            options: RuntimeOptions { jitters: self.jitter, ..RuntimeOptions::default() },
+            options: RuntimeOptions::default(),
         })
     }
 
@@ -270,7 +264,6 @@ impl Args {
         let given = [
             ("--path", self.path.is_some()),
             ("--roughness", self.roughness.is_some()),
-            ("--jitter", self.jitter),
             ("--mapping box", self.mapping == MappingArg::Box),
         ];
         match given.iter().find(|(_, is_given)| *is_given) {

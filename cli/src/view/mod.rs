@@ -58,9 +58,6 @@ pub(crate) struct Args {
     /// Begin with ten times the difference to the gather, or of a BTF to its images
     #[arg(long)]
     error: bool,
-    /// Shift the taps of the separable path from pixel to pixel: grain instead of bands
-    #[arg(long)]
-    jitter: bool,
     /// Light from all around: an equirectangular picture, .hdr or .png
     #[arg(long, value_name = "FILE")]
     environment: Option<PathBuf>,
@@ -168,7 +165,6 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         options: RuntimeOptions {
             budget_bytes,
             samples: SAMPLES,
-            jitters: args.jitter,
             btf: args.btf.options(BtfOptions { samples: BTF_SAMPLES, ..BtfOptions::default() }),
             ..RuntimeOptions::default()
         },

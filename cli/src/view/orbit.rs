@@ -3,7 +3,7 @@
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::{Quat, Vec2, Vec3};
-use subsurf_scene::View;
+use subsurf_scene::Camera;
 
 /// An eye that looks at a point from all around.
 #[derive(Clone, Copy, Debug)]
@@ -11,12 +11,12 @@ pub(super) struct Orbit {
     target_mm: Vec3,
     /// Around the up axis, from z towards x.
     around: f32,
-    /// Above the horizon, less than a right angle.
+    /// Above the horizon, less than a right fov_y_rad.
     up: f32,
     distance_mm: f32,
     /// Nearest and furthest.
     range_mm: [f32; 2],
-    angle: f32,
+    fov_y_rad: f32,
 }
 
 /// The eye comes this close to the poles, where left and right would swap.
@@ -36,7 +36,7 @@ impl Orbit {
             up: (from.y / distance_mm).asin().clamp(-HIGHEST, HIGHEST),
             distance_mm,
             range_mm: [0.3 * distance_mm, 4.0 * distance_mm],
-            angle: view.angle,
+            fov_y_rad: view.fov_y_rad,
         }
     }
 
@@ -45,7 +45,7 @@ impl Orbit {
         Camera {
             eye_mm: self.target_mm + self.distance_mm * towards,
             target_mm: self.target_mm,
-            angle: self.angle,
+            fov_y_rad: self.fov_y_rad,
             exposure,
         }
     }
