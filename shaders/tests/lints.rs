@@ -58,7 +58,9 @@ fn all_passes_are_valid_and_lower_to_gles_3_0_and_spir_v() {
         let info = validate(name, &module);
         // Overrides become constants for each pipeline, as wgpu makes them.
         let values = if module.overrides.is_empty() { vec![0.0] } else { vec![0.0, 1.0] };
-        for (entry, value) in module.entry_points.iter().flat_map(|entry| values.iter().map(move |value| (entry, *value))) {
+        for (entry, value) in
+            module.entry_points.iter().flat_map(|entry| values.iter().map(move |value| (entry, *value)))
+        {
             let (module, info) = with_overrides(&module, &info, (entry.stage, &entry.name), value);
             let options = glsl::Options { version: glsl::Version::new_gles(300), ..Default::default() };
             let pipeline =

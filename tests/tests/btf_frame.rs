@@ -5,7 +5,7 @@ use subsurf_decoder::Btf;
 use subsurf_decoder::btf::{Grid, Tone};
 use subsurf_encoder::synthetic::NestedShape;
 use subsurf_runtime::{
-    BACKGROUND, Backend, BtfFiltering, BtfMaterial, BtfOptions, BtfLayout, Drawable, Error, Gpu, GpuMesh, Renderer,
+    BACKGROUND, Backend, BtfFiltering, BtfLayout, BtfMaterial, BtfOptions, Drawable, Error, Gpu, GpuMesh, Renderer,
     RuntimeOptions, Technique, VertexData,
 };
 use subsurf_scene::{Camera, Environment, Light, LightShape, Mesh, Placement, REFLECTION_SIZE, Scene, sphere, torus};

@@ -6,7 +6,7 @@ use subsurf_decoder::btf::{Grid, Texel, Tone};
 use subsurf_decoder::container::Crc;
 use subsurf_encoder::btf::bonn;
 use subsurf_encoder::synthetic::{NestedShape, unit};
-use subsurf_runtime::{Backend, BtfAnswer, BtfImages, BtfMaterial, BtfQueries, BtfQuery, BtfLayout, Gpu};
+use subsurf_runtime::{Backend, BtfAnswer, BtfImages, BtfLayout, BtfMaterial, BtfQueries, BtfQuery, Gpu};
 use subsurf_tests::frames::device;
 use subsurf_tests::nested::{ODD_GRID, direction, single};
 

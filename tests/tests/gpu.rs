@@ -7,8 +7,8 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{Addressing, Coding};
 use subsurf_encoder::synthetic::{Shape, capture_row, unit};
 use subsurf_runtime::{
-    BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, PatchLight, PatchRenderer, Region, Renderer,
-    RuntimeOptions, SeparableMaterial, SeparableRenderer, MaterialLayout, Technique, VertexData, layout_of,
+    BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, MaterialLayout, PatchLight, PatchRenderer,
+    Region, Renderer, RuntimeOptions, SeparableMaterial, SeparableRenderer, Technique, VertexData, layout_of,
 };
 use subsurf_scene::{
     Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, REFLECTION_SIZE, Scene, SurfacePoints, sphere,
@@ -68,8 +68,14 @@ fn file(layout: MaterialLayout, shape: &Shape) -> Vec<u8> {
     }
 }
 
-const FITTED: [MaterialLayout; 6] =
-    [MaterialLayout::Bmpp1, MaterialLayout::Bmpp2, MaterialLayout::Bmpp2Palette, MaterialLayout::Bmpp3, MaterialLayout::Bmpp5, MaterialLayout::PerPixel];
+const FITTED: [MaterialLayout; 6] = [
+    MaterialLayout::Bmpp1,
+    MaterialLayout::Bmpp2,
+    MaterialLayout::Bmpp2Palette,
+    MaterialLayout::Bmpp3,
+    MaterialLayout::Bmpp5,
+    MaterialLayout::PerPixel,
+];
 
 /// Kinds that share a layout with others: 8-bit ratios, half floats, and more base materials than a column holds.
 fn variants(shape: &Shape) -> [Vec<u8>; 3] {

@@ -7,8 +7,8 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::simulate::Scene as Recipe;
 use subsurf_runtime::wgpu::TextureFormat;
 use subsurf_runtime::{
-    BACKGROUND, Backend, Error, Gpu, TargetFormat, Material, PatchLight, PatchRenderer, Region, Renderer, RuntimeOptions,
-    MaterialLayout, Technique,
+    BACKGROUND, Backend, Error, Gpu, Material, MaterialLayout, PatchLight, PatchRenderer, Region, Renderer,
+    RuntimeOptions, TargetFormat, Technique,
 };
 use subsurf_scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
 use subsurf_tests::frames::{

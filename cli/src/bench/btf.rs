@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use subsurf_decoder::Btf;
 use subsurf_encoder::Progress as _;
 use subsurf_encoder::btf::Images;
-use subsurf_runtime::{BACKGROUND, Backend, BtfFiltering, BtfMaterial, BtfOptions, BtfLayout, Gpu, RuntimeOptions};
+use subsurf_runtime::{BACKGROUND, Backend, BtfFiltering, BtfLayout, BtfMaterial, BtfOptions, Gpu, RuntimeOptions};
 use subsurf_scene::{Light, LightShape, Mesh, Placement, REFLECTION_SIZE, Scene, relief, sphere};
 use subsurf_shaders::{cpu, uniform};
 

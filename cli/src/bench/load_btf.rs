@@ -9,7 +9,7 @@ use subsurf_encoder::Progress as _;
 use subsurf_encoder::Unfinished;
 use subsurf_encoder::btf::{Folder, Images};
 use subsurf_runtime::{
-    BtfImages, BtfMaterial, BtfLayout, Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, Technique, VertexData,
+    BtfImages, BtfLayout, BtfMaterial, Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, Technique, VertexData,
 };
 use subsurf_scene::{Mesh, Placement, Scene, relief};
 

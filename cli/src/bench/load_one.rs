@@ -11,9 +11,9 @@ use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
 use subsurf_decoder::bssrdf::{Coding, Header};
 use subsurf_decoder::container::{Container, Crc, crc32};
 use subsurf_encoder::capture::{Capture, Overrides};
-use subsurf_runtime::{Gpu, Material, PatchLight, PatchRenderer, Region, MaterialLayout, layout_of};
-use subsurf_shaders::cpu::{self, Reflectance};
+use subsurf_runtime::{Gpu, Material, MaterialLayout, PatchLight, PatchRenderer, Region, layout_of};
 use subsurf_shaders::Rgb;
+use subsurf_shaders::cpu::{self, Reflectance};
 
 use super::load_btf;
 use super::timing::{Steps, Storage, median, medians};

@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_runtime::{BACKGROUND, Frame, Gpu, Renderer, RuntimeOptions};
 use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene};
-use subsurf_shaders::{Rgb, cpu};
 use subsurf_shaders::uniform;
+use subsurf_shaders::{Rgb, cpu};
 
 use super::prepared::{Ingredients, Prepared, Ready, points};
 use super::{Angles, BRIGHT, MappingArg, PathArg, exposure_for};

@@ -15,7 +15,7 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::Light;
-use subsurf_runtime::{TargetFormat, RuntimeOptions};
+use subsurf_runtime::{RuntimeOptions, TargetFormat};
 use subsurf_scene::{Environment, load_mesh};
 use subsurf_shaders::{Rgb, cpu};
 

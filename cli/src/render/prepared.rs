@@ -49,7 +49,9 @@ impl Ingredients {
                 let (fine, surface) = points(mesh, mapping, material, scene)?;
                 OfPath::Gather { fine, surface }
             }
-            PathArg::Splat => OfPath::Splat { sky: sky()?, factors: SeparableBasis::of(material, BasisSize::default()) },
+            PathArg::Splat => {
+                OfPath::Splat { sky: sky()?, factors: SeparableBasis::of(material, BasisSize::default()) }
+            }
             PathArg::Separable | PathArg::Homogeneous => {
                 OfPath::Separable { sky: sky()?, factors: factors(material, path) }
             }

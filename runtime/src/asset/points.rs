@@ -29,7 +29,8 @@ impl GpuPoints {
     /// [`Error::Unsupported`] if the device takes no textures of that size.
     pub fn upload(gpu: &Gpu, surface: &SurfacePoints) -> Result<Self> {
         let table = |label, len, format, bytes: &[u8]| gpu.filled(&TextureSpec::array(label, len, format), bytes);
-        let target = |label| gpu.texture(&TextureSpec::target(label, array_size(surface.len()), gpu.target_texture_format()));
+        let target =
+            |label| gpu.texture(&TextureSpec::target(label, array_size(surface.len()), gpu.target_texture_format()));
         let count = surface.len();
         let float = TextureFormat::Rgba32Float;
         Ok(Self {

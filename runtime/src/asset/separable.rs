@@ -1,9 +1,9 @@
 //! Materials for separable blurs on the device.
 
 use subsurf_decoder::bssrdf::Header;
-use subsurf_shaders::{Rgb, cpu};
 use subsurf_shaders::separable::SeparableBasis;
 use subsurf_shaders::uniform;
+use subsurf_shaders::{Rgb, cpu};
 use wgpu::Buffer;
 
 use super::patch_layers::PatchLayers;

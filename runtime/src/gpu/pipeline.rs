@@ -4,10 +4,10 @@ use subsurf_shaders::passes::{Binding, Variant};
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindingResource,
     BlendState, Color, ColorTargetState, ColorWrites, CommandEncoder, DepthStencilState, FragmentState, LoadOp,
-    MultisampleState, Operations, PipelineCompilationOptions, PipelineLayoutDescriptor, PrimitiveState, PrimitiveTopology, RenderPass,
-    RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor, RenderPipeline,
-    RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp, TextureFormat, TextureView,
-    VertexBufferLayout, VertexState,
+    MultisampleState, Operations, PipelineCompilationOptions, PipelineLayoutDescriptor, PrimitiveState,
+    PrimitiveTopology, RenderPass, RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor,
+    RenderPipeline, RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp, TextureFormat,
+    TextureView, VertexBufferLayout, VertexState,
 };
 
 use super::device::Gpu;
@@ -67,8 +67,7 @@ impl Pipeline {
                 bind_group_layouts: &bind_group_layouts,
                 immediate_size: 0,
             });
-            let compilation_options =
-                PipelineCompilationOptions { constants: program.constants, ..Default::default() };
+            let compilation_options = PipelineCompilationOptions { constants: program.constants, ..Default::default() };
             let vertices: Vec<_> = drawing.vertices.iter().cloned().map(Some).collect();
             let pipeline = gpu.device.create_render_pipeline(&RenderPipelineDescriptor {
                 label,

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use subsurf_scene::Scene;
-use subsurf_shaders::uniform::{self, BtfFiltering};
 use subsurf_shaders::BtfLayout;
 use subsurf_shaders::passes::{Choice, table};
+use subsurf_shaders::uniform::{self, BtfFiltering};
 use wgpu::{BindGroup, Buffer, TextureFormat};
 
 use super::common::Common;

@@ -72,4 +72,3 @@ pub(crate) fn reflection_sampler(gpu: &Gpu) -> Sampler {
         ..Default::default()
     })
 }
-

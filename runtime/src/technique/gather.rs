@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use subsurf_scene::Scene;
-use subsurf_shaders::uniform::ROW;
 use subsurf_shaders::passes::{Choice, table};
+use subsurf_shaders::uniform::ROW;
 use subsurf_shaders::{MaterialLayout, uniform};
 use wgpu::{BindGroup, BindingResource, TextureFormat};
 

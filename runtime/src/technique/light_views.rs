@@ -37,8 +37,13 @@ impl LightViews {
     pub(crate) fn new(gpu: &Gpu, pass: &MeshPass, scene: &Buffer, plan: &Plan, levels: u32) -> Result<Self> {
         let size = [plan.light_texels; 2];
         let layers = light_layers(plan.lights);
-        let surface =
-            |label| gpu.texture(&TextureSpec { layers, levels, ..TextureSpec::target(label, size, gpu.target_texture_format()) });
+        let surface = |label| {
+            gpu.texture(&TextureSpec {
+                layers,
+                levels,
+                ..TextureSpec::target(label, size, gpu.target_texture_format())
+            })
+        };
         let surfaces = [surface("positions seen")?, surface("fluxes seen")?, surface("places seen")?];
         let of_light = |layer| [0, 1, 2].map(|k| level_of(&surfaces[k], layer, 0));
         let numbers = |light| {

@@ -4,9 +4,7 @@ use glam::{Vec3, Vec4};
 use subsurf_scene::MAX_LIGHTS;
 
 use super::raster::rasterise;
-use super::{
-    Reflections, display, fresnel_transmittance, incident, neutral, specular_ambient, specular_direct, srgb,
-};
+use super::{Reflections, display, fresnel_transmittance, incident, neutral, specular_ambient, specular_direct, srgb};
 use crate::rgb::Rgb;
 use crate::uniform::Scene;
 

@@ -86,9 +86,7 @@ impl MaterialLayout {
                 wgsl!("material/bmpp_k"),
                 wgsl!("material/reflectance"),
             ],
-            Self::PerPixel => {
-                &[wgsl!("material/material"), wgsl!("material/per_pixel"), wgsl!("material/reflectance")]
-            }
+            Self::PerPixel => &[wgsl!("material/material"), wgsl!("material/per_pixel"), wgsl!("material/reflectance")],
             Self::Capture => &[wgsl!("material/material"), wgsl!("material/capture")],
         }
     }
@@ -100,9 +98,7 @@ impl MaterialLayout {
             Self::Bmpp1 => &[Binding::Uniform, Binding::Float, Binding::Uint],
             Self::Bmpp2 => &[Binding::Uniform, Binding::Float, Binding::Float, Binding::Uint],
             Self::Bmpp2Palette => &[Binding::Uniform, Binding::Float, Binding::Uint, Binding::Uint],
-            Self::Bmpp3 | Self::Bmpp5 => {
-                &[Binding::Uniform, Binding::Float, Binding::FloatLayers, Binding::UintLayers]
-            }
+            Self::Bmpp3 | Self::Bmpp5 => &[Binding::Uniform, Binding::Float, Binding::FloatLayers, Binding::UintLayers],
             Self::PerPixel | Self::Capture => &[Binding::Uniform, Binding::FloatLayers],
         }
     }

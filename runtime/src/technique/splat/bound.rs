@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{Mat4, Vec3};
 use subsurf_scene::{Placement, Scene};
-use subsurf_shaders::uniform::{self, MAX_RINGS, SplatRings, Splat, Upsampling, TsmLight};
+use subsurf_shaders::uniform::{self, MAX_RINGS, Splat, SplatRings, TsmLight, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureView};
 
 use super::levels::{FADE, Levels, RING, divisor, ring_size};
@@ -85,8 +85,9 @@ impl Bound {
         let texture = BindingResource::TextureView;
         let of_albedo = [texture(&material.albedo.all), BindingResource::Sampler(&material.albedo.sampler)];
 
-        let numbers: Vec<Tracked<Buffer>> =
-            (0..plan.lights).map(|light| gpu.uniform("light of a shadow map", &TsmLight { light, pad: [0; 3] })).collect();
+        let numbers: Vec<Tracked<Buffer>> = (0..plan.lights)
+            .map(|light| gpu.uniform("light of a shadow map", &TsmLight { light, pad: [0; 3] }))
+            .collect();
         let mut reductions = Vec::new();
         for (block, light) in numbers.iter().zip(0..) {
             for level in 1..levels.count() {
