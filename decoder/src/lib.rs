@@ -27,7 +27,6 @@
 //!     let rgb = cloth.eval(texel, light, eye);
 //!     let next = cloth.sample(texel, eye, [0.3, 0.7]);
 //! #   let _ = (rgb, next);
-//! }
 //! # Ok(()) }
 //! # assert!(show(b"not a file").is_err());
 //! ```
@@ -41,12 +40,9 @@
     clippy::panic
 )]
 
-pub mod bits;
 pub mod bssrdf;
 pub mod btf;
-pub mod bytes;
 pub mod container;
-mod crc;
 mod error;
 
 pub use bssrdf::Bssrdf;

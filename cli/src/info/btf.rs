@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::Context;
 use serde_json::{Value, json};
-use subsurf_decoder::bits::index_bits;
+use subsurf_decoder::container::bits::index_bits;
 use subsurf_decoder::btf::{Catalog, Model};
 use subsurf_decoder::container::{Container, Crc};
 use subsurf_decoder::{Btf, Factored, ReadError};

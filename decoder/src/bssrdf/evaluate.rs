@@ -3,7 +3,7 @@
 use super::layout::MAX_PER_PIXEL;
 use super::planes::{Model, Profiles};
 use super::reader::Bssrdf;
-use crate::bytes::F32Le;
+use crate::container::bytes::F32Le;
 
 /// Where a distance falls between the nodes of a profile (eq. 3).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The `BSSR` header and the sizes of the sections that follow from it.
 
 use super::addressing::Addressing;
-use crate::bytes::{array_at, f32_at, u16_at, u32_at};
+use crate::container::bytes::{array_at, f32_at, u16_at, u32_at};
 use crate::container::put;
 use crate::error::{ReadError, Section};
 

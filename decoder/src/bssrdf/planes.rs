@@ -1,7 +1,7 @@
 //! The borrowed planes of a checked file.
 
 use super::layout::{MAX_CODED_RATIO, MAX_PAIRS, MAX_PER_PIXEL};
-use crate::bytes::{F16Le, F32Le, U16Le};
+use crate::container::bytes::{F16Le, F32Le, U16Le};
 
 /// The planes of a file, by model.
 #[derive(Clone, Copy, Debug)]

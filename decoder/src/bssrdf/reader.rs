@@ -2,7 +2,7 @@
 
 use super::layout::{Coding, Header, MAX_LOG, MAX_PAIRS, MODEL_2BMPP, MODEL_PER_PIXEL, SUM_TOLERANCE};
 use super::planes::{BaseMaterials, Mixtures, Model, PerPixelProfiles, Profiles, split_code};
-use crate::bytes::{F16Le, F32Le, U16Le};
+use crate::container::bytes::{F16Le, F32Le, U16Le};
 use crate::container::{Container, Crc};
 use crate::error::{ReadError, Section};
 

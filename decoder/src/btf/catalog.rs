@@ -2,13 +2,13 @@
 
 use super::grid::Grid;
 use super::layout::{Header, MATERIAL_BYTES, Material};
-use super::sections::Sections;
+use crate::container::sections::Sections;
 use crate::container::{Container, Crc};
 use crate::error::{ReadError, Section};
 
 /// A texel of one of the mipmap levels of one of the materials of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Texel(pub(super) u32);
+pub struct Texel(pub(in crate::btf) u32);
 
 impl Texel {
     /// Its number in the file: texels row by row, level by level, material by material.
@@ -37,7 +37,7 @@ impl<'a> Catalog<'a> {
     }
 
     /// [`Self::parse`] of a container's sections.
-    pub(super) fn read(sections: &Sections<'a, '_>) -> Result<Self, ReadError> {
+    pub(in crate::btf) fn read(sections: &Sections<'a, '_>) -> Result<Self, ReadError> {
         let (start, bytes) = sections.any(Section::BtfHeader)?;
         let header = Header::parse(bytes, start)?;
         let need = usize::from(header.materials).saturating_mul(MATERIAL_BYTES) as u64;

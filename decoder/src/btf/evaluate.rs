@@ -3,7 +3,7 @@
 use super::catalog::{Catalog, Texel};
 use super::factored::Expanded;
 use super::grid::{Cell, View};
-use super::reader::Btf;
+use super::nested::Btf;
 
 /// Nested codebooks as they stand in their file, or expanded factors.
 pub trait Evaluate {

@@ -8,7 +8,7 @@ use super::angle::{atan2, sqrt};
 use core::f32::consts::TAU;
 
 /// Most nodes of an axis.
-pub(super) const MAX_NODES: u8 = 64;
+pub(in crate::btf) const MAX_NODES: u8 = 64;
 
 /// Numbers of nodes and how far they reach. A table over it has the shape `[φ_v][θ_v][α][β]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -192,7 +192,13 @@ impl Grid {
 
     /// The cell of two places of view, α in rad, sin β and cos θ_i.
     #[inline]
-    pub(super) fn cell_at(&self, (phi, theta): (Place, Place), alpha: f32, sin_beta: f32, cos_light: f32) -> Cell {
+    pub(in crate::btf) fn cell_at(
+        &self,
+        (phi, theta): (Place, Place),
+        alpha: f32,
+        sin_beta: f32,
+        cos_light: f32,
+    ) -> Cell {
         let beta = Place::around(sin_beta, self.sin_beta_max, self.n_beta);
         Cell { phi, theta, alpha: self.alpha(alpha), beta, fade: self.fade(cos_light) }
     }

@@ -1,9 +1,9 @@
 //! The headers of a BTF file: `BTFH`, `MATS` and `BOOK`.
 
+use super::colour::Tone;
 use super::grid::{Grid, MAX_NODES};
-use super::tone::Tone;
-use crate::bits::{MAX_ITEM_BITS, index_bits};
-use crate::bytes::{array_at, f32_at, u16_at, u32_at};
+use crate::container::bits::{MAX_ITEM_BITS, index_bits};
+use crate::container::bytes::{array_at, f32_at, u16_at, u32_at};
 use crate::container::put;
 use crate::error::{ReadError, Section};
 
@@ -73,7 +73,7 @@ impl Header {
     }
 
     /// Reads and checks the section, which begins at `start` of the file.
-    pub(super) fn parse(bytes: &[u8], start: u64) -> Result<Self, ReadError> {
+    pub(in crate::btf) fn parse(bytes: &[u8], start: u64) -> Result<Self, ReadError> {
         let section = Section::BtfHeader;
         let have_bytes = bytes.len() as u64;
         let wrong = ReadError::WrongSize { section, need_bytes: HEADER_BYTES as u64, have_bytes };
@@ -158,7 +158,7 @@ impl Material {
     }
 
     /// Reads and checks it; `start` is where it stands in the file.
-    pub(super) fn parse(bytes: &[u8; MATERIAL_BYTES], start: u64) -> Result<Self, ReadError> {
+    pub(in crate::btf) fn parse(bytes: &[u8; MATERIAL_BYTES], start: u64) -> Result<Self, ReadError> {
         let field = |at: u64, value: u32| ReadError::BadField {
             section: Section::Materials,
             offset: start.saturating_add(at),
@@ -404,7 +404,7 @@ impl Fields<'_> {
 
 impl Books {
     /// Reads and checks the section, which begins at `start` of the file.
-    pub(super) fn parse(bytes: &[u8], start: u64) -> Result<Self, ReadError> {
+    pub(in crate::btf) fn parse(bytes: &[u8], start: u64) -> Result<Self, ReadError> {
         let section = Section::Books;
         let stages = bytes.len().checked_div(BOOK_BYTES).unwrap_or(0).saturating_sub(1);
         let need = stages.clamp(1, MAX_STAGES).saturating_add(1).saturating_mul(BOOK_BYTES);

@@ -1,7 +1,7 @@
 //! From what is small to what is at hand: codewords and tables.
 
 use super::coder::Decoder;
-use super::eval::Expanded;
+use super::evaluate::Expanded;
 use super::model::{Numbers, code_core, code_words};
 use super::reader::Factored;
 

@@ -1,7 +1,7 @@
 //! `FACT`: numbers and steps of factors.
 
 use crate::btf::grid::Grid;
-use crate::bytes::{F32Le, array_at};
+use crate::container::bytes::{F32Le, array_at};
 use crate::error::{ReadError, Section};
 
 /// Most stages of codewords.

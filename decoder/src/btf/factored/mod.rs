@@ -5,12 +5,12 @@
 //! between them, entropy-coded. [`Factored::expand`] undoes what makes files small; then every texel is at hand.
 
 pub mod coder;
-mod eval;
+mod evaluate;
 mod expand;
 pub mod layout;
 pub mod model;
 mod reader;
 
-pub use eval::Expanded;
+pub use evaluate::Expanded;
 pub use expand::Buffers;
 pub use reader::Factored;

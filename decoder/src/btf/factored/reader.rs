@@ -1,11 +1,11 @@
 //! Checks a file of factors once.
 
-use super::eval::Expanded;
+use super::evaluate::Expanded;
 use super::expand::{Buffers, expand};
 use super::layout::{Factors, Shape, Stage};
 use crate::btf::catalog::Catalog;
 use crate::btf::layout::Model;
-use crate::btf::sections::Sections;
+use crate::container::sections::Sections;
 use crate::container::{Container, Crc};
 use crate::error::{ReadError, Section};
 

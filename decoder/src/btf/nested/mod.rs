@@ -1,14 +1,17 @@
 //! Nested codebooks of luma and chroma (Havran, Filip and Myszkowski 2010, sections 4.2-4.5).
 
-mod chain;
+mod albedo;
 mod codebooks;
-mod line;
+mod evaluate;
+mod offsets;
+mod piecewise_linear;
 mod reader;
 mod sampler;
 mod scale;
 mod stage;
 mod table;
 
-pub use codebooks::{Codebooks, PackedTable, StageTables};
-pub use reader::Nested;
+pub use codebooks::Nested;
+pub use offsets::{Codebooks, PackedTable, StageTables};
+pub use reader::Btf;
 pub use sampler::{Sample, Sampler};

@@ -4,9 +4,9 @@
 //! nodes of α, and over α its inverse is the root of a quadratic; within the slice there, likewise for sin β. Both move
 //! without jumps as the random numbers grow.
 
-use super::chain::Corner;
-use super::line::{Line, Ruler};
-use super::reader::Nested;
+use super::codebooks::Nested;
+use super::evaluate::Corner;
+use super::piecewise_linear::{Line, Ruler};
 use super::scale::{Scale, near};
 use super::stage::Stage;
 use crate::btf::angle::{atan2, sin_cos};

@@ -1,8 +1,8 @@
 //! Codebooks whose items point into the next one, with a scale.
 
 use super::scale::{NEAR, Scale};
-use crate::bits::{Items, field, mask};
 use crate::btf::layout::Scales;
+use crate::container::bits::{Items, field, mask};
 
 /// What codes of scales stand for.
 #[derive(Clone, Copy, Debug)]

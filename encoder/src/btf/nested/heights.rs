@@ -2,7 +2,7 @@
 //!
 //! So a sampler knows the integral of luma over a slice without looking at it.
 
-use subsurf_decoder::bits::index_bits;
+use subsurf_decoder::container::bits::index_bits;
 use subsurf_decoder::btf::layout::{HEIGHTS_PER_OCTAVE, MAX_OCTAVES, STEPS_PER_OCTAVE, Scales};
 
 use super::write::{Chain, Item};

@@ -1,7 +1,7 @@
 //! Nested codebooks as they are made, and their file, through the decoder's own layout.
 
 use subsurf_decoder::Section;
-use subsurf_decoder::bits::{PADDING_BYTES, index_bits};
+use subsurf_decoder::container::bits::{PADDING_BYTES, index_bits};
 use subsurf_decoder::btf::layout::{Book, Books, ChromaBooks, HEIGHTS_PER_OCTAVE, MAX_STAGES, Scales, StageBooks};
 use subsurf_decoder::btf::{Header, Material};
 

@@ -1,6 +1,6 @@
 //! Values of apparent BRDFs by chained look-ups (their eq. 4), linear between the nodes of all four axes (their fig. 6).
 
-use super::reader::Nested;
+use super::codebooks::Nested;
 use super::scale::Scale;
 use super::stage::Stage;
 use crate::btf::grid::{Cell, Place};

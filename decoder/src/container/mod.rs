@@ -1,8 +1,13 @@
 //! The container: file header, section table, CRC-32 (`FORMAT.md`, section 1).
 
-use crate::bytes::{array_at, slice_at, u16_at, u32_at, u64_at};
-pub use crate::crc::crc32;
+pub mod bits;
+pub mod bytes;
+mod crc;
+pub(crate) mod sections;
+
 use crate::error::{ReadError, Section};
+use bytes::{array_at, slice_at, u16_at, u32_at, u64_at};
+pub use crc::crc32;
 
 /// First eight bytes of every file.
 pub const MAGIC: [u8; 8] = *b"\x89SSF\r\n\x1a\n";

@@ -1,8 +1,8 @@
 //! How much of all light a texel throws back in one direction (eq. 6 of the paper).
 
-use super::angle::{sin_cos, sqrt};
-use super::catalog::Texel;
 use super::reader::Btf;
+use crate::btf::angle::{sin_cos, sqrt};
+use crate::btf::catalog::Texel;
 use core::f32::consts::{FRAC_1_PI, FRAC_PI_2};
 
 impl Btf<'_> {

@@ -57,7 +57,7 @@ impl Tone {
 
     /// log2(1 + peak / toe), which is worth keeping for many pixels; 0 of displays.
     #[must_use]
-    pub(super) fn octaves(self) -> f32 {
+    pub(in crate::btf) fn octaves(self) -> f32 {
         match self {
             Self::Display { .. } => 0.0,
             Self::LogLuv { toe, peak } => libm::log2f(1.0 + peak / toe),
@@ -72,7 +72,7 @@ impl Tone {
 
     /// [`Self::decode`] with [`Self::octaves`].
     #[inline]
-    pub(super) fn decode_in(self, octaves: f32, [y, a, b]: [f32; 3]) -> [f32; 3] {
+    pub(in crate::btf) fn decode_in(self, octaves: f32, [y, a, b]: [f32; 3]) -> [f32; 3] {
         match self {
             Self::Display { .. } => {
                 const PER_CHROMA: [f32; 2] = [1.0 / CHROMA[0], 1.0 / CHROMA[1]];

@@ -1,6 +1,6 @@
 //! Sections of a BTF file by kind and size.
 
-use crate::container::{Container, Crc};
+use super::{Container, Crc};
 use crate::error::{ReadError, Section};
 
 /// The sections of one file.
