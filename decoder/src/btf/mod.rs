@@ -4,16 +4,20 @@
 mod angle;
 mod catalog;
 mod colour;
+mod coord;
 mod evaluate;
 pub mod factored;
 mod grid;
 pub mod layout;
-mod nested;
+mod material;
+pub mod nested;
 
 pub use catalog::{Catalog, Texel};
-pub use colour::{CHROMA, LUMA, Tone};
+pub use colour::{CHROMA, ColourEncoding, LUMA};
+pub use coord::{GridCoord, LerpCoord};
 pub use evaluate::Evaluate;
-pub use factored::{Expanded, Factored};
-pub use grid::{Cell, Grid, Place, View};
-pub use layout::{Header, Material, Model};
-pub use nested::{Btf, Codebooks, Nested, PackedTable, Sample, Sampler, StageTables};
+pub use factored::{ExpandedBtf, FactoredBtf};
+pub use grid::{Grid, View};
+pub use layout::{BtfHeader, BtfModel};
+pub use material::{MATERIAL_BYTES, Material, NAME_BYTES};
+pub use nested::{CodebookOffsets, NestedBtf, NestedCodebooks, PackedTable, Sample, Sampler, StageTables};

@@ -1,9 +1,11 @@
-//! Nested codebooks of luma and chroma (Havran, Filip and Myszkowski 2010, sections 4.2-4.5).
+//! Nested codebooks of luma and chroma (`FORMAT.md`, section 4; Havran, Filip and Myszkowski 2010, sections 4.2-4.5).
 
 mod albedo;
 mod codebooks;
 mod evaluate;
+pub mod layout;
 mod offsets;
+mod packed;
 mod piecewise_linear;
 mod reader;
 mod sampler;
@@ -11,7 +13,7 @@ mod scale;
 mod stage;
 mod table;
 
-pub use codebooks::Nested;
-pub use offsets::{Codebooks, PackedTable, StageTables};
-pub use reader::Btf;
+pub use codebooks::NestedCodebooks;
+pub use offsets::{CodebookOffsets, PackedTable, StageTables};
+pub use reader::NestedBtf;
 pub use sampler::{Sample, Sampler};

@@ -1,15 +1,16 @@
-//! Where the items of all codebooks stand in a file, for those who read its bytes without this crate's code: shaders.
+//! Offsets of all codebooks in a file, for those who read its bytes without this crate's code: shaders.
 
-use super::reader::Btf;
-use crate::btf::layout::{Books, MAX_STAGES, Scales};
+use super::layout::{CodebookSizes, MAX_STAGES, Scales, StageSizes};
+use super::reader::NestedBtf;
 use crate::container::Container;
 use crate::container::bits::index_bits;
-use crate::error::Section;
+use crate::section::Section;
+use core::num::Saturating;
 
 /// Rows of items of a few bits (`FORMAT.md`, section 4.5).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PackedTable {
-    /// Its first byte in the file.
+    /// First byte in the file.
     pub start: u64,
     /// Items of a row.
     pub nodes: u8,
@@ -19,27 +20,27 @@ pub struct PackedTable {
     pub index_bits: u32,
     /// Entries that the index leads to: it is less.
     pub len: u32,
-    /// What the code above the index stands for.
+    /// Scales of the code above the index.
     pub scales: Scales,
 }
 
-/// The tables of one stage.
+/// Tables of one stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StageTables {
     /// P6, P4, P3 and P2; items of P2 have what is above the lowest eight bits of their codes.
     pub tables: [PackedTable; 4],
     /// First byte in the file of the lowest eight bits of the codes of P2, rows of n_α bytes.
     pub p2_bytes: u64,
-    /// First byte in the file of P1, rows of n_β values and a height.
+    /// First byte in the file of P1, rows of n_β values and an exponent.
     pub p1: u64,
 }
 
-/// Where all codebooks of a file are (`FORMAT.md`, sections 4.4 to 4.6).
+/// Places of all codebooks of a file (`FORMAT.md`, sections 4.4 to 4.6).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Codebooks {
+pub struct CodebookOffsets {
     /// Sizes and scales.
-    pub books: Books,
-    /// Of luma, as many as there are stages.
+    pub sizes: CodebookSizes,
+    /// Tables of luma, as many used as there are stages.
     pub stages: [StageTables; MAX_STAGES],
     /// M: an index of P2 and, above it, one of I2.
     pub merged: PackedTable,
@@ -53,12 +54,12 @@ pub struct Codebooks {
     pub tints: u64,
 }
 
-impl Codebooks {
-    /// Of a checked file.
+impl CodebookOffsets {
+    /// Offsets in a checked file.
     #[must_use]
-    pub fn of(btf: &Btf<'_>) -> Self {
-        let (books, grid) = (btf.nested().books(), btf.grid());
-        let chroma = &books.chroma;
+    pub fn of(btf: &NestedBtf<'_>) -> Self {
+        let (sizes, grid) = (btf.codebooks().sizes(), btf.grid());
+        let chroma = &sizes.chroma;
         // The file was checked: it is a container, and has these sections.
         let container = Container::parse(btf.file()).ok();
         let start = |section: Section| {
@@ -66,20 +67,21 @@ impl Codebooks {
             entry.map_or(0, |entry| entry.offset)
         };
         let mut stages = [StageTables::default(); MAX_STAGES];
-        for ((number, stage), of_books) in (0_u8..).zip(&mut stages).zip(&books.stages).take(books.count) {
+        for ((number, stage), of_stage) in (0_u8..).zip(&mut stages).zip(&sizes.stages).take(sizes.count) {
             let is_first = number == 0;
             let section = |book: u8| start(Section::Codebook { book, stage: number });
-            let [p6, p4, p3, p2] = of_books.books;
-            let below_p3 = if is_first { chroma.merged } else { p2.entries };
-            let lens = [p4.entries, p3.entries, below_p3, of_books.slices];
-            let codes = u64::from(p2.entries).saturating_mul(grid.n_alpha.into());
-            let starts = [section(6), section(4), section(3), section(2).saturating_add(codes)];
+            let [.., p2] = of_stage.codebooks;
+            // The codes' lowest bytes stand before the items of P2.
+            let [rows, n_alpha] = [u64::from(p2.entries), grid.n_alpha.into()].map(Saturating);
+            let p2_items = Saturating(section(2)) + rows * n_alpha;
+            let starts = [section(6), section(4), section(3), p2_items.0];
             let nodes = [1, grid.n_phi, grid.n_theta, grid.n_alpha];
-            let scales = [p6.scales, p4.scales, p3.scales, p2.scales];
-            let (widths, bits) = (of_books.widths(is_first, chroma), of_books.index_bits(is_first, chroma));
-            let shapes = starts.into_iter().zip(nodes).zip(widths).zip(bits).zip(lens).zip(scales);
-            for (table, (((((start, nodes), width), index_bits), len), scales)) in stage.tables.iter_mut().zip(shapes) {
-                *table = PackedTable { start, nodes, width, index_bits, len, scales };
+            let (widths, bits) = (of_stage.widths(is_first, chroma), of_stage.index_bits(is_first, chroma));
+            let lens = of_stage.targets(is_first, chroma);
+            let shapes = starts.into_iter().zip(nodes).zip(widths).zip(bits).zip(lens).zip(of_stage.codebooks);
+            for (table, (((((start, nodes), width), index_bits), len), codebook)) in stage.tables.iter_mut().zip(shapes)
+            {
+                *table = PackedTable { start, nodes, width, index_bits, len, scales: codebook.scales };
             }
             (stage.p2_bytes, stage.p1) = (section(2), section(1));
         }
@@ -91,13 +93,10 @@ impl Codebooks {
             len,
             scales: Scales::default(),
         };
-        let p2 = books.stages.first().map_or(0, |stage| {
-            let [.., p2] = stage.books;
-            p2.entries
-        });
-        let merged = indices(Section::Merged, 1, p2);
+        let [StageSizes { codebooks: [.., p2], .. }, ..] = sizes.stages;
+        let merged = indices(Section::Merged, 1, p2.entries);
         Self {
-            books: *books,
+            sizes: *sizes,
             stages,
             merged: PackedTable { width: merged.width.saturating_add(index_bits(chroma.i2)), ..merged },
             i2: indices(Section::ChromaSlices2, grid.n_alpha, chroma.i1),
