@@ -2,7 +2,7 @@
 
 use half::f16;
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::{Addressing, Header};
+use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader};
 use subsurf_shaders::cpu::{self, Rgb};
 use subsurf_shaders::separable::{Factors, softened};
 use subsurf_shaders::uniform;
@@ -26,7 +26,7 @@ pub(crate) struct PatchLayers {
 
 impl PatchLayers {
     /// Uploads layers as half floats.
-    pub(crate) fn upload(gpu: &Gpu, header: &Header, layers: Vec<Vec<Rgb>>) -> Result<Self> {
+    pub(crate) fn upload(gpu: &Gpu, header: &BssrdfHeader, layers: Vec<Vec<Rgb>>) -> Result<Self> {
         let size = [header.width, header.height];
         let count = u32::try_from(layers.len()).unwrap_or(u32::MAX);
         let levels = size[0].max(size[1]).ilog2() + 1;
@@ -102,7 +102,7 @@ impl SplatMaterial {
 /// A factorised material: factors c_l and albedo over the patch, and the cascade that goes with them.
 #[derive(Debug)]
 pub struct SeparableMaterial {
-    header: Header,
+    header: BssrdfHeader,
     terms: usize,
     /// c_l, a layer each, and the albedo under uniform light.
     pub(crate) layers: PatchLayers,
@@ -134,7 +134,7 @@ impl SeparableMaterial {
 
     /// Size, pitch, window and so on.
     #[must_use]
-    pub fn header(&self) -> &Header {
+    pub fn header(&self) -> &BssrdfHeader {
         &self.header
     }
 

@@ -1,7 +1,7 @@
 //! A material on the device, in one of the storages.
 
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::{BaseMaterials, Header, Mixtures, Model, Profiles};
+use subsurf_decoder::bssrdf::{BaseMaterials, BssrdfHeader, BssrdfModel, Mixtures, Profiles};
 use subsurf_shaders::Storage;
 use subsurf_shaders::uniform::{self, BASE_ROWS};
 use wgpu::{BindingResource, Buffer, TextureFormat, TextureView, TextureViewDescriptor, TextureViewDimension};
@@ -14,7 +14,7 @@ use crate::resource::{ROW, Slot, Surface2d, TextureSpec};
 /// How a file is stored on the device.
 #[must_use]
 pub fn storage_of(material: &Bssrdf<'_>) -> Storage {
-    let Model::BaseMaterials(planes) = material.model() else {
+    let BssrdfModel::BaseMaterials(planes) = material.model() else {
         return Storage::PerPixel;
     };
     match planes.mixtures {
@@ -41,7 +41,7 @@ pub(crate) fn slots(storage: Storage) -> &'static [Slot] {
 #[derive(Debug)]
 pub struct Material {
     storage: Storage,
-    header: Header,
+    header: BssrdfHeader,
     uniform: Tracked<Buffer>,
     textures: Vec<Surface2d>,
     views: Vec<TextureView>,
@@ -59,11 +59,11 @@ impl Material {
         let storage = storage_of(material);
         let mut planes = Planes { gpu, size, all: Vec::new() };
         match material.model() {
-            Model::PerPixel(profiles) => {
+            BssrdfModel::PerPixel(profiles) => {
                 let count = 3 * u32::from(header.samples);
                 planes.layers("local profiles", count, TextureFormat::R32Float, profiles.profiles.as_bytes())?;
             }
-            Model::BaseMaterials(BaseMaterials { profiles, mixtures }) => {
+            BssrdfModel::BaseMaterials(BaseMaterials { profiles, mixtures }) => {
                 planes.base_profiles(header, *profiles)?;
                 planes.mixtures(*mixtures)?;
             }
@@ -77,7 +77,7 @@ impl Material {
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the device has not enough layers.
-    pub fn upload_capture(gpu: &Gpu, header: &Header, entries: &[u8]) -> Result<Self> {
+    pub fn upload_capture(gpu: &Gpu, header: &BssrdfHeader, entries: &[u8]) -> Result<Self> {
         let rows = entries.len().div_ceil(ROW as usize * 4);
         let layers = rows.div_ceil(ROW as usize).max(2);
         let small = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
@@ -97,7 +97,7 @@ impl Material {
     fn new(
         gpu: &Gpu,
         storage: Storage,
-        header: &Header,
+        header: &BssrdfHeader,
         layer: [u32; 2],
         textures: Vec<Surface2d>,
         views: Vec<TextureView>,
@@ -114,7 +114,7 @@ impl Material {
 
     /// Size, pitch, window and so on.
     #[must_use]
-    pub fn header(&self) -> &Header {
+    pub fn header(&self) -> &BssrdfHeader {
         &self.header
     }
 
@@ -175,7 +175,7 @@ impl Planes<'_> {
     }
 
     /// The table of base profiles, widened to four channels; columns of [`BASE_ROWS`] materials stand beside each other.
-    fn base_profiles(&mut self, header: &Header, profiles: Profiles<'_>) -> Result<()> {
+    fn base_profiles(&mut self, header: &BssrdfHeader, profiles: Profiles<'_>) -> Result<()> {
         let (format, channel, source) = match profiles {
             Profiles::F32(values) => (TextureFormat::Rgba32Float, 4, values.as_bytes()),
             Profiles::F16(values) => (TextureFormat::Rgba16Float, 2, values.as_bytes()),

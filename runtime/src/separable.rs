@@ -1,6 +1,6 @@
 //! Draws a flat patch from its factors: a cascade of Gaussians from weighted irradiance to exitance.
 
-use subsurf_decoder::bssrdf::{Addressing, Header};
+use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader};
 use subsurf_shaders::source::{self, Domain};
 use subsurf_shaders::uniform::{Kernel, MAX_KERNEL};
 use wgpu::{
@@ -132,7 +132,7 @@ impl HomogeneousRenderer {
     pub fn prepare(
         &self,
         gpu: &Gpu,
-        header: &Header,
+        header: &BssrdfHeader,
         kernel: &[[f32; 3]],
         light: &PatchLight,
     ) -> Result<HomogeneousPatch> {

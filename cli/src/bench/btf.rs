@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
-use subsurf_decoder::Btf;
+use subsurf_decoder::NestedBtf;
 use subsurf_encoder::Progress as _;
 use subsurf_encoder::btf::Images;
 use subsurf_runtime::scene::{Light, LightShape, Mesh, Outline, REFLECTION_SIZE, Scene, relief, sphere};
@@ -236,7 +236,7 @@ impl Setting<'_> {
 
 /// The twin of the shaders on one core, with four texels and without shadows.
 fn on_cpu(
-    btf: &Btf<'_>,
+    btf: &NestedBtf<'_>,
     material: usize,
     copies: [f32; 2],
     subject: &Subject,

@@ -8,7 +8,7 @@ use std::time::Instant;
 use anyhow::Context;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
-use subsurf_decoder::bssrdf::{Coding, Header};
+use subsurf_decoder::bssrdf::{BssrdfHeader, Coding};
 use subsurf_decoder::container::{Container, Crc, crc32};
 use subsurf_encoder::capture::{Capture, Overrides};
 use subsurf_runtime::{Gpu, Material, PatchLight, PatchRenderer, Region, Storage as GpuStorage, storage_of};
@@ -85,7 +85,7 @@ fn report(
 }
 
 /// What the header says, and how the device will hold it.
-fn describe(path: &Path, is_capture: bool) -> anyhow::Result<(Header, GpuStorage)> {
+fn describe(path: &Path, is_capture: bool) -> anyhow::Result<(BssrdfHeader, GpuStorage)> {
     if is_capture {
         let capture = Capture::open(path, &Overrides::default())?;
         return Ok((header_of(&capture)?, GpuStorage::Capture));
@@ -96,9 +96,9 @@ fn describe(path: &Path, is_capture: bool) -> anyhow::Result<(Header, GpuStorage
 }
 
 /// A capture has no profiles; everything else is as in a file.
-fn header_of(capture: &Capture) -> anyhow::Result<Header> {
+fn header_of(capture: &Capture) -> anyhow::Result<BssrdfHeader> {
     let radius = u16::try_from(capture.radius())?;
-    Ok(Header {
+    Ok(BssrdfHeader {
         model: MODEL_2BMPP,
         coding: Coding::Exact,
         addressing: capture.addressing(),
@@ -116,7 +116,7 @@ fn header_of(capture: &Capture) -> anyhow::Result<Header> {
 struct Bench<'a> {
     gpu: Option<&'a Gpu>,
     path: &'a Path,
-    header: Header,
+    header: BssrdfHeader,
     storage: GpuStorage,
     /// What an application has before it loads its first material: pipelines, and light.
     renderer: Option<PatchRenderer>,
@@ -125,7 +125,7 @@ struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    fn new(gpu: Option<&'a Gpu>, path: &'a Path, header: Header, storage: GpuStorage) -> anyhow::Result<Self> {
+    fn new(gpu: Option<&'a Gpu>, path: &'a Path, header: BssrdfHeader, storage: GpuStorage) -> anyhow::Result<Self> {
         let renderer = gpu.map(|gpu| PatchRenderer::new(gpu, storage)).transpose()?;
         let size = [header.width.min(FRAME), header.height.min(FRAME)];
         let origin = [(header.width - size[0]) / 2, (header.height - size[1]) / 2];
@@ -197,12 +197,12 @@ impl<'a> Bench<'a> {
 
 /// The CPU twin's view of a capture.
 struct Entries<'a> {
-    header: Header,
+    header: BssrdfHeader,
     entries: &'a [u8],
 }
 
 impl Reflectance for Entries<'_> {
-    fn header(&self) -> &Header {
+    fn header(&self) -> &BssrdfHeader {
         &self.header
     }
 

@@ -6,10 +6,8 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use serde_json::json;
-use subsurf_decoder::bssrdf::{Coding, Model, Profiles};
-use subsurf_decoder::btf::{Catalog, Model as BtfModel};
-use subsurf_decoder::container::{Container, Crc};
-use subsurf_decoder::{Bssrdf, Btf, Section};
+use subsurf_decoder::bssrdf::{BssrdfModel, Coding, Profiles};
+use subsurf_decoder::{Bssrdf, Content, Family, File, NestedBtf, ReadError};
 use subsurf_encoder::btf::Folder;
 
 pub(crate) use btf::{Parts, material_number};
@@ -61,14 +59,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         return folder_info(args);
     }
     let bytes = read_file(&args.file)?;
-    let container = Container::parse(&bytes).map_err(|error| read_error(&args.file, error))?;
-    if container.entries().any(|entry| entry.section == Section::BtfHeader) {
-        return btf::info(args, &bytes, &container);
-    }
-    let material = parse(&args.file, &bytes)?;
+    let file = parse_file(&args.file, &bytes)?;
+    let container = file.container();
+    let Content::Bssrdf(material) = file.content() else { return btf::info(args, &file) };
     let header = material.header();
     let model = match material.model() {
-        Model::BaseMaterials(planes) => {
+        BssrdfModel::BaseMaterials(planes) => {
             let coding = match header.coding {
                 Coding::Exact => "",
                 Coding::SmallRatios => ", ratios in 8 bits",
@@ -77,7 +73,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             let half = if matches!(planes.profiles, Profiles::F16(_)) { ", profiles in half precision" } else { "" };
             format!("{}-BMPP (base materials per pixel: {}{coding}{half})", header.model, header.model)
         }
-        Model::PerPixel(_) => "per-pixel profiles".to_owned(),
+        BssrdfModel::PerPixel(_) => "per-pixel profiles".to_owned(),
     };
     if args.json {
         let sections: Vec<_> = container
@@ -122,7 +118,12 @@ pub(crate) fn read_file(path: &std::path::Path) -> anyhow::Result<Vec<u8>> {
 
 /// Parses with all checks, and names the file if it fails.
 pub(crate) fn parse<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Bssrdf<'a>> {
-    Bssrdf::parse_with(bytes, Crc::Check).map_err(|error| read_error(path, error)).context("not a usable material")
+    Bssrdf::parse(bytes).map_err(|error| read_error(path, error)).context("not a usable material")
+}
+
+/// [`parse`] of a file of any family.
+fn parse_file<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<File<'a>> {
+    File::parse(bytes).map_err(|error| read_error(path, error)).context("not a usable file")
 }
 
 /// What a file holds that can be drawn.
@@ -132,29 +133,29 @@ pub(crate) enum Parsed<'a> {
     /// A translucent material.
     Bssrdf(Bssrdf<'a>),
     /// A bidirectional texture function.
-    Btf(Btf<'a>),
+    Btf(NestedBtf<'a>),
 }
 
 /// [`parse`] of either.
 pub(crate) fn parse_any<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Parsed<'a>> {
-    let container =
-        Container::parse(bytes).map_err(|error| read_error(path, error)).context("not a usable material")?;
-    if !container.entries().any(|entry| entry.section == Section::BtfHeader) {
-        return parse(path, bytes).map(Parsed::Bssrdf);
+    match parse_file(path, bytes)?.content() {
+        Content::Bssrdf(material) => Ok(Parsed::Bssrdf(material)),
+        Content::NestedBtf(btf) => Ok(Parsed::Btf(btf)),
+        other => Err(not_drawn(path, other.family())),
     }
-    parse_btf(path, bytes).map(Parsed::Btf)
 }
 
 /// [`parse`] of a BTF that can be drawn.
-pub(crate) fn parse_btf<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Btf<'a>> {
-    Btf::parse_with(bytes, Crc::Check).or_else(|error| {
-        let model = Catalog::parse(bytes, Crc::Check).map(|catalog| catalog.header().model);
-        if matches!(model, Ok(BtfModel::Factored)) {
-            let what = "a BTF of factors, which only the library evaluates; encode it with --method nested to draw it";
-            return Err(bad_request(format!("{}: {what}", path.display())));
-        }
-        Err(read_error(path, error)).context("not a usable BTF")
+pub(crate) fn parse_btf<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<NestedBtf<'a>> {
+    NestedBtf::parse(bytes).or_else(|error| match error {
+        ReadError::OtherFamily { found: found @ Family::FactoredBtf, .. } => Err(not_drawn(path, found)),
+        error => Err(read_error(path, error)).context("not a usable BTF"),
     })
+}
+
+fn not_drawn(path: &std::path::Path, family: Family) -> anyhow::Error {
+    let why = "which only the library evaluates; encode it with --method nested to draw it";
+    bad_request(format!("{}: a {family}, {why}", path.display()))
 }
 
 pub(crate) fn read_error(path: &std::path::Path, source: subsurf_decoder::ReadError) -> subsurf_encoder::Error {

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use glam::{Vec2, Vec3, Vec4};
 use image::RgbImage;
 use serde_json::{Map, Value, json};
-use subsurf_decoder::Btf;
+use subsurf_decoder::NestedBtf;
 use subsurf_encoder::btf::{Folder, Images};
 use subsurf_runtime::scene::{Mesh, Outline, REFLECTION_SIZE, Scene};
 use subsurf_runtime::{
@@ -115,7 +115,7 @@ impl BtfArgs {
     }
 
     /// The number of the material that is asked for; the first one if none is.
-    pub(crate) fn number(&self, btf: &Btf<'_>) -> anyhow::Result<usize> {
+    pub(crate) fn number(&self, btf: &NestedBtf<'_>) -> anyhow::Result<usize> {
         let Some(asked) = &self.material else {
             return Ok(0);
         };
@@ -193,8 +193,8 @@ pub(crate) fn in_bytes(images: &Images, pair: usize) -> Vec<[u8; 3]> {
 /// Brings images to a device.
 pub(crate) fn upload_images(gpu: &Gpu, images: &Images) -> anyhow::Result<BtfMaterial> {
     let white = match images.tone() {
-        subsurf_decoder::btf::Tone::Display { white } => white,
-        subsurf_decoder::btf::Tone::LogLuv { .. } => 1.0,
+        subsurf_decoder::btf::ColourEncoding::Display { white } => white,
+        subsurf_decoder::btf::ColourEncoding::LogLuv { .. } => 1.0,
     };
     let views = images.views().len();
     let description = BtfImages { size: images.size(), lights: images.lights(), views: images.views(), white };
@@ -217,7 +217,7 @@ pub(crate) fn prepare_btf(
 /// Draws a mesh made of a BTF; where there are images, they come second.
 pub(crate) fn draw_btf(
     gpu: Option<&Gpu>,
-    btf: &Btf<'_>,
+    btf: &NestedBtf<'_>,
     mesh: &Mesh,
     args: &BtfArgs,
     shot: &Shot,

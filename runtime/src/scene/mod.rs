@@ -11,7 +11,7 @@ mod tangents;
 use glam::Vec3;
 use glam::camera::rh::proj::directx::perspective;
 use glam::camera::rh::view::look_at_mat4;
-use subsurf_decoder::bssrdf::{Addressing, Coding, Header};
+use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, Coding};
 use subsurf_shaders::cpu::diffuse_transmittance;
 use subsurf_shaders::uniform::{self, MAX_LIGHTS};
 
@@ -58,7 +58,7 @@ pub struct Outline {
     /// Radius of a sphere around it that holds the mesh, in mm.
     pub radius_mm: f32,
     /// Pitch, refractive index and so on of the material.
-    pub header: Header,
+    pub header: BssrdfHeader,
     /// Where the material lies on the mesh.
     pub mapping: Mapping,
 }
@@ -66,7 +66,7 @@ pub struct Outline {
 impl Outline {
     /// Of a mesh made of a material.
     #[must_use]
-    pub fn new(mesh: &Mesh, mapping: Mapping, header: &Header) -> Self {
+    pub fn new(mesh: &Mesh, mapping: Mapping, header: &BssrdfHeader) -> Self {
         let [low, high] = mesh.bounds();
         let centre_mm = 0.5 * (low + high);
         let radius_mm = mesh.positions.iter().map(|position| position.distance(centre_mm)).fold(1e-3, f32::max);
@@ -77,7 +77,7 @@ impl Outline {
     /// texture coordinates, in u and in v.
     #[must_use]
     pub fn of_btf(mesh: &Mesh, copies: [f32; 2]) -> Self {
-        let nothing = Header {
+        let nothing = BssrdfHeader {
             model: 0,
             coding: Coding::Exact,
             addressing: Addressing::Repeat,

@@ -3,7 +3,7 @@
 use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3, Vec4};
-use subsurf_decoder::Btf;
+use subsurf_decoder::NestedBtf;
 use subsurf_decoder::btf::{Texel, View};
 
 use super::raster::{Covered, rasterise};
@@ -14,7 +14,7 @@ use crate::uniform::{BtfFiltering, MAX_LIGHTS, Scene};
 #[derive(Clone, Copy, Debug)]
 pub struct BtfSurface<'a> {
     /// The file.
-    pub btf: &'a Btf<'a>,
+    pub btf: &'a NestedBtf<'a>,
     /// Number of the material.
     pub material: usize,
     /// Which texels a pixel shows.
@@ -126,7 +126,7 @@ fn chances([x, y]: [u32; 2]) -> [f32; 3] {
 
 impl BtfSurface<'_> {
     fn value(&self, texel: Texel, light: [f32; 3], seen: &View) -> Vec3 {
-        self.btf.header().tone.linear(self.btf.eval_for(texel, light, seen)).into()
+        self.btf.header().encoding.linear(self.btf.eval_for(texel, light, seen)).into()
     }
 
     fn size(&self, level: u8) -> [u32; 2] {

@@ -3,7 +3,7 @@
 #![allow(clippy::cast_possible_truncation, reason = "results in double precision are kept in single; counts are small")]
 
 use nalgebra::{DMatrix, DVector};
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use super::Detail;
 use super::radial::Radial;
@@ -26,7 +26,7 @@ struct Ring {
 }
 
 /// Widths and weights `[L][L][A]` for offsets of whole pixels in the window.
-pub(super) fn fit(header: &Header, radial: &Radial, detail: Detail) -> (Vec<f32>, Vec<Rgb>) {
+pub(super) fn fit(header: &BssrdfHeader, radial: &Radial, detail: Detail) -> (Vec<f32>, Vec<Rgb>) {
     let rings = rings(header);
     let kernels = kernels(&rings, radial, detail.terms);
     let radius = f64::from(header.window_radius.max(1));
@@ -58,7 +58,7 @@ pub(super) fn fit(header: &Header, radial: &Radial, detail: Detail) -> (Vec<f32>
     (logs.iter().map(|log| log.exp() as f32).collect(), weights)
 }
 
-fn rings(header: &Header) -> Vec<Ring> {
+fn rings(header: &BssrdfHeader) -> Vec<Ring> {
     let radius = i32::from(header.window_radius);
     let r_max = f64::from(header.r_max_mm / header.pitch_mm);
     let mut squares: Vec<i32> =

@@ -19,7 +19,7 @@ pub use homogeneous::{mean_kernel, softened};
 pub use radial::mean_profile;
 
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use crate::cpu::Rgb;
 
@@ -47,7 +47,7 @@ impl Default for Detail {
 #[derive(Clone, Debug)]
 pub struct Factors {
     /// Size, pitch, window and addressing.
-    pub header: Header,
+    pub header: BssrdfHeader,
     /// L and A.
     pub detail: Detail,
     /// c_l of every pixel; shape `[L][height][width]`, mm⁻¹.
@@ -72,7 +72,7 @@ impl Factors {
         Self::from_radial(*material.header(), radial::Radial::of(material, detail.terms), detail)
     }
 
-    fn from_radial(header: Header, radial: radial::Radial, detail: Detail) -> Self {
+    fn from_radial(header: BssrdfHeader, radial: radial::Radial, detail: Detail) -> Self {
         let (sigmas, weights) = gaussians::fit(&header, &radial, detail);
         Self { header, detail, coefficients: radial.coefficients, sigmas, weights }
     }

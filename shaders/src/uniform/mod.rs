@@ -3,7 +3,7 @@
 mod btf;
 
 use bytemuck::{Pod, Zeroable};
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use crate::cpu::Rgb;
 use crate::separable::{self, Factors, MAX_GAUSSIANS, MAX_TERMS};
@@ -45,7 +45,7 @@ pub const BASE_ROWS: u32 = 1_024;
 impl Material {
     /// The block for a file's header; plain arrays have layers of `layer` texels.
     #[must_use]
-    pub fn new(header: &Header, layer: [u32; 2]) -> Self {
+    pub fn new(header: &BssrdfHeader, layer: [u32; 2]) -> Self {
         Self {
             size: [header.width, header.height],
             addressing: header.addressing.code().into(),
