@@ -53,7 +53,7 @@ pub(crate) fn line(error: &anyhow::Error) -> String {
 
 fn code(error: &anyhow::Error) -> u8 {
     for cause in error.chain() {
-        if cause.is::<BadRequest>() {
+        if cause.is::<BadRequest>() || cause.is::<subsurf_scene::Error>() {
             return INPUT;
         }
         if cause.is::<NoDisplay>() {
@@ -63,9 +63,9 @@ fn code(error: &anyhow::Error) -> u8 {
             return if error.is_callers() { INPUT } else { MACHINE };
         }
         if let Some(error) = cause.downcast_ref::<subsurf_runtime::Error>() {
-            use subsurf_runtime::Error::{Mesh, NoDevice, NoHalfFloats, Read, Unsupported};
+            use subsurf_runtime::Error::{Mesh, NoDevice, NoHalfFloats, Read, Scene, Unsupported};
             return match error {
-                Read(_) | Mesh(_) => INPUT,
+                Read(_) | Mesh(_) | Scene(_) => INPUT,
                 NoDevice { .. } | NoHalfFloats { .. } | Unsupported { .. } => NO_DEVICE,
                 _ => MACHINE,
             };

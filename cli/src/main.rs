@@ -10,7 +10,6 @@ mod failure;
 mod info;
 mod interrupt;
 mod memory;
-mod mesh;
 mod options;
 mod picture;
 mod progress;

@@ -1,10 +1,12 @@
 //! Values that several commands take.
 
+use std::path::Path;
 use std::str::FromStr;
 
 use clap::ValueEnum;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::capture::Overrides;
+use subsurf_scene::UpAxis;
 
 /// What lies beyond the border of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -25,6 +27,29 @@ impl From<AddressingArg> for Addressing {
             AddressingArg::Mirror => Self::Mirror,
         }
     }
+}
+
+/// Which way is up in the file of a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum UpArg {
+    /// As in glTF and most OBJ files
+    Y,
+    /// As in most scans and CAD files
+    Z,
+}
+
+impl From<UpArg> for UpAxis {
+    fn from(arg: UpArg) -> Self {
+        match arg {
+            UpArg::Y => Self::Y,
+            UpArg::Z => Self::Z,
+        }
+    }
+}
+
+/// What to call what is in a file.
+pub(crate) fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 /// Facts about a capture that its sidecar, NAME.json, usually states.

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use glam::{Quat, Vec3};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::Progress as _;
-use subsurf_runtime::scene::{LightShape, Mesh, Scene};
 use subsurf_runtime::{Gpu, PictureTarget, RuntimeOptions};
+use subsurf_scene::{LightShape, Mesh, Scene};
 
 use crate::progress::Bars;
 use crate::render::{Ingredients, Ready, Shot};
@@ -84,7 +84,7 @@ impl Course {
 /// Courses take turns: what else the machine does falls on all of them alike. If `frames` is 0, the first one counts.
 pub(super) fn run(gpu: &Gpu, courses: &mut [Course], mesh: &Mesh, size: [u32; 2], frames: usize) -> anyhow::Result<()> {
     let mut scene = Shot::usual(size).scene(mesh);
-    scene.view.exposure = 0.5;
+    scene.camera.exposure = 0.5;
     let bars = Bars::new();
     bars.begin("frames", ((2 * frames + 1) * courses.len()) as u64);
     for number in 0..=frames {

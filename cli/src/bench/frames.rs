@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::synthetic::per_pixel_of;
 use subsurf_runtime::Backend;
-use subsurf_runtime::scene::{Mesh, relief};
+use subsurf_scene::{Mesh, UpAxis, load_mesh, relief};
 
 use super::course::{self, Course, Times};
 use super::timing::{median, quantile};
@@ -14,8 +14,7 @@ use crate::devices::to_compare;
 use crate::failure::bad_request;
 use crate::info::{parse, read_file};
 use crate::memory::human;
-use crate::mesh::{Up, fitted, load, stem};
-use crate::options::Size;
+use crate::options::{Size, stem};
 use crate::render::{Ingredients, MappingArg, PathArg, Shot, choose_mapping};
 use crate::say::say;
 
@@ -95,12 +94,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 fn bumpy_sphere(rings: u16) -> anyhow::Result<(String, Mesh)> {
-    Ok(("bumpy sphere".to_owned(), fitted(relief(20.0, 8, rings), EXTENT_MM)?))
+    Ok(("bumpy sphere".to_owned(), relief(20.0, 8, rings).fitted(EXTENT_MM)?))
 }
 
 /// A mesh and what to call it.
 pub(super) fn named(path: &Path) -> anyhow::Result<(String, Mesh)> {
-    Ok((stem(path), load(path, EXTENT_MM, Up::Y)?))
+    Ok((stem(path), load_mesh(path, EXTENT_MM, UpAxis::Y)?))
 }
 
 fn line(times: &Times) -> String {

@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::{psnr_db, ssim};
 use subsurf_encoder::write_bytes;
-use subsurf_runtime::scene::{Mesh, Scene};
 use subsurf_runtime::{BACKGROUND, Backend, Gpu, RuntimeOptions};
+use subsurf_scene::{Mesh, Scene};
 
 use super::course::{self, Course};
 use super::frames::named;
@@ -19,8 +19,7 @@ use crate::devices::to_compare;
 use crate::failure::bad_request;
 use crate::info::{parse, read_file};
 use crate::memory::human;
-use crate::mesh::stem;
-use crate::options::Size;
+use crate::options::{Size, stem};
 use crate::picture::{image, montage, write_png};
 use crate::render::{Ingredients, MappingArg, PathArg, Ready, Shot, choose_mapping};
 use crate::say::say;
@@ -105,7 +104,7 @@ fn compare(
         Ready::new(gpu, ingredients.upload(gpu, material, mesh)?, scene, size, RuntimeOptions::default())
     };
     let exposure = ready(gpu, &separable, &scene)?.exposure(gpu, &scene)?;
-    scene.view.exposure = exposure;
+    scene.camera.exposure = exposure;
     let reference = ready(gpu, &gather, &scene)?.picture(gpu, &scene)?;
     let mut shown = vec![image(&reference, size[0])];
     for (backend, gpu) in gpus {

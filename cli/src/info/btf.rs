@@ -11,7 +11,7 @@ use super::{Args, read_error};
 use crate::memory::human;
 use crate::say::say;
 
-pub(super) fn info(args: &Args, file: &File<'_>) -> anyhow::Result<()> {
+pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>) -> anyhow::Result<()> {
     let content = file.content();
     let catalog = match &content {
         Content::NestedBtf(btf) => btf.catalog(),
@@ -19,7 +19,7 @@ pub(super) fn info(args: &Args, file: &File<'_>) -> anyhow::Result<()> {
         other => return Err(not_a_btf(&args.file, other)),
     };
     let parts = Parts::of_content(&args.file, &content)?;
-    let (container, bytes) = (file.container(), file.container().file());
+    let container = file.container();
     let (header, grid) = (catalog.header(), catalog.grid());
     let nodes = [grid.n_alpha, grid.n_beta, grid.n_theta, grid.n_phi];
     if args.json {

@@ -61,7 +61,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let bytes = read_file(&args.file)?;
     let file = parse_file(&args.file, &bytes)?;
     let container = file.container();
-    let Content::Bssrdf(material) = file.content() else { return btf::info(args, &file) };
+    let Content::Bssrdf(material) = file.content() else { return btf::info(args, &bytes, &file) };
     let header = material.header();
     let model = match material.model() {
         BssrdfModel::BaseMaterials(planes) => {

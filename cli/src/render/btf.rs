@@ -8,18 +8,16 @@ use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::NestedBtf;
 use subsurf_encoder::btf::{Folder, Images};
-use subsurf_runtime::scene::{Mesh, Outline, REFLECTION_SIZE, Scene};
 use subsurf_runtime::{
-    BACKGROUND, BtfFiltering, BtfImages, BtfMaterial, BtfOptions, Gpu, GpuMesh, Known, RuntimeOptions,
+    BACKGROUND, BtfFiltering, BtfImages, BtfMaterial, BtfOptions, Gpu, GpuMesh, RuntimeOptions, VertexData,
 };
-use subsurf_shaders::cpu;
-use subsurf_shaders::uniform::MAX_LIGHTS;
+use subsurf_scene::{MAX_LIGHTS, Mesh, Placement, REFLECTION_SIZE, Scene, visibility};
+use subsurf_shaders::{cpu, uniform};
 
 use super::mesh::{SUPERSAMPLING, Shot, average_down, exposure_of};
 use super::prepared::{Prepared, Ready};
 use crate::failure::bad_request;
 use crate::info::material_number;
-use crate::mesh::visibility;
 use crate::picture::montage;
 use crate::progress::Bars;
 
@@ -210,7 +208,7 @@ pub(crate) fn prepare_btf(
     number: usize,
 ) -> anyhow::Result<Prepared> {
     let tangents = mesh.tangents()?;
-    let mesh = GpuMesh::upload(gpu, mesh, &Outline::of_btf(mesh, copies), Known::Tangents(&tangents))?;
+    let mesh = GpuMesh::upload(gpu, mesh, &Placement::of_btf(mesh, copies), VertexData::Tangents(&tangents))?;
     Ok(Prepared::Btf { mesh, material, number })
 }
 
@@ -247,7 +245,7 @@ pub(crate) fn draw_btf(
     let mut draw = |material: BtfMaterial, number: usize, scene: &mut Scene, exposure: Option<f32>, name: &str| {
         facts.insert(name.to_owned(), json!(material.gpu_bytes()));
         let mut ready = Ready::new(gpu, prepare_btf(gpu, mesh, copies, material, number)?, scene, large, options)?;
-        scene.view.exposure = match exposure {
+        scene.camera.exposure = match exposure {
             Some(exposure) => exposure,
             None => ready.exposure(gpu, scene)?,
         };
@@ -258,12 +256,12 @@ pub(crate) fn draw_btf(
         None => picture,
         Some(folder) => {
             let images = read_images(folder)?;
-            let exposure = Some(scene.view.exposure);
+            let exposure = Some(scene.camera.exposure);
             let beside = draw(upload_images(gpu, &images)?, 0, &mut scene, exposure, "images_gpu_bytes")?;
             montage(&[vec![picture, beside]])
         }
     };
-    facts.insert("exposure".to_owned(), json!(scene.view.exposure));
+    facts.insert("exposure".to_owned(), json!(scene.camera.exposure));
     Ok((picture, facts))
 }
 
@@ -314,9 +312,9 @@ fn on_cpu(
     let textured = Textured::new(mesh, copies)?;
     let triangles = textured.triangles(mesh, &visibilities);
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };
-    let outline = Outline::of_btf(mesh, copies);
+    let placement = Placement::of_btf(mesh, copies);
     let draw = |exposure, size| {
-        let mut block = scene.block(&outline, size, RuntimeOptions::default().light_texels);
+        let mut block = uniform::Scene::new(scene, &placement, size, RuntimeOptions::default().light_texels);
         block.exposure = exposure;
         cpu::shade_btf(&triangles, surface, &block, &reflections, size, [BACKGROUND; 3])
     };
@@ -327,7 +325,7 @@ fn on_cpu(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use subsurf_runtime::scene::{sphere, torus};
+    use subsurf_scene::{sphere, torus};
 
     #[test]
     fn copies_are_about_square_and_a_fifth_of_the_mesh() {

@@ -4,9 +4,10 @@ use glam::Vec3;
 use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
-use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, View};
 use subsurf_runtime::{BACKGROUND, Frame, Gpu, Renderer, RuntimeOptions};
-use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene};
+use subsurf_shaders::uniform;
+use subsurf_shaders::{Rgb, cpu};
 
 use super::prepared::{Ingredients, Prepared, Ready, points};
 use super::{Angles, BRIGHT, MappingArg, PathArg, exposure_for};
@@ -51,7 +52,7 @@ impl Shot {
             }],
             environment: self.environment.clone(),
             roughness: self.roughness,
-            view: frame(mesh, self.angles, self.size),
+            camera: frame(mesh, self.angles, self.size),
         }
     }
 }
@@ -81,7 +82,7 @@ pub(crate) fn draw_mesh(
                 Ingredients::compute(material, mesh, mapping, &scene, path, None)?.upload(gpu, material, mesh)?;
             facts.insert("gpu_bytes".to_owned(), json!(prepared.material_bytes()));
             let mut ready = Ready::new(gpu, prepared, &scene, large, shot.options)?;
-            scene.view.exposure = match shot.exposure {
+            scene.camera.exposure = match shot.exposure {
                 Some(exposure) => exposure,
                 None => ready.exposure(gpu, &scene)?,
             };
@@ -92,16 +93,16 @@ pub(crate) fn draw_mesh(
         }
         None => {
             let (fine, surface) = points(mesh, mapping, material, &scene)?;
-            let outline = Outline::new(mesh, mapping, material.header());
-            let mut block = scene.block(&outline, large, shot.options.light_texels);
-            let exitance = cpu::surface_gather(material, &surface.points(), &surface.irradiance(&block));
+            let placement = Placement::new(mesh, mapping, material.header());
+            let mut block = uniform::Scene::new(&scene, &placement, large, shot.options.light_texels);
+            let exitance = cpu::surface_gather(material, &surface, &cpu::irradiance(&block, &surface));
             let brightest = scene.environment.irradiance(Vec3::Y).iter().copied().fold(0.0, f32::max);
             let chosen = || exposure_for(exitance.iter()).min(BRIGHT / brightest.max(1e-6)) * std::f32::consts::PI;
             block.exposure = shot.exposure.unwrap_or_else(chosen);
-            scene.view.exposure = block.exposure;
-            let of_vertices = || surface.point_of().iter().map(|&point| point as usize);
+            scene.camera.exposure = block.exposure;
+            let of_vertices = || surface.point_of.iter().map(|&point| point as usize);
             let exitances: Vec<Rgb> = of_vertices().map(|point| exitance[point]).collect();
-            let visibilities: Vec<_> = of_vertices().map(|point| surface.visibilities()[point]).collect();
+            let visibilities: Vec<_> = of_vertices().map(|point| surface.visibilities[point]).collect();
             let triangles = cpu::Triangles {
                 positions: &fine.positions,
                 normals: &fine.normals,
@@ -109,14 +110,12 @@ pub(crate) fn draw_mesh(
                 visibilities: &visibilities,
                 triangles: &fine.triangles,
             };
-            let reflections = cpu::Reflections {
-                size: subsurf_runtime::scene::REFLECTION_SIZE,
-                levels: scene.environment.reflections(),
-            };
-            cpu::shade(&triangles, &block, &reflections, large, [BACKGROUND; 3])
+            let reflections =
+                cpu::Reflections { size: subsurf_scene::REFLECTION_SIZE, levels: scene.environment.reflections() };
+            cpu::shade_vertex(&triangles, &block, &reflections, large, [BACKGROUND; 3])
         }
     };
-    facts.insert("exposure".to_owned(), json!(scene.view.exposure));
+    facts.insert("exposure".to_owned(), json!(scene.camera.exposure));
     Ok((average_down(&pixels, large), facts))
 }
 
@@ -132,7 +131,7 @@ pub(crate) fn chosen_exposure(
     let mut scene = scene.clone();
     let mut failed = Ok(());
     let exposure = exposure_of(|dark| {
-        scene.view.exposure = dark;
+        scene.camera.exposure = dark;
         renderer.picture(gpu, frame, &prepared.model(), &scene).unwrap_or_else(|error| {
             failed = Err(error);
             Vec::new()
@@ -185,7 +184,7 @@ pub(crate) fn choose_mapping(mesh: &Mesh, mapping: MappingArg, material: &Bssrdf
 }
 
 /// A view in which the mesh fills a picture of `size`.
-fn frame(mesh: &Mesh, angles: Angles, size: [u32; 2]) -> View {
+fn frame(mesh: &Mesh, angles: Angles, size: [u32; 2]) -> Camera {
     const ANGLE: f32 = 0.5;
     let [low, high] = mesh.bounds();
     let target_mm = 0.5 * (low + high);
@@ -195,7 +194,7 @@ fn frame(mesh: &Mesh, angles: Angles, size: [u32; 2]) -> View {
     #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
     let aspect = (size[0] as f32 / size[1] as f32).min(1.0);
     let distance = 1.02 * radius / (0.5 * ANGLE).sin() / aspect;
-    View { eye_mm: target_mm + distance * towards, target_mm, angle: ANGLE, exposure: 1.0 }
+    Camera { eye_mm: target_mm + distance * towards, target_mm, fov_y_rad: ANGLE, exposure: 1.0 }
 }
 
 /// Light of display values, 0 to 1.

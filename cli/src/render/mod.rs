@@ -15,16 +15,15 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::Light;
-use subsurf_runtime::scene::Environment;
-use subsurf_runtime::{Keeping, RuntimeOptions};
-use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_runtime::{RuntimeOptions, TargetFormat};
+use subsurf_scene::{Environment, load_mesh};
+use subsurf_shaders::{Rgb, cpu};
 
 use crate::devices::{self, BackendArg, check_picture};
 use crate::failure::bad_request;
 use crate::info::{Parsed, parse_any, read_file};
 use crate::memory::human;
-use crate::mesh::{Up, load};
-use crate::options::Size;
+use crate::options::{Size, UpArg};
 use crate::picture::write_png;
 use crate::say::say;
 
@@ -52,9 +51,6 @@ pub(crate) struct Args {
     /// How light scatters in a translucent material; gather if not given
     #[arg(long, value_enum)]
     path: Option<PathArg>,
-    /// Shift the taps of the separable path from pixel to pixel: grain instead of bands
-    #[arg(long, requires = "mesh")]
-    jitter: bool,
     /// Light from all around: an equirectangular picture, .hdr or .png; a dim studio if not given
     #[arg(long, value_name = "FILE", requires = "mesh")]
     environment: Option<PathBuf>,
@@ -63,7 +59,7 @@ pub(crate) struct Args {
     roughness: Option<f32>,
     /// Which way is up in the mesh
     #[arg(long, value_enum, default_value = "y", requires = "mesh")]
-    up: Up,
+    up: UpArg,
     /// Where the material lies on the mesh
     #[arg(long, value_enum, default_value = "auto", requires = "mesh")]
     mapping: MappingArg,
@@ -185,7 +181,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             args.refuse_scattering()?;
             let gpu = args.backend.open()?;
             let shape = args.mesh.as_deref().unwrap_or(Path::new(BTF_SHAPE));
-            let mesh = load(shape, args.extent, args.up)?;
+            let mesh = load_mesh(shape, args.extent, args.up.into())?;
             let (picture, facts) = draw_btf(gpu.as_ref(), &btf, &mesh, &args.btf, &args.shot()?)?;
             (picture, facts, devices::name(gpu.as_ref()))
         }
@@ -217,11 +213,8 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, 
     args.btf.expect_none()?;
     let path = args.path.unwrap_or(PathArg::Gather);
     let is_separable = matches!(path, PathArg::Separable | PathArg::Homogeneous);
-    if args.jitter && !is_separable {
-        return Err(bad_request("--jitter is for --path separable and homogeneous; the others have no taps"));
-    }
     let mut gpu = args.backend.open()?;
-    let is_short_of_halves = gpu.as_ref().is_some_and(|gpu| gpu.keeping() == Keeping::Packed);
+    let is_short_of_halves = gpu.as_ref().is_some_and(|gpu| gpu.target_format() == TargetFormat::Packed);
     if is_short_of_halves && is_separable && args.mesh.is_none() && args.backend == BackendArg::Auto {
         // The CPU does what the device cannot.
         gpu = None;
@@ -234,7 +227,7 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, 
             return Err(bad_request("--light X,Y,Z is for meshes; on a patch it is uniform, disc or line"));
         }
         (Some(shape), _) => {
-            let mesh = load(shape, args.extent, args.up)?;
+            let mesh = load_mesh(shape, args.extent, args.up.into())?;
             draw_mesh(gpu.as_ref(), material, &mesh, args.mapping, path, &args.shot()?)?
         }
     };
@@ -262,7 +255,7 @@ impl Args {
             angles: self.view,
             size: self.size.0,
             exposure: self.exposure,
-            options: RuntimeOptions { jitters: self.jitter, ..RuntimeOptions::default() },
+            options: RuntimeOptions::default(),
         })
     }
 
@@ -271,7 +264,6 @@ impl Args {
         let given = [
             ("--path", self.path.is_some()),
             ("--roughness", self.roughness.is_some()),
-            ("--jitter", self.jitter),
             ("--mapping box", self.mapping == MappingArg::Box),
         ];
         match given.iter().find(|(_, is_given)| *is_given) {

@@ -3,17 +3,15 @@
 use std::sync::Arc;
 
 use subsurf_decoder::Bssrdf;
-use subsurf_runtime::scene::{Mapping, Mesh, Outline, Scene, SkyShare, Surface};
 use subsurf_runtime::{
-    BtfMaterial, Frame, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions,
-    SeparableMaterial, SplatMaterial,
+    AmbientTransfer, BtfMaterial, Drawable, Frame, Gpu, GpuMesh, GpuPoints, Material, Renderer, RuntimeOptions,
+    SeparableMaterial, SplatMaterial, Technique, VertexData,
 };
-use subsurf_shaders::separable::{Detail, Factors};
-use subsurf_shaders::uniform::MAX_LIGHTS;
+use subsurf_scene::{MAX_LIGHTS, Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
+use subsurf_shaders::separable::{BasisSize, SeparableBasis};
 
 use super::PathArg;
 use super::mesh::chosen_exposure;
-use crate::mesh::visibility;
 
 /// Longest edge of the mesh between whose vertices light is gathered, in pixels of the material.
 const LONGEST_EDGE: f32 = 1.5;
@@ -27,9 +25,9 @@ pub(crate) struct Ingredients {
 }
 
 enum OfPath {
-    Gather { fine: Mesh, surface: Surface },
-    Splat { sky: Arc<Vec<SkyShare>>, factors: Factors },
-    Separable { sky: Arc<Vec<SkyShare>>, factors: Factors },
+    Gather { fine: Mesh, surface: SurfacePoints },
+    Splat { sky: Arc<Vec<AmbientTransfer>>, factors: SeparableBasis },
+    Separable { sky: Arc<Vec<AmbientTransfer>>, factors: SeparableBasis },
 }
 
 impl Ingredients {
@@ -40,18 +38,20 @@ impl Ingredients {
         mapping: Mapping,
         scene: &Scene,
         path: PathArg,
-        sky: Option<Arc<Vec<SkyShare>>>,
+        sky: Option<Arc<Vec<AmbientTransfer>>>,
     ) -> anyhow::Result<Self> {
         let sky = || match sky {
             Some(sky) => Ok(sky),
-            None => SkyShare::of(mesh, material).map(Arc::new),
+            None => AmbientTransfer::of(mesh, material).map(Arc::new),
         };
         let of_path = match path {
             PathArg::Gather => {
                 let (fine, surface) = points(mesh, mapping, material, scene)?;
                 OfPath::Gather { fine, surface }
             }
-            PathArg::Splat => OfPath::Splat { sky: sky()?, factors: Factors::of(material, Detail::default()) },
+            PathArg::Splat => {
+                OfPath::Splat { sky: sky()?, factors: SeparableBasis::of(material, BasisSize::default()) }
+            }
             PathArg::Separable | PathArg::Homogeneous => {
                 OfPath::Separable { sky: sky()?, factors: factors(material, path) }
             }
@@ -60,7 +60,7 @@ impl Ingredients {
     }
 
     /// Light from all around, the same for all paths that want it.
-    pub(crate) fn sky(&self) -> Option<&Arc<Vec<SkyShare>>> {
+    pub(crate) fn sky(&self) -> Option<&Arc<Vec<AmbientTransfer>>> {
         match &self.of_path {
             OfPath::Splat { sky, .. } | OfPath::Separable { sky, .. } => Some(sky),
             OfPath::Gather { .. } => None,
@@ -69,11 +69,11 @@ impl Ingredients {
 
     /// Brings everything to a device.
     pub(crate) fn upload(&self, gpu: &Gpu, material: &Bssrdf<'_>, mesh: &Mesh) -> anyhow::Result<Prepared> {
-        let outline = Outline::new(mesh, self.mapping, material.header());
-        let shared = |sky: &[SkyShare]| GpuMesh::upload(gpu, mesh, &outline, Known::Sky(sky));
+        let placement = Placement::new(mesh, self.mapping, material.header());
+        let shared = |sky: &[AmbientTransfer]| GpuMesh::upload(gpu, mesh, &placement, VertexData::Ambient(sky));
         Ok(match &self.of_path {
             OfPath::Gather { fine, surface } => Prepared::Gather {
-                mesh: GpuMesh::upload(gpu, fine, &outline, Known::Points(surface.point_of()))?,
+                mesh: GpuMesh::upload(gpu, fine, &placement, VertexData::Points(&surface.point_of))?,
                 points: GpuPoints::upload(gpu, surface)?,
                 material: Material::upload(gpu, material)?,
             },
@@ -87,11 +87,11 @@ impl Ingredients {
     }
 }
 
-/// Factors of a material, or of its mean.
-pub(super) fn factors(material: &Bssrdf<'_>, path: PathArg) -> Factors {
+/// SeparableBasis of a material, or of its mean.
+pub(super) fn factors(material: &Bssrdf<'_>, path: PathArg) -> SeparableBasis {
     match path {
-        PathArg::Homogeneous => Factors::homogeneous(material, Detail::default().gaussians),
-        PathArg::Gather | PathArg::Splat | PathArg::Separable => Factors::within(material, LEAST_DB),
+        PathArg::Homogeneous => SeparableBasis::homogeneous(material, BasisSize::default().gaussians),
+        PathArg::Gather | PathArg::Splat | PathArg::Separable => SeparableBasis::within(material, LEAST_DB),
     }
 }
 
@@ -101,7 +101,7 @@ pub(super) fn points(
     mapping: Mapping,
     material: &Bssrdf<'_>,
     scene: &Scene,
-) -> anyhow::Result<(Mesh, Surface)> {
+) -> anyhow::Result<(Mesh, SurfacePoints)> {
     let fine = mesh.clone().subdivided(LONGEST_EDGE * material.header().pitch_mm)?;
     let mut visibilities = vec![[0.0; MAX_LIGHTS]; fine.positions.len()];
     for (k, light) in scene.lights.iter().take(MAX_LIGHTS).enumerate() {
@@ -109,7 +109,7 @@ pub(super) fn points(
             of_vertex[k] = seen;
         }
     }
-    let surface = Surface::new(&fine, mapping, material.header(), &visibilities);
+    let surface = SurfacePoints::new(&fine, mapping, material.header(), &visibilities);
     Ok((fine, surface))
 }
 
@@ -132,22 +132,22 @@ impl Prepared {
         }
     }
 
-    pub(crate) fn model(&self) -> Model<'_> {
+    pub(crate) fn model(&self) -> Drawable<'_> {
         match self {
-            Self::Gather { mesh, points, material } => Model::Gather { mesh, points, material },
-            Self::Splat { mesh, material } => Model::Splat { mesh, material },
-            Self::Separable { mesh, material } => Model::Separable { mesh, material },
-            Self::Btf { mesh, material, number } => Model::Btf { mesh, material, number: *number },
+            Self::Gather { mesh, points, material } => Drawable::Gather { mesh, points, material },
+            Self::Splat { mesh, material } => Drawable::Splat { mesh, material },
+            Self::Separable { mesh, material } => Drawable::Separable { mesh, material },
+            Self::Btf { mesh, material, number } => Drawable::Btf { mesh, material, number: *number },
         }
     }
 
     /// The renderer's name for the path.
-    pub(crate) fn path(&self) -> Path {
+    pub(crate) fn path(&self) -> Technique {
         match self {
-            Self::Gather { material, .. } => Path::Gather(material.storage()),
-            Self::Splat { material, .. } => Path::Splat(material.planes().storage()),
-            Self::Separable { material, .. } => Path::Separable(material.terms()),
-            Self::Btf { material, .. } => Path::Btf(material.storage()),
+            Self::Gather { material, .. } => Technique::Gather(material.layout()),
+            Self::Splat { material, .. } => Technique::Splat(material.planes().layout()),
+            Self::Separable { material, .. } => Technique::Separable(material.terms()),
+            Self::Btf { material, .. } => Technique::Btf(material.layout()),
         }
     }
 

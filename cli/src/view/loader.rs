@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use subsurf_encoder::btf::Images;
-use subsurf_runtime::scene::{Mesh, Scene, SkyShare};
-use subsurf_runtime::{BtfMaterial, Gpu};
+use subsurf_runtime::{AmbientTransfer, BtfMaterial, Gpu};
+use subsurf_scene::{Mesh, Scene};
 use winit::event_loop::EventLoopProxy;
 
 use super::Notice;
@@ -75,7 +75,7 @@ impl Computed {
     }
 
     /// Light from all around, where it was computed.
-    fn sky(&self) -> Option<&Arc<Vec<SkyShare>>> {
+    fn sky(&self) -> Option<&Arc<Vec<AmbientTransfer>>> {
         match self {
             Self::Scattering(ingredients) => ingredients.sky(),
             Self::Btf { .. } | Self::Images { .. } => None,
@@ -84,7 +84,7 @@ impl Computed {
 }
 
 impl Order {
-    fn compute(&self, sky: Option<Arc<Vec<SkyShare>>>) -> anyhow::Result<Computed> {
+    fn compute(&self, sky: Option<Arc<Vec<AmbientTransfer>>>) -> anyhow::Result<Computed> {
         match (self.material.read()?, self.key.way) {
             (Parsed::Bssrdf(material), Way::Path(path)) => {
                 let mapping = choose_mapping(&self.mesh, self.mapping, &material)?;

@@ -23,7 +23,7 @@ use winit::event_loop::EventLoop;
 
 use crate::devices::check_picture;
 use crate::failure::{NoDisplay, bad_request};
-use crate::mesh::Up;
+use crate::options::UpArg;
 use crate::options::{ByteCount, Size};
 use crate::render::{BtfArgs, MappingArg, PathArg, ROUGHNESS, Shot, read_environment};
 use app::{App, Wishes};
@@ -48,7 +48,7 @@ pub(crate) struct Args {
     extent: f32,
     /// Which way is up in the mesh
     #[arg(long, value_enum, default_value = "y")]
-    up: Up,
+    up: UpArg,
     /// Where the material lies on the mesh
     #[arg(long, value_enum, default_value = "auto")]
     mapping: MappingArg,
@@ -58,9 +58,6 @@ pub(crate) struct Args {
     /// Begin with ten times the difference to the gather, or of a BTF to its images
     #[arg(long)]
     error: bool,
-    /// Shift the taps of the separable path from pixel to pixel: grain instead of bands
-    #[arg(long)]
-    jitter: bool,
     /// Light from all around: an equirectangular picture, .hdr or .png
     #[arg(long, value_name = "FILE")]
     environment: Option<PathBuf>,
@@ -121,7 +118,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     args.btf.check()?;
     let btf = Arc::new(args.btf.clone());
-    let subject = Subject::open(&args.files, &args.mesh, Reading { extent_mm: args.extent, up: args.up }, &btf)?;
+    let subject = Subject::open(&args.files, &args.mesh, Reading { extent_mm: args.extent, up: args.up.into() }, &btf)?;
     let environment = match &args.environment {
         Some(path) => read_environment(path)?,
         None => Shot::usual(args.size.0).environment,
@@ -168,7 +165,6 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         options: RuntimeOptions {
             budget_bytes,
             samples: SAMPLES,
-            jitters: args.jitter,
             btf: args.btf.options(BtfOptions { samples: BTF_SAMPLES, ..BtfOptions::default() }),
             ..RuntimeOptions::default()
         },

@@ -4,12 +4,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use subsurf_runtime::scene::{Mesh, Scene};
 use subsurf_runtime::wgpu::{
     BindGroup, Color, CommandEncoderDescriptor, LoadOp, Operations, PollType, RenderPassColorAttachment,
     RenderPassDescriptor, StoreOp, TextureFormat, TextureView, TextureViewDescriptor,
 };
-use subsurf_runtime::{Backend, Frame, Gpu, Path, PictureTarget, Plan, Renderer, RuntimeOptions};
+use subsurf_runtime::{Backend, Frame, Gpu, PictureTarget, Plan, Renderer, RuntimeOptions, Technique};
+use subsurf_scene::{Mesh, Scene};
 use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
 
@@ -44,7 +44,7 @@ impl Fit {
     const MARGIN: f32 = 1.25;
 
     fn of(scene: &Scene, size: [u32; 2]) -> Self {
-        Self { size, distance_mm: scene.view.eye_mm.distance(scene.view.target_mm) }
+        Self { size, distance_mm: scene.camera.eye_mm.distance(scene.camera.target_mm) }
     }
 
     fn serves(&self, wanted: &Self) -> bool {
@@ -70,7 +70,7 @@ pub(super) struct Stage {
     painter: Painter,
     options: RuntimeOptions,
     /// Made once for each path.
-    renderers: Vec<(Path, Renderer)>,
+    renderers: Vec<(Technique, Renderer)>,
     drawn: [Option<Drawn>; 2],
     pictures: Option<BindGroup>,
 }

@@ -1,7 +1,7 @@
 //! Eye, light and surroundings.
 
 use glam::{Quat, Vec2, Vec3};
-use subsurf_runtime::scene::{Environment, LightShape, Mesh, Scene};
+use subsurf_scene::{Environment, LightShape, Mesh, Scene};
 
 use super::orbit::{Orbit, dragged};
 use super::panel::Settings;
@@ -25,7 +25,7 @@ impl Studio {
     pub(super) fn of(mesh: &Mesh, environment: &Environment, size: [u32; 2]) -> Self {
         let shot = Shot { environment: environment.clone(), ..Shot::usual(size) };
         let scene = shot.scene(mesh);
-        Self { orbit: Orbit::of(&scene.view), scene, light: shot.direction, rested: shot.direction }
+        Self { orbit: Orbit::of(&scene.camera), scene, light: shot.direction, rested: shot.direction }
     }
 
     /// View and light as at the beginning; the surroundings stay.
@@ -60,7 +60,7 @@ impl Studio {
 
     /// What is drawn under a light from there.
     pub(super) fn scene(&mut self, light: Vec3, settings: &Settings) -> &Scene {
-        self.scene.view = self.orbit.view(settings.exposure);
+        self.scene.camera = self.orbit.view(settings.exposure);
         self.scene.roughness = settings.roughness;
         for source in &mut self.scene.lights {
             source.shape = LightShape::Directional { towards: light };

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use subsurf_runtime::scene::Mesh;
+use subsurf_scene::{Mesh, SHAPES, UpAxis, load_mesh};
 
 use crate::failure::bad_request;
 use crate::info::{Parsed, parse_any, read_file};
-use crate::mesh::{SHAPES, Up, load, stem};
+use crate::options::stem;
 use crate::render::BtfArgs;
 
 /// A material file that was found to be in order.
@@ -64,7 +64,7 @@ impl MaterialFile {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
     pub(super) extent_mm: f32,
-    pub(super) up: Up,
+    pub(super) up: UpAxis,
 }
 
 /// Materials to choose from, and the mesh that is made of one of them.
@@ -98,7 +98,7 @@ impl Subject {
         Ok(Self {
             materials: files.concat(),
             btf: btf.clone(),
-            mesh: Arc::new(load(mesh, reading.extent_mm, reading.up)?),
+            mesh: Arc::new(load_mesh(mesh, reading.extent_mm, reading.up)?),
             mesh_name: stem(mesh),
             mesh_number: 0,
             reading,
@@ -135,7 +135,7 @@ impl Subject {
     }
 
     fn set_mesh(&mut self, path: &Path) -> anyhow::Result<()> {
-        self.mesh = Arc::new(load(path, self.reading.extent_mm, self.reading.up)?);
+        self.mesh = Arc::new(load_mesh(path, self.reading.extent_mm, self.reading.up)?);
         self.mesh_name = stem(path);
         self.mesh_number += 1;
         Ok(())
@@ -154,7 +154,7 @@ mod tests {
             std::fs::write(&path, text).unwrap();
             path
         };
-        let reading = Reading { extent_mm: 60.0, up: Up::Y };
+        let reading = Reading { extent_mm: 60.0, up: UpAxis::Y };
         let mut subject = Subject::open(&[], Path::new("torus"), reading, &Arc::default()).unwrap();
         let triangle = file("triangle.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         assert_eq!(subject.drop(&triangle).unwrap(), Dropped::Mesh);

@@ -1,0 +1,98 @@
+//! Materials for separable blurs on the device.
+
+use subsurf_decoder::bssrdf::BssrdfHeader;
+use subsurf_shaders::separable::SeparableBasis;
+use subsurf_shaders::uniform;
+use subsurf_shaders::{Rgb, cpu};
+use wgpu::Buffer;
+
+use super::patch_layers::PatchLayers;
+use crate::error::{Error, Result};
+use crate::gpu::{Gpu, Tracked};
+
+/// Refuses a basis whose tables are not as long as it says.
+pub(super) fn whole(basis: &SeparableBasis) -> Result<()> {
+    let size = basis.size;
+    let error = || Error::Device(format!("a basis that has not as many numbers as {size:?} and the patch take"));
+    basis.is_whole().then_some(()).ok_or_else(error)
+}
+
+/// Albedo of every pixel under uniform light.
+pub(super) fn albedo(basis: &SeparableBasis) -> Vec<Rgb> {
+    cpu::separable(basis, &vec![[1.0; 3]; basis.coefficients_of(0).len()])
+}
+
+/// Separable material on the device: coefficients c_l and albedo over the patch, and blocks of the cascade of Gaussians.
+#[derive(Debug)]
+pub struct SeparableMaterial {
+    header: BssrdfHeader,
+    terms: usize,
+    /// Layers c_l, l < L, and the albedo under uniform light.
+    pub(crate) layers: PatchLayers,
+    /// Blocks along rows and along columns, for each Gaussian a.
+    stages: Vec<[Tracked<Buffer>; 2]>,
+    transmission: Tracked<Buffer>,
+    narrowest_pixels: f32,
+}
+
+impl SeparableMaterial {
+    /// Uploads a basis; coefficients become half floats.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if some are missing.
+    pub fn upload(gpu: &Gpu, basis: &SeparableBasis) -> Result<Self> {
+        whole(basis)?;
+        let terms = basis.size.terms;
+        let layers = (0..terms).map(|l| basis.coefficients_of(l).to_vec()).chain([albedo(basis)]);
+        let stages = uniform::BlurStage::cascade(basis);
+        Ok(Self {
+            header: basis.header,
+            terms,
+            layers: PatchLayers::upload(gpu, &basis.header, layers.collect())?,
+            transmission: gpu.uniform("transmission", &uniform::Transmission::new(basis)),
+            narrowest_pixels: basis.sigmas.first().copied().unwrap_or(1.0),
+            stages: stages.iter().map(|axes| axes.map(|block| gpu.uniform("stage", &block))).collect(),
+        })
+    }
+
+    /// BssrdfHeader of the file: size, pitch and window of the patch.
+    #[must_use]
+    pub fn header(&self) -> &BssrdfHeader {
+        &self.header
+    }
+
+    /// Number of terms L, 1 or 2.
+    #[must_use]
+    pub fn terms(&self) -> usize {
+        self.terms
+    }
+
+    /// Refuses a material of another number of terms than a pass was built for.
+    pub(crate) fn expect(&self, terms: usize) -> Result<()> {
+        if self.terms == terms {
+            return Ok(());
+        }
+        Err(Error::Device(format!("this renderer draws L = {terms}, the material has L = {}", self.terms)))
+    }
+
+    /// Bytes of layers and blocks on the device.
+    #[must_use]
+    pub fn gpu_bytes(&self) -> u64 {
+        self.layers.bytes() + self.stages.iter().flatten().chain([&self.transmission]).map(Tracked::bytes).sum::<u64>()
+    }
+
+    /// Block of the weights of all Gaussians, for light that passes through thin parts.
+    pub(crate) fn transmission(&self) -> &Buffer {
+        &self.transmission
+    }
+
+    /// Standard deviation of the narrowest Gaussian, in pixels of the patch.
+    pub(crate) fn narrowest_pixels(&self) -> f32 {
+        self.narrowest_pixels
+    }
+
+    /// Blocks along rows and along columns, for each Gaussian.
+    pub(crate) fn stages(&self) -> &[[Tracked<Buffer>; 2]] {
+        &self.stages
+    }
+}
