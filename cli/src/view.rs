@@ -1,41 +1,24 @@
-//! `subsurf view`: a window in which a material is turned, lit and compared.
+//! `subsurf view`: the door to the viewer's window.
 
-mod app;
-mod compose;
-mod controls;
-mod loader;
-mod orbit;
-mod painter;
-mod panel;
-mod session;
-mod stage;
-mod studio;
-mod subject;
-mod times;
-mod window;
-
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use subsurf_encoder::check_target;
-use subsurf_runtime::{Backend, BtfOptions, RuntimeOptions};
-use winit::event_loop::EventLoop;
+use subsurf_runtime::{Backend, RuntimeOptions};
+use subsurf_scene::Environment;
+use subsurf_viewer::{BtfImageSet, Config, Error, Host, KEYS, LoadImages, Picture, Viewer, event_loop};
 
 use crate::devices::check_picture;
-use crate::failure::{NoDisplay, bad_request};
-use crate::mesh::Up;
+use crate::images::FolderImages;
 use crate::options::{ByteCount, Size};
-use crate::render::{BtfArgs, MappingArg, PathArg, ROUGHNESS, Shot, read_environment};
-use app::{App, Wishes};
-use loader::{Answer, Loader};
-use panel::Settings;
-use session::Session;
-use studio::Studio;
-use subject::{Reading, Subject};
+use crate::outln;
+use crate::picture::{image, write_png};
+use crate::program::failure::{NoDisplay, line};
+use crate::render::{BtfArgs, Copies, MappingArg, PathArg, UpArg, read_environment};
 
 /// Look at materials on a mesh in a window: turn it, drag the light, switch paths, see the error; BTFs beside their images.
 #[derive(clap::Args)]
-#[command(after_help = controls::KEYS)]
+#[command(after_help = help())]
 pub(crate) struct Args {
     /// The .subsurf files; N goes from one to the next
     #[arg(required = true, value_name = "FILE")]
@@ -48,7 +31,7 @@ pub(crate) struct Args {
     extent: f32,
     /// Which way is up in the mesh
     #[arg(long, value_enum, default_value = "y")]
-    up: Up,
+    up: UpArg,
     /// Where the material lies on the mesh
     #[arg(long, value_enum, default_value = "auto")]
     mapping: MappingArg,
@@ -58,9 +41,6 @@ pub(crate) struct Args {
     /// Begin with ten times the difference to the gather, or of a BTF to its images
     #[arg(long)]
     error: bool,
-    /// Shift the taps of the separable path from pixel to pixel: grain instead of bands
-    #[arg(long)]
-    jitter: bool,
     /// Light from all around: an equirectangular picture, .hdr or .png
     #[arg(long, value_name = "FILE")]
     environment: Option<PathBuf>,
@@ -76,9 +56,6 @@ pub(crate) struct Args {
     /// Write what the window shows to this PNG, panel included, and end
     #[arg(long, value_name = "FILE")]
     screenshot: Option<PathBuf>,
-    /// For tests: lose the device after so many frames
-    #[arg(long, hide = true, value_name = "FRAMES")]
-    lose_device_after: Option<u32>,
     #[command(flatten)]
     btf: BtfArgs,
 }
@@ -94,89 +71,108 @@ enum Api {
     Gl,
 }
 
-/// What other threads tell the window.
-#[allow(clippy::large_enum_variant, reason = "a few in flight at a time")]
-enum Notice {
-    Computed(Answer),
-    /// Of the device of this number.
-    DeviceLost {
-        number: u32,
-        reason: String,
-    },
-    DeviceError(String),
+/// Keys, examples and exit codes, for `--help`.
+fn help() -> String {
+    format!("In the window:\n{KEYS}\n\n{EXAMPLES}")
 }
 
-/// Samples to a pixel: edges are smooth.
-const SAMPLES: u32 = 4;
-/// Samples of the environment to a pixel of a BTF, so that it can be turned.
-const BTF_SAMPLES: u32 = 4;
+const EXAMPLES: &str = "\
+Examples:
+  subsurf view jade.subsurf onyx.subsurf --mesh bunny.ply
+  subsurf view jade.subsurf --budget 16MB --backend gl
+  subsurf view jade.subsurf --path splat --screenshot jade.png
+  subsurf view leather.subsurf --images leather/ --repeat 6
+
+Exit codes: 3 if there is no display or no device that draws to it.";
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     check_picture(args.size.0)?;
     if let Some(path) = &args.screenshot {
         check_target(path)?;
     }
-    if !(args.extent.is_finite() && args.extent > 0.0) {
-        return Err(bad_request(format!("--extent is {} mm; it must be positive", args.extent)));
-    }
     args.btf.check()?;
-    let btf = Arc::new(args.btf.clone());
-    let subject = Subject::open(&args.files, &args.mesh, Reading { extent_mm: args.extent, up: args.up }, &btf)?;
-    let environment = match &args.environment {
-        Some(path) => read_environment(path)?,
-        None => Shot::usual(args.size.0).environment,
-    };
-    let events = EventLoop::<Notice>::with_user_event().build().map_err(|error| {
-        // Where in winit it happened helps nobody.
-        let text = error.to_string();
-        let reason = text.rsplit(": ").next().unwrap_or(&text).trim_end_matches('.');
-        NoDisplay(format!(
-            "no display to open a window on ({reason}); log in to a desktop session, or draw to a file: subsurf render"
-        ))
+    let viewer = Viewer::open(args.config()?)?;
+    let events = event_loop().map_err(|error| match error {
+        Error::NoDisplay(reason) => anyhow::Error::new(NoDisplay(format!(
+            "{reason}; log in to a desktop session, or draw to a file: subsurf render"
+        ))),
+        error => error.into(),
     })?;
-    let proxy = events.create_proxy();
-    let budget_bytes = args.budget.map(|budget| budget.0);
-    let session = Session {
-        studio: Studio::of(&subject.mesh, &environment, args.size.0),
-        subject,
-        settings: Settings {
-            path: args.path,
-            material: 0,
-            roughness: ROUGHNESS,
-            exposure: 1.0,
-            shows_error: args.error,
-            splits: args.btf.images.is_some() && !args.error,
-            turns_light: false,
-            is_open: true,
-        },
-        loader: Loader::new(proxy.clone()),
-        mapping: args.mapping,
-        budget_bytes,
-        times: times::Times::default(),
-        message: None,
-        failure: None,
-        refused: Vec::new(),
-        is_stale: true,
-        exposes: true,
-    };
-    let wishes = Wishes {
-        backends: match args.backend {
-            Api::Auto => Backend::ALL.to_vec(),
-            Api::Vulkan => vec![Backend::Vulkan],
-            Api::Gl => vec![Backend::Gl],
-        },
-        options: RuntimeOptions {
-            budget_bytes,
-            samples: SAMPLES,
-            jitters: args.jitter,
-            btf: args.btf.options(BtfOptions { samples: BTF_SAMPLES, ..BtfOptions::default() }),
-            ..RuntimeOptions::default()
-        },
-        size: args.size.0,
-        screenshot: args.screenshot.clone(),
-        loses_device_after: args.lose_device_after,
-    };
-    let mut app = App::new(wishes, session, proxy);
-    events.run_app(&mut app).map_err(|error| NoDisplay(format!("the display failed: {error}")))?;
-    app.outcome()
+    Ok(viewer.run(events, &mut Files { screenshot: args.screenshot.as_deref() })?)
+}
+
+impl Args {
+    fn config(&self) -> anyhow::Result<Config> {
+        let usual = subsurf_viewer::options();
+        Ok(Config {
+            files: self.files.clone(),
+            material: self.btf.material.clone(),
+            mesh: self.mesh.clone(),
+            extent_mm: self.extent,
+            up: self.up.into(),
+            mapping: self.mapping.into(),
+            technique: self.path.into(),
+            shows_error: self.error,
+            repeats: self.btf.repeat.map(|Copies(repeats)| repeats),
+            images: self.btf.images.clone().map(load_images),
+            environment: match &self.environment {
+                Some(path) => read_environment(path)?,
+                None => Environment::studio(),
+            },
+            size: self.size.0,
+            backends: match self.backend {
+                Api::Auto => Backend::ALL.to_vec(),
+                Api::Vulkan => vec![Backend::Vulkan],
+                Api::Gl => vec![Backend::Gl],
+            },
+            options: RuntimeOptions {
+                budget_bytes: self.budget.map(|budget| budget.0),
+                btf: self.btf.options(usual.btf),
+                ..usual
+            },
+            captures: self.screenshot.is_some(),
+        })
+    }
+}
+
+/// Reads a folder of images when they are to be shown.
+fn load_images(folder: PathBuf) -> Arc<LoadImages> {
+    Arc::new(move || match FolderImages::read(&folder) {
+        Ok(images) => Ok(Box::new(images) as Box<dyn BtfImageSet>),
+        Err(error) => Err(Error::Images(error.into())),
+    })
+}
+
+/// Host of the window: pictures become files, news are printed.
+struct Files<'a> {
+    screenshot: Option<&'a Path>,
+}
+
+impl Host for Files<'_> {
+    /// Into this folder, under a name that is not taken.
+    fn save(&mut self, stem: &str, picture: &Picture) -> Result<String, String> {
+        let mut names = (1..).map(|number: u32| PathBuf::from(format!("{stem}-{number}.png")));
+        let path = names.find(|name| !name.exists()).unwrap_or_default();
+        write_png(&path, &image(&picture.pixels, picture.size[0])).map_err(|error| line(&error))?;
+        outln!("{}", path.display());
+        Ok(path.display().to_string())
+    }
+
+    fn capture(
+        &mut self,
+        picture: &Picture,
+        device: &str,
+    ) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+        let Some(path) = self.screenshot else {
+            return Ok(());
+        };
+        let [width, height] = picture.size;
+        write_png(path, &image(&picture.pixels, width))?;
+        outln!("{}: {width} x {height} pixels, drawn by {device}", path.display());
+        Ok(())
+    }
+
+    fn recovered(&mut self, reason: &str) {
+        eprintln!("subsurf: the device was lost and opened anew ({reason})");
+    }
 }

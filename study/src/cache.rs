@@ -1,4 +1,4 @@
-//! Results in the study's folder: a study that was interrupted goes on where it was.
+//! Cache: results in the study's folder, so that a study that was interrupted goes on where it was.
 
 use std::path::Path;
 
@@ -6,11 +6,12 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use subsurf_encoder::write_bytes;
 
-/// What was kept in a file, if that can be read.
-pub(super) fn read<T: DeserializeOwned>(path: &Path) -> Option<T> {
+/// Result in a file, if there is one that can be read.
+pub(crate) fn read<T: DeserializeOwned>(path: &Path) -> Option<T> {
     serde_json::from_slice(&std::fs::read(path).ok()?).ok()
 }
 
-pub(super) fn write(path: &Path, result: &impl Serialize) -> anyhow::Result<()> {
+/// Writes a result, whole or not at all.
+pub(crate) fn write(path: &Path, result: &impl Serialize) -> anyhow::Result<()> {
     Ok(write_bytes(path, format!("{:#}\n", serde_json::to_value(result)?).as_bytes())?)
 }

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 /// A request that cannot be carried out, in one line that says what to do instead.
 #[derive(Debug)]
-pub(crate) struct BadRequest(pub(crate) String);
+pub struct BadRequest(String);
 
 impl std::fmt::Display for BadRequest {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -26,8 +26,8 @@ impl std::fmt::Display for NoDisplay {
 
 impl std::error::Error for NoDisplay {}
 
-/// Shorthand for an error of the caller's making.
-pub(crate) fn bad_request(message: impl Into<String>) -> anyhow::Error {
+/// An error of the caller's making: exit code 2.
+pub fn bad_request(message: impl Into<String>) -> anyhow::Error {
     anyhow::Error::new(BadRequest(message.into()))
 }
 
@@ -35,20 +35,15 @@ const MACHINE: u8 = 1;
 const INPUT: u8 = 2;
 const NO_DEVICE: u8 = 3;
 
-pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
-    eprintln!("subsurf: {}", line(error));
+/// Prints an error in one line on stderr, and says with which code the program is to end.
+pub fn report(error: &anyhow::Error) -> ExitCode {
+    eprintln!("{}: {}", super::name(), line(error));
     ExitCode::from(code(error))
 }
 
-/// Causes on one line, without those that their parent already quotes.
-pub(crate) fn line(error: &anyhow::Error) -> String {
-    let mut line = String::new();
-    for cause in error.chain().map(ToString::to_string) {
-        if !line.contains(&cause) {
-            line = if line.is_empty() { cause } else { format!("{line}: {cause}") };
-        }
-    }
-    line.replace('\n', " ")
+/// An error and its causes on one line, without those that their parent already quotes.
+pub fn line(error: &anyhow::Error) -> String {
+    subsurf_viewer::one_line(error.as_ref())
 }
 
 fn code(error: &anyhow::Error) -> u8 {
@@ -63,13 +58,30 @@ fn code(error: &anyhow::Error) -> u8 {
             return if error.is_callers() { INPUT } else { MACHINE };
         }
         if let Some(error) = cause.downcast_ref::<subsurf_runtime::Error>() {
-            use subsurf_runtime::Error::{Mesh, NoDevice, NoHalfFloats, Read, Unsupported};
-            return match error {
-                Read(_) | Mesh(_) => INPUT,
-                NoDevice { .. } | NoHalfFloats { .. } | Unsupported { .. } => NO_DEVICE,
-                _ => MACHINE,
-            };
+            return of_renderer(error);
+        }
+        if cause.is::<subsurf_scene::Error>() {
+            return INPUT;
+        }
+        if let Some(error) = cause.downcast_ref::<subsurf_viewer::Error>() {
+            use subsurf_viewer::Error::{File, NoDisplay, Open, Request, Runtime, Scene};
+            match error {
+                Open { .. } | File { .. } | Request(_) | Scene(_) => return INPUT,
+                NoDisplay(_) => return NO_DEVICE,
+                Runtime(error) => return of_renderer(error),
+                // The cause decides.
+                _ => {}
+            }
         }
     }
     MACHINE
+}
+
+fn of_renderer(error: &subsurf_runtime::Error) -> u8 {
+    use subsurf_runtime::Error::{Mesh, NoDevice, NoHalfFloats, Read, Unsupported};
+    match error {
+        Read(_) | Mesh(_) => INPUT,
+        NoDevice { .. } | NoHalfFloats { .. } | Unsupported { .. } => NO_DEVICE,
+        _ => MACHINE,
+    }
 }

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU8, Ordering};
 
 /// As shells have it: 128 and the signal's number.
-pub(crate) const INTERRUPTED: u8 = 130;
+pub(super) const INTERRUPTED: u8 = 130;
 
 /// An interruption ends the program at once.
 const AT_ONCE: u8 = 0;
@@ -15,27 +15,30 @@ const CAME: u8 = 2;
 static STATE: AtomicU8 = AtomicU8::new(AT_ONCE);
 
 /// Leaves no half files behind from now on.
-pub(crate) fn watch() {
+pub(super) fn watch() {
     let handler = ctrlc::set_handler(|| {
         if STATE.compare_exchange(GRACEFULLY, CAME, Ordering::Relaxed, Ordering::Relaxed).is_ok() {
-            eprintln!("subsurf: interrupted; the best fit so far will be written. Once more to end at once");
+            let name = super::name();
+            eprintln!("{name}: interrupted; the best fit so far will be written. Once more to end at once");
             return;
         }
         subsurf_encoder::remove_unfinished();
-        eprintln!("subsurf: interrupted; no half files are left");
+        eprintln!("{}: interrupted; no half files are left", super::name());
         std::process::exit(INTERRUPTED.into());
     });
     if let Err(error) = handler {
         // Without it an interrupted run leaves a hidden temporary file behind, nothing worse.
-        eprintln!("subsurf: cannot watch for interruptions: {error}");
+        eprintln!("{}: cannot watch for interruptions: {error}", super::name());
     }
 }
 
-/// While it lives, the first interruption is left to those who ask [`came`].
-pub(crate) struct Graceful(());
+/// Guard: while it lives, the first interruption is left to those who ask [`came`], so that a fit can be ended early.
+pub struct Graceful(());
 
 impl Graceful {
-    pub(crate) fn new() -> Self {
+    /// Starts now.
+    #[allow(clippy::new_without_default, reason = "it changes what the process does")]
+    pub fn new() -> Self {
         STATE.store(GRACEFULLY, Ordering::Relaxed);
         Self(())
     }
@@ -49,6 +52,6 @@ impl Drop for Graceful {
 }
 
 /// Whether there was an interruption that was left to the work at hand.
-pub(crate) fn came() -> bool {
+pub fn came() -> bool {
     STATE.load(Ordering::Relaxed) == CAME
 }

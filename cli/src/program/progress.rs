@@ -5,13 +5,15 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::interrupt;
+use super::interrupt;
 
-/// One bar after the other, a stage each.
-pub(crate) struct Bars(Mutex<ProgressBar>);
+/// Progress bars on stderr, one after the other, a stage each.
+pub struct Bars(Mutex<ProgressBar>);
 
 impl Bars {
-    pub(crate) fn new() -> Self {
+    #[allow(clippy::new_without_default, reason = "a stage has to begin before there is a bar")]
+    /// Nothing is shown until a stage begins.
+    pub fn new() -> Self {
         Self(Mutex::new(ProgressBar::hidden()))
     }
 

@@ -1,27 +1,27 @@
-//! `subsurf bench btf`: frames per second of BTFs, set up as Table 1 of Havran, Filip and Myszkowski 2010.
+//! `subsurf-study bench btf`: frames per second of BTFs, set up as Table 1 of Havran, Filip and Myszkowski 2010.
 
 use std::path::PathBuf;
 use std::time::Instant;
 
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
+use subsurf_cli::images::FolderImages;
+use subsurf_cli::options::Size;
+use subsurf_cli::outln;
+use subsurf_cli::program::failure::bad_request;
+use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::Btf;
 use subsurf_encoder::Progress as _;
-use subsurf_encoder::btf::Images;
-use subsurf_runtime::scene::{Light, LightShape, Mesh, Outline, REFLECTION_SIZE, Scene, relief, sphere};
 use subsurf_runtime::{BACKGROUND, Backend, BtfFiltering, BtfMaterial, BtfOptions, BtfStorage, Gpu, RuntimeOptions};
+use subsurf_scene::{Light, LightShape, Mesh, Outline, REFLECTION_SIZE, Scene, relief, sphere};
 use subsurf_shaders::cpu;
+use subsurf_viewer::{
+    GpuAsset, RenderRequest, RenderSession, TexturedMesh, human, material_number, parse_btf, read, upload_images,
+};
 
+use super::devices::to_compare;
+use super::meshes::EXTENT_MM;
 use super::timing::{median, quantile};
-use crate::devices::to_compare;
-use crate::failure::bad_request;
-use crate::info::{parse_btf, read_file};
-use crate::memory::human;
-use crate::mesh::fitted;
-use crate::options::Size;
-use crate::progress::Bars;
-use crate::render::{BtfArgs, Ready, Shot, Textured, prepare_btf, read_images, upload_images};
-use crate::say::say;
 
 /// Time frames of meshes of 2, 7 and 115 thousand triangles made of a BTF, and of its images.
 ///
@@ -51,28 +51,27 @@ pub(crate) struct Args {
 
 /// Texels to a side of the texture that copies of the material cover.
 const TEXTURE: f32 = 1_024.0;
-const EXTENT_MM: f32 = 60.0;
 
 /// A mesh of ours for each of the paper's, and the paper's frames per second: one core of 2 GHz (Intel C2D), ATI Mobility
 /// Radeon X1600, NVIDIA GeForce 8800 GT.
-struct Subject {
+struct TestMesh {
     name: &'static str,
     stands_for: &'static str,
     mesh: Mesh,
     published_fps: [f64; 3],
 }
 
-fn subjects() -> anyhow::Result<Vec<Subject>> {
+fn test_meshes() -> anyhow::Result<Vec<TestMesh>> {
     // A grid of 2 n × n quads.
     let all = [
         ("relief", "bunny, 2k faces", relief(20.0, 8, 22), [2.0, 18.0, 92.0]),
         ("sphere", "sphere, 7k faces", sphere(20.0, 42), [1.2, 10.0, 170.0]),
         ("relief", "dragon, 115k faces", relief(20.0, 8, 170), [1.1, 8.0, 10.0]),
     ];
-    let subject = |(name, stands_for, mesh, published_fps)| {
-        Ok(Subject { name, stands_for, mesh: fitted(mesh, EXTENT_MM)?, published_fps })
+    let test_mesh = |(name, stands_for, mesh, published_fps)| {
+        Ok(TestMesh { name, stands_for, mesh: mesh.fitted(EXTENT_MM)?, published_fps })
     };
-    all.into_iter().map(subject).collect()
+    all.into_iter().map(test_mesh).collect()
 }
 
 /// What is timed.
@@ -107,14 +106,14 @@ impl Row {
         )
     }
 
-    fn json(&self, subject: &Subject) -> Value {
+    fn json(&self, test_mesh: &TestMesh) -> Value {
         json!({
-            "mesh": subject.name, "triangles": subject.mesh.triangles.len(), "device": self.device,
+            "mesh": test_mesh.name, "triangles": test_mesh.mesh.triangles.len(), "device": self.device,
             "storage": format!("{:?}", self.storage).to_lowercase(), "filtering": format!("{:?}", self.filtering).to_lowercase(),
             "frames_per_second": self.fps(), "frame_median_ms": median(&self.times),
             "frame_p95_ms": quantile(&self.times, 0.95), "material_bytes": self.material_bytes,
-            "published": { "mesh": subject.stands_for, "cpu_fps": subject.published_fps[0],
-                "radeon_x1600_fps": subject.published_fps[1], "geforce_8800_gt_fps": subject.published_fps[2] },
+            "published": { "mesh": test_mesh.stands_for, "cpu_fps": test_mesh.published_fps[0],
+                "radeon_x1600_fps": test_mesh.published_fps[1], "geforce_8800_gt_fps": test_mesh.published_fps[2] },
         })
     }
 }
@@ -123,7 +122,7 @@ impl Row {
 fn scene(mesh: &Mesh, size: [u32; 2]) -> Scene {
     let position_mm = Vec3::new(0.9, 1.1, 0.9) * EXTENT_MM;
     let light = Light { shape: LightShape::Point { position_mm }, irradiance: [3.0, 2.9, 2.7] };
-    Scene { lights: vec![light], ..Shot::usual(size).scene(mesh) }
+    Scene { lights: vec![light], ..RenderRequest::usual(size).scene(mesh) }
 }
 
 /// Lets the light go around by a fifth of a degree.
@@ -154,45 +153,55 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if args.frames == 0 {
         return Err(bad_request("--frames is 0; at least one is needed for a time"));
     }
-    let bytes = read_file(&args.file)?;
+    let bytes = read(&args.file)?;
     let btf = parse_btf(&args.file, &bytes)?;
-    let number = BtfArgs { material: args.material.clone(), ..BtfArgs::default() }.number(&btf)?;
+    let number = number(args, &btf)?;
     let texels = btf.materials().nth(number).map_or([1; 2], |material| material.size(0));
-    let images = args.images.as_ref().map(|folder| read_images(folder)).transpose()?;
+    let images = args.images.as_ref().map(|folder| FolderImages::read(folder)).transpose()?;
     #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
     let copies = texels.map(|side| TEXTURE / side as f32);
-    let subjects = subjects()?;
+    let test_meshes = test_meshes()?;
     let gpus = to_compare();
     let storages = 1 + usize::from(images.is_some());
-    let rows = subjects.len() * (2 * storages * gpus.len() + 1);
+    let rows = test_meshes.len() * (2 * storages * gpus.len() + 1);
     let (bars, mut report) = (Bars::new(), Vec::new());
     bars.begin("frames", (rows * (args.frames + 1)) as u64);
-    for subject in &subjects {
-        let scene = scene(&subject.mesh, args.size.0);
-        let mut lines = vec![on_cpu(&btf, number, copies, subject, &scene, args, &bars)?];
+    for test_mesh in &test_meshes {
+        let scene = scene(&test_mesh.mesh, args.size.0);
+        let mut lines = vec![on_cpu(&btf, number, copies, test_mesh, &scene, args, &bars)?];
         for (backend, gpu) in &gpus {
-            let once = Setting { backend: *backend, gpu, copies, subject, scene: &scene, args, bars: &bars };
+            let once = Setting { backend: *backend, gpu, copies, test_mesh, scene: &scene, args, bars: &bars };
             lines.extend(once.both(|| Ok((BtfMaterial::upload(gpu, &btf)?, number)))?);
             if let Some(images) = &images {
                 lines.extend(once.images(images)?);
             }
         }
         if !args.json {
-            let [cpu, radeon, geforce] = subject.published_fps;
-            say!(
+            let [cpu, radeon, geforce] = test_mesh.published_fps;
+            outln!(
                 "{}, {} triangles (the paper's {}: CPU {cpu}, Radeon X1600 {radeon}, GeForce 8800 GT {geforce} frames/s)",
-                subject.name,
-                subject.mesh.triangles.len(),
-                subject.stands_for
+                test_mesh.name,
+                test_mesh.mesh.triangles.len(),
+                test_mesh.stands_for
             );
-            lines.iter().for_each(|row| say!("{}", row.line()));
+            lines.iter().for_each(|row| outln!("{}", row.line()));
         }
-        report.extend(lines.iter().map(|row| row.json(subject)));
+        report.extend(lines.iter().map(|row| row.json(test_mesh)));
     }
     if args.json {
-        say!("{:#}", Value::Array(report));
+        outln!("{:#}", Value::Array(report));
     }
     Ok(())
+}
+
+/// Number of the material that is asked for; 0 if none is.
+fn number(args: &Args, btf: &Btf<'_>) -> anyhow::Result<usize> {
+    let Some(asked) = &args.material else {
+        return Ok(0);
+    };
+    let names: Vec<String> = btf.materials().map(|material| material.name().to_owned()).collect();
+    material_number(&names, asked)
+        .ok_or_else(|| bad_request(format!("--material {asked}: the file has {}", names.join(", "))))
 }
 
 /// A mesh on a device.
@@ -200,7 +209,7 @@ struct Setting<'a> {
     backend: Backend,
     gpu: &'a Gpu,
     copies: [f32; 2],
-    subject: &'a Subject,
+    test_mesh: &'a TestMesh,
     scene: &'a Scene,
     args: &'a Args,
     bars: &'a Bars,
@@ -213,7 +222,7 @@ impl Setting<'_> {
         filterings.into_iter().map(|filtering| self.time(filtering, material()?)).collect()
     }
 
-    fn images(&self, images: &Images) -> anyhow::Result<Vec<Row>> {
+    fn images(&self, images: &FolderImages) -> anyhow::Result<Vec<Row>> {
         self.both(|| Ok((upload_images(self.gpu, images)?, 0)))
     }
 
@@ -221,13 +230,13 @@ impl Setting<'_> {
         let (gpu, size) = (self.gpu, self.args.size.0);
         let (storage, material_bytes) = (material.storage(), material.gpu_bytes());
         let options = RuntimeOptions { btf: BtfOptions { filtering, samples: 0 }, ..RuntimeOptions::default() };
-        let prepared = prepare_btf(gpu, &self.subject.mesh, self.copies, material, number)?;
+        let asset = GpuAsset::btf(gpu, &self.test_mesh.mesh, self.copies, material, number)?;
         let mut scene = self.scene.clone();
-        let Ready { prepared, renderer, mut frame } = Ready::new(gpu, prepared, &scene, size, options)?;
+        let RenderSession { asset, renderer, mut frame } = RenderSession::new(gpu, asset, &scene, size, options)?;
         let target = gpu.target(size, options.format)?;
         let times = timed(self.args.frames, self.bars, || {
             turn(&mut scene);
-            renderer.draw(gpu, &mut frame, &prepared.model(), &scene, target.view())?;
+            renderer.draw(gpu, &mut frame, &asset.model(), &scene, target.view())?;
             Ok(gpu.finish()?)
         })?;
         Ok(Row { device: self.backend.to_string(), storage, filtering, times, material_bytes })
@@ -239,16 +248,16 @@ fn on_cpu(
     btf: &Btf<'_>,
     material: usize,
     copies: [f32; 2],
-    subject: &Subject,
+    test_mesh: &TestMesh,
     scene: &Scene,
     args: &Args,
     bars: &Bars,
 ) -> anyhow::Result<Row> {
-    let mesh = &subject.mesh;
+    let mesh = &test_mesh.mesh;
     let filtering = BtfFiltering::Bilinear;
     let surface = cpu::BtfSurface { btf, material, filtering, samples: 0 };
     let lit = vec![[1.0; 4]; mesh.positions.len()];
-    let textured = Textured::new(mesh, copies)?;
+    let textured = TexturedMesh::new(mesh, copies)?;
     let triangles = textured.triangles(mesh, &lit);
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };
     let outline = Outline::of_btf(mesh, copies);

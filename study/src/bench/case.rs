@@ -1,20 +1,19 @@
-//! Paths that are timed against each other, frame by frame.
+//! Cases: techniques that are timed against each other, frame by frame.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use glam::{Quat, Vec3};
+use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::Progress as _;
-use subsurf_runtime::scene::{LightShape, Mesh, Scene};
 use subsurf_runtime::{Gpu, PictureTarget, RuntimeOptions};
+use subsurf_scene::{LightShape, Mesh, Scene};
+use subsurf_viewer::{Asset, RenderRequest, RenderSession};
 
-use crate::progress::Bars;
-use crate::render::{Ingredients, Ready, Shot};
-
-/// One path on one mesh, on the device.
-pub(super) struct Course {
-    ready: Ready,
+/// Case of a benchmark: one technique on one mesh, on a device.
+pub(super) struct BenchCase {
+    session: RenderSession,
     target: PictureTarget,
     pub(super) times: Times,
 }
@@ -32,19 +31,19 @@ pub(super) struct Times {
     pub(super) buffer_bytes: u64,
 }
 
-impl Course {
+impl BenchCase {
     pub(super) fn new(
         gpu: &Gpu,
-        ingredients: &Ingredients,
+        asset: &Asset,
         material: &Bssrdf<'_>,
         mesh: &Mesh,
         size: [u32; 2],
     ) -> anyhow::Result<Self> {
         let options = RuntimeOptions::default();
         let before = gpu.ledger().bytes();
-        let prepared = ingredients.upload(gpu, material, mesh)?;
-        let [material_bytes, mesh_bytes] = [prepared.material_bytes(), prepared.mesh_bytes()];
-        let ready = Ready::new(gpu, prepared, &Shot::usual(size).scene(mesh), size, options)?;
+        let asset = asset.upload(gpu, material, mesh)?;
+        let [material_bytes, mesh_bytes] = [asset.material_bytes(), asset.mesh_bytes()];
+        let session = RenderSession::new(gpu, asset, &RenderRequest::usual(size).scene(mesh), size, options)?;
         let target = gpu.target(size, options.format)?;
         let times = Times {
             frames: Vec::new(),
@@ -53,25 +52,25 @@ impl Course {
             material_bytes,
             buffer_bytes: gpu.ledger().bytes() - before - material_bytes - mesh_bytes,
         };
-        Ok(Self { ready, target, times })
+        Ok(Self { session, target, times })
     }
 
     /// Its picture of a scene of the size that it was made for.
     pub(super) fn picture(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<Vec<[u8; 3]>> {
-        self.ready.picture(gpu, scene)
+        Ok(self.session.picture(gpu, scene)?)
     }
 
     fn draw(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<f64> {
-        let Ready { prepared, renderer, frame } = &mut self.ready;
+        let RenderSession { asset, renderer, frame } = &mut self.session;
         let begin = Instant::now();
-        renderer.draw(gpu, frame, &prepared.model(), scene, self.target.view())?;
+        renderer.draw(gpu, frame, &asset.model(), scene, self.target.view())?;
         gpu.finish()?;
         Ok(ms(begin.elapsed()))
     }
 
     fn draw_timed(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<()> {
-        let Ready { prepared, renderer, frame } = &mut self.ready;
-        let passes = renderer.draw_timed(gpu, frame, &prepared.model(), scene, self.target.view())?;
+        let RenderSession { asset, renderer, frame } = &mut self.session;
+        let passes = renderer.draw_timed(gpu, frame, &asset.model(), scene, self.target.view())?;
         self.times.order = passes.iter().map(|(name, _)| *name).collect();
         for (name, time) in passes {
             self.times.passes.entry(name).or_default().push(ms(time));
@@ -81,27 +80,27 @@ impl Course {
 }
 
 /// Draws `frames` frames of each under a light that turns, after one that does not count, and as many again pass by pass.
-/// Courses take turns: what else the machine does falls on all of them alike. If `frames` is 0, the first one counts.
-pub(super) fn run(gpu: &Gpu, courses: &mut [Course], mesh: &Mesh, size: [u32; 2], frames: usize) -> anyhow::Result<()> {
-    let mut scene = Shot::usual(size).scene(mesh);
+/// Cases take turns: what else the machine does falls on all of them alike. If `frames` is 0, the first one counts.
+pub(super) fn run(gpu: &Gpu, cases: &mut [BenchCase], mesh: &Mesh, size: [u32; 2], frames: usize) -> anyhow::Result<()> {
+    let mut scene = RenderRequest::usual(size).scene(mesh);
     scene.view.exposure = 0.5;
     let bars = Bars::new();
-    bars.begin("frames", ((2 * frames + 1) * courses.len()) as u64);
+    bars.begin("frames", ((2 * frames + 1) * cases.len()) as u64);
     for number in 0..=frames {
         turn(&mut scene);
-        for course in &mut *courses {
-            let time = course.draw(gpu, &scene)?;
+        for case in &mut *cases {
+            let time = case.draw(gpu, &scene)?;
             // Drivers compile at the first frame.
             if number > 0 || frames == 0 {
-                course.times.frames.push(time);
+                case.times.frames.push(time);
             }
             bars.advance(1);
         }
     }
     for _ in 0..frames {
         turn(&mut scene);
-        for course in &mut *courses {
-            course.draw_timed(gpu, &scene)?;
+        for case in &mut *cases {
+            case.draw_timed(gpu, &scene)?;
             bars.advance(1);
         }
     }

@@ -1,23 +1,22 @@
-//! `subsurf bench frames`: how long frames take, pass by pass.
+//! `subsurf-study bench frames`: how long frames take, pass by pass.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::{Value, json};
+use subsurf_cli::info::parse;
+use subsurf_cli::options::Size;
+use subsurf_cli::outln;
+use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::synthetic::per_pixel_of;
 use subsurf_runtime::Backend;
-use subsurf_runtime::scene::{Mesh, relief};
+use subsurf_scene::{Mesh, relief};
+use subsurf_viewer::{Asset, MappingChoice, RenderRequest, Scattering, choose_mapping, human, read};
 
-use super::course::{self, Course, Times};
+use super::case::{self, BenchCase, Times};
+use super::devices::to_compare;
+use super::meshes::{EXTENT_MM, named};
 use super::timing::{median, quantile};
-use crate::devices::to_compare;
-use crate::failure::bad_request;
-use crate::info::{parse, read_file};
-use crate::memory::human;
-use crate::mesh::{Up, fitted, load, stem};
-use crate::options::Size;
-use crate::render::{Ingredients, MappingArg, PathArg, Shot, choose_mapping};
-use crate::say::say;
 
 /// Time frames of meshes of 5 to 871 thousand triangles, pass by pass, on every device there is.
 ///
@@ -43,13 +42,12 @@ pub(crate) struct Args {
 
 /// Rings of `relief` that make the triangles of the paper's meshes and fewer: 4 rings².
 const RELIEFS: [u16; 4] = [35, 79, 158, 467];
-const EXTENT_MM: f32 = 60.0;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if args.frames == 0 {
         return Err(bad_request("--frames is 0; at least one is needed for a time"));
     }
-    let bytes = read_file(&args.file)?;
+    let bytes = read(&args.file)?;
     let material = parse(&args.file, &bytes)?;
     let profiles = per_pixel_of(&material);
     let profiles = Bssrdf::parse(&profiles)?;
@@ -57,50 +55,45 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         [] => RELIEFS.iter().map(|&rings| bumpy_sphere(rings)).collect::<anyhow::Result<_>>()?,
         paths => paths.iter().map(|path| named(path)).collect::<anyhow::Result<_>>()?,
     };
-    let ways = [
-        ("splat", &material, PathArg::Splat),
-        ("splat, per-pixel profiles", &profiles, PathArg::Splat),
-        ("separable", &material, PathArg::Separable),
-        ("homogeneous", &material, PathArg::Homogeneous),
+    let modes = [
+        ("splat", &material, Scattering::Splat),
+        ("splat, per-pixel profiles", &profiles, Scattering::Splat),
+        ("separable", &material, Scattering::Separable),
+        ("homogeneous", &material, Scattering::Homogeneous),
     ];
     let gpus = to_compare();
     let mut all = Vec::new();
     for (name, mesh) in &meshes {
-        say!("{name}, {} triangles, {}x{} pixels", mesh.triangles.len(), args.size.0[0], args.size.0[1]);
-        let mapping = choose_mapping(mesh, MappingArg::Auto, &material)?;
-        let scene = Shot::usual(args.size.0).scene(mesh);
+        outln!("{name}, {} triangles, {}x{} pixels", mesh.triangles.len(), args.size.0[0], args.size.0[1]);
+        let mapping = choose_mapping(mesh, MappingChoice::Auto, &material)?;
+        let scene = RenderRequest::usual(args.size.0).scene(mesh);
         let mut sky = None;
-        let mut known = Vec::new();
-        for (way, material, path) in ways {
-            let ingredients = Ingredients::compute(material, mesh, mapping, &scene, path, sky.clone())?;
-            sky = sky.or(ingredients.sky().cloned());
-            known.push((way, material, ingredients));
+        let mut assets = Vec::new();
+        for (mode, material, technique) in modes {
+            let asset = Asset::compute(material, mesh, mapping, &scene, technique, sky.clone())?;
+            sky = sky.or(asset.sky().cloned());
+            assets.push((mode, material, asset));
         }
         for (backend, gpu) in &gpus {
-            let course = |(_, material, ingredients): &(&str, &Bssrdf<'_>, Ingredients)| {
-                Course::new(gpu, ingredients, material, mesh, args.size.0)
+            let case = |(_, material, asset): &(&str, &Bssrdf<'_>, Asset)| {
+                BenchCase::new(gpu, asset, material, mesh, args.size.0)
             };
-            let mut courses = known.iter().map(course).collect::<anyhow::Result<Vec<_>>>()?;
-            course::run(gpu, &mut courses, mesh, args.size.0, args.frames)?;
-            for (course, (way, ..)) in courses.iter().zip(&known) {
-                say!("  {backend:10} {way:26} {}", line(&course.times));
-                all.push(report(&course.times, *backend, name, way));
+            let mut cases = assets.iter().map(case).collect::<anyhow::Result<Vec<_>>>()?;
+            case::run(gpu, &mut cases, mesh, args.size.0, args.frames)?;
+            for (case, (mode, ..)) in cases.iter().zip(&assets) {
+                outln!("  {backend:10} {mode:26} {}", line(&case.times));
+                all.push(report(&case.times, *backend, name, mode));
             }
         }
     }
     if args.json {
-        say!("{:#}", Value::Array(all));
+        outln!("{:#}", Value::Array(all));
     }
     Ok(())
 }
 
 fn bumpy_sphere(rings: u16) -> anyhow::Result<(String, Mesh)> {
-    Ok(("bumpy sphere".to_owned(), fitted(relief(20.0, 8, rings), EXTENT_MM)?))
-}
-
-/// A mesh and what to call it.
-pub(super) fn named(path: &Path) -> anyhow::Result<(String, Mesh)> {
-    Ok((stem(path), load(path, EXTENT_MM, Up::Y)?))
+    Ok(("bumpy sphere".to_owned(), relief(20.0, 8, rings).fitted(EXTENT_MM)?))
 }
 
 fn line(times: &Times) -> String {
@@ -114,12 +107,12 @@ fn line(times: &Times) -> String {
     )
 }
 
-fn report(times: &Times, backend: Backend, mesh: &str, way: &str) -> Value {
+fn report(times: &Times, backend: Backend, mesh: &str, mode: &str) -> Value {
     let of = |values: &[f64]| json!({ "median_ms": median(values), "p95_ms": quantile(values, 0.95) });
     let passes: serde_json::Map<String, Value> =
         times.order.iter().map(|name| ((*name).to_owned(), of(&times.passes[name]))).collect();
     json!({
-        "backend": backend.to_string(), "mesh": mesh, "path": way, "frame": of(&times.frames), "passes": passes,
+        "backend": backend.to_string(), "mesh": mesh, "path": mode, "frame": of(&times.frames), "passes": passes,
         "material_bytes": times.material_bytes, "buffer_bytes": times.buffer_bytes,
     })
 }

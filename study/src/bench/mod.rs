@@ -1,16 +1,14 @@
-//! `subsurf bench`: how long things take on this machine.
+//! `subsurf-study bench`: how long things take on this machine.
 
 mod btf;
-mod course;
+mod case;
+mod devices;
 mod frames;
 mod load;
-mod load_btf;
-mod load_one;
+mod meshes;
 mod patch;
 mod render;
 mod timing;
-
-pub(crate) use load::{Case, markdown, measure};
 
 /// Measure this machine.
 #[derive(clap::Subcommand)]
@@ -21,7 +19,7 @@ pub(crate) enum Command {
     Btf(btf::Args),
     Render(render::Args),
     #[command(hide = true)]
-    LoadOne(load_one::Args),
+    LoadOne(load::OneArgs),
 }
 
 pub(crate) fn run(command: &Command) -> anyhow::Result<()> {
@@ -31,6 +29,6 @@ pub(crate) fn run(command: &Command) -> anyhow::Result<()> {
         Command::Patch(args) => patch::run(args),
         Command::Btf(args) => btf::run(args),
         Command::Render(args) => render::run(args),
-        Command::LoadOne(args) => load_one::run(args),
+        Command::LoadOne(args) => load::run_one(args),
     }
 }

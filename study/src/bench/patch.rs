@@ -1,8 +1,10 @@
-//! `subsurf bench patch`: what the separable path costs on a flat patch, against the gather and against one kernel for all.
+//! `subsurf-study bench patch`: what the separable path costs on a flat patch, against the gather and against one kernel for all.
 
 use std::time::Instant;
 
 use serde_json::{Value, json};
+use subsurf_cli::outln;
+use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::synthetic::Shape;
@@ -12,10 +14,8 @@ use subsurf_runtime::{
 };
 use subsurf_shaders::separable::{Detail, Factors, Stage, mean_kernel};
 
+use super::devices::to_compare;
 use super::timing::median;
-use crate::devices::to_compare;
-use crate::failure::bad_request;
-use crate::say::say;
 
 /// Time flat patches: the gather, the separable path, and a separable pass with one kernel for the whole patch.
 ///
@@ -46,13 +46,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let mut all = Vec::new();
     for (backend, gpu) in to_compare() {
-        say!("{backend}");
+        outln!("{backend}");
         for &side in &args.sides {
             all.push(measure(&gpu, backend, side, args)?);
         }
     }
     if args.json {
-        say!("{:#}", Value::Array(all));
+        outln!("{:#}", Value::Array(all));
     }
     Ok(())
 }
@@ -84,7 +84,7 @@ fn measure(gpu: &Gpu, backend: Backend, side: u32, args: &Args) -> anyhow::Resul
 
     let taps: i32 = Stage::cascade(&factors.sigmas).iter().map(|stage| 2 * stage.taps + 1).sum();
     let [gather, separable, homogeneous] = [gather, separable, homogeneous].map(|times| median(&times));
-    say!(
+    outln!(
         "  {side}x{side}: gather {gather:.1} ms, separable {separable:.2} ms ({taps} taps an axis), one kernel \
          {homogeneous:.2} ms ({} taps): {:.1} × faster than the gather, {:.2} × the one kernel",
         2 * kernel.len() - 1,

@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use plotters::chart::SeriesLabelPosition;
 
-use super::colour::grey;
-use super::page::Study;
-use super::panel::{Bar, Row, panel};
-use super::plots::{Axis, Scale, Series, chart};
 use super::record::Record;
+use super::results::Results;
+use crate::page::colour::grey;
+use crate::page::panel::{Bar, Row, panel};
+use crate::page::plots::{Axis, Scale, Series, chart};
 
 /// Range of positive values, a little wider.
 fn widened(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
@@ -19,7 +19,7 @@ fn widened(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
 }
 
 /// Error against K, and quality against size.
-pub(super) fn charts(study: &Study<'_>, out: &mut String) -> anyhow::Result<()> {
+pub(super) fn charts(study: &Results<'_>, out: &mut String) -> anyhow::Result<()> {
     out.push_str("<h2>Curves</h2><div class=\"charts\">");
     let halves = study.halves();
     for &(noisy, with) in &halves {
@@ -77,7 +77,7 @@ pub(super) fn charts(study: &Study<'_>, out: &mut String) -> anyhow::Result<()> 
 }
 
 /// Mixture ratios of K = 3 and 5 in falling order.
-pub(super) fn ratios(study: &Study<'_>, out: &mut String) -> anyhow::Result<()> {
+pub(super) fn ratios(study: &Results<'_>, out: &mut String) -> anyhow::Result<()> {
     out.push_str("<h2>Mixture ratios, sorted (their figure 4)</h2><div class=\"charts\">");
     for k in [3, 5] {
         let series: Vec<Series> = study

@@ -1,60 +1,40 @@
-//! `subsurf study`: the papers' experiments on simulated materials.
+//! `subsurf-study bssrdf`: the experiments on translucent materials.
 
-mod btf;
-mod colour;
 mod figures;
-mod kept;
 mod page;
-mod panel;
 mod plan;
-mod plots;
 mod published;
 mod record;
+mod results;
 mod tables;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use serde_json::json;
+use subsurf_cli::options::Size;
+use subsurf_cli::outln;
+use subsurf_cli::program::failure::bad_request;
+use subsurf_cli::simulate::{Request, SceneArg};
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar};
 use subsurf_encoder::simulate::{Finish, MediumMap, Scene, Sensor, expose};
 use subsurf_encoder::write_bytes;
+use subsurf_viewer::human;
 
-use crate::failure::bad_request;
-use crate::memory::human;
-use crate::options::Size;
-use crate::say::say;
-use crate::simulate::{Request, SceneArg};
-use page::Study;
-use record::{Record, Subject, capture_name};
+use self::record::{FitCase, Record, capture_name};
+use self::results::Results;
+use crate::duration;
 
 /// Repeat the experiments of Yatagawa et al. 2020 on simulated materials, with and without measurement noise.
 ///
 /// Writes DIR/study.html, a page with tables, curves and pictures that needs nothing beside it, and DIR/study.csv. Captures
 /// and fits are kept in DIR: a study that was interrupted goes on where it was. The whole of it takes about an hour on
-/// two cores, most of it for the paper's own method; the page is there, and grows, after every capture. `study btf` does
-/// so for BTFs.
+/// two cores, most of it for the paper's own method; the page is there, and grows, after every capture.
 #[derive(clap::Args)]
-#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(crate) struct Args {
-    #[command(subcommand)]
-    other: Option<Other>,
-    #[command(flatten)]
-    captures: Captures,
-}
-
-/// What is studied but captures.
-#[derive(clap::Subcommand)]
-enum Other {
-    Btf(btf::Args),
-}
-
-#[derive(clap::Args)]
-struct Captures {
     /// The folder
-    #[arg(required = true)]
-    dir: Option<PathBuf>,
+    dir: PathBuf,
     /// Materials
     #[arg(long, value_enum, value_delimiter = ',', default_values = MATERIALS)]
     materials: Vec<SceneArg>,
@@ -83,14 +63,7 @@ const PITCH_MM: f64 = 0.5;
 const SEED: u64 = 1;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    match (&args.other, &args.captures.dir) {
-        (Some(Other::Btf(args)), _) => btf::run(args),
-        (None, Some(dir)) => study(&args.captures, dir),
-        (None, None) => Err(bad_request("where to? Give a folder, or `btf` and one")),
-    }
-}
-
-fn study(args: &Captures, dir: &Path) -> anyhow::Result<()> {
+    let dir = &args.dir;
     check(args)?;
     for folder in ["captures", "fits", "pictures"].map(|name| dir.join(name)) {
         std::fs::create_dir_all(&folder)
@@ -113,25 +86,25 @@ fn study(args: &Captures, dir: &Path) -> anyhow::Result<()> {
         halves.iter().flat_map(|noisy| scenes.iter().map(|scene| (*noisy, *scene))).enumerate()
     {
         let material = scene.name();
-        let truth = capture(args, dir, scene, false)?;
-        let exposed = if noisy { Some(capture(args, dir, scene, true)?) } else { None };
+        let truth = capture(args, scene, false)?;
+        let exposed = if noisy { Some(capture(args, scene, true)?) } else { None };
         let capture = exposed.as_ref().unwrap_or(&truth);
-        let subject = Subject { material, noisy, capture, truth: &truth, folder: dir };
-        say!("{} ({} of {all})", subject.name(), done + 1);
+        let case = FitCase { material, noisy, capture, truth: &truth, folder: dir };
+        outln!("{} ({} of {all})", case.name(), done + 1);
         for fit in &fits {
-            let (record, fresh) = subject.record(fit)?;
+            let (record, fresh) = case.record(fit)?;
             let psnr = record.psnr_db[0].map_or("-".to_owned(), |db| format!("{db:.1} dB"));
-            let kept = if fresh { "" } else { ", kept" };
-            say!(
-                "  {:<20} {:>8}  {:>8}  error {:.5}  {psnr}{kept}",
+            let cached = if fresh { "" } else { ", kept" };
+            outln!(
+                "  {:<20} {:>8}  {:>8}  error {:.5}  {psnr}{cached}",
                 fit.title,
                 human(record.bytes),
-                page::duration(record.seconds),
+                duration(record.seconds),
                 record.relative_error,
             );
             records.push(record);
         }
-        let study = Study {
+        let results = Results {
             folder: dir,
             materials: &materials,
             records: &records,
@@ -142,16 +115,16 @@ fn study(args: &Captures, dir: &Path) -> anyhow::Result<()> {
             photons: (!args.clean_only).then_some(args.photons),
             capture_bytes: truth.file_bytes(),
         };
-        write_bytes(&dir.join("study.html"), study.html()?.as_bytes())?;
-        write_bytes(&dir.join("study.csv"), tables::csv(&study).as_bytes())?;
+        write_bytes(&dir.join("study.html"), results.html()?.as_bytes())?;
+        write_bytes(&dir.join("study.csv"), tables::csv(&results).as_bytes())?;
     }
     let page = std::path::absolute(dir.join("study.html"))?;
-    say!("{} after {}; numbers in study.csv beside it", page.display(), page::duration(start.elapsed().as_secs_f64()));
+    outln!("{} after {}; numbers in study.csv beside it", page.display(), duration(start.elapsed().as_secs_f64()));
     Ok(())
 }
 
 /// Refuses what would only fail after an hour.
-fn check(args: &Captures) -> anyhow::Result<()> {
+fn check(args: &Args) -> anyhow::Result<()> {
     let sensor = (!args.clean_only).then_some(Sensor { photons: args.photons, seed: SEED });
     for scene in &args.materials {
         // Voxels depend on the media, of which a corner of the patch has most.
@@ -162,32 +135,32 @@ fn check(args: &Captures) -> anyhow::Result<()> {
 }
 
 /// The capture of a material, simulated unless it is there already.
-fn capture(args: &Captures, dir: &Path, scene: Scene, noisy: bool) -> anyhow::Result<Capture> {
+fn capture(args: &Args, scene: Scene, noisy: bool) -> anyhow::Result<Capture> {
     let size = args.size.0.map(|side| side as usize);
-    let path = dir.join("captures").join(format!("{}.npy", capture_name(scene.name(), noisy)));
+    let path = args.dir.join("captures").join(format!("{}.npy", capture_name(scene.name(), noisy)));
     let sensor = noisy.then_some(Sensor { photons: args.photons, seed: SEED });
     let map = scene.map(size, Addressing::Clamp, SEED);
     let request = request(args, scene, &map, sensor);
     let sidecar = request.sidecar();
-    if let Ok(kept) = Capture::open(&path, &Overrides::default())
-        && kept.simulated() == sidecar.simulated.as_ref()
-        && [kept.width(), kept.height(), 2 * kept.radius() + 1] == [size[0], size[1], args.window as usize]
+    if let Ok(cached) = Capture::open(&path, &Overrides::default())
+        && cached.simulated() == sidecar.simulated.as_ref()
+        && [cached.width(), cached.height(), 2 * cached.radius() + 1] == [size[0], size[1], args.window as usize]
     {
-        return Ok(kept);
+        return Ok(cached);
     }
     if let Some(sensor) = &sensor {
-        let clean = capture(args, dir, scene, false)?;
+        let clean = capture(args, scene, false)?;
         let writer =
             CaptureWriter { path: &path, size, radius: clean.radius(), scalar: Scalar::F32, sidecar: &sidecar };
         expose(&clean, sensor, &writer)?;
     } else {
-        say!("simulating {}", scene.name());
+        outln!("simulating {}", scene.name());
         request.write(&path)?;
     }
     Ok(Capture::open(&path, &Overrides::default())?)
 }
 
-fn request<'a>(args: &Captures, scene: Scene, map: &'a MediumMap, sensor: Option<Sensor>) -> Request<'a> {
+fn request<'a>(args: &Args, scene: Scene, map: &'a MediumMap, sensor: Option<Sensor>) -> Request<'a> {
     Request {
         map,
         source: json!({ "scene": scene.name() }),

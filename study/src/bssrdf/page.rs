@@ -1,51 +1,26 @@
 //! The study as one HTML page that needs nothing beside it.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
-use super::colour::{ERRORS, colour};
-use super::panel::{Bar, Row, panel};
+use subsurf_cli::compare::db;
+use subsurf_viewer::human;
+
+use super::figures;
 use super::plan::BASE_MATERIALS;
 use super::published::{COMPARED, Published, SIZED, published};
-use super::record::{Record, capture_name, picture_path};
-use super::tables::{claims, other, precision, table};
-use super::{figures, plan};
-use crate::compare::db;
-use crate::memory::human;
+use super::record::Record;
+use super::results::Results;
+use super::tables::{claims, precision};
+use crate::page::colour::{ERRORS, colour};
+use crate::page::panel::{Bar, Row, panel};
+use crate::page::{CSS, duration, other, table};
 
-/// Everything the page is made from.
-pub(super) struct Study<'a> {
-    pub(super) folder: &'a Path,
-    pub(super) materials: &'a [String],
-    pub(super) records: &'a [Record],
-    pub(super) fits: &'a [plan::Fit],
-    pub(super) size: [usize; 2],
-    pub(super) window: u32,
-    pub(super) pitch_mm: f64,
-    pub(super) photons: Option<f64>,
-    pub(super) capture_bytes: u64,
-}
-
-impl Study<'_> {
-    pub(super) fn find(&self, material: &str, noisy: bool, label: &str) -> Option<&Record> {
-        self.records.iter().find(|r| r.material == material && r.noisy == noisy && r.label == label)
-    }
-
-    pub(super) fn title(&self, label: &str) -> String {
-        let fit = self.fits.iter().find(|fit| fit.label == label);
-        fit.map_or_else(|| label.to_owned(), |fit| fit.title.clone())
-    }
-
-    /// Labels of the paper's own fits that were made.
-    fn papers(&self) -> impl Iterator<Item = &str> {
-        self.fits.iter().map(|fit| fit.label.as_str()).filter(|label| label.starts_with("paper"))
-    }
-
+impl Results<'_> {
     /// The page.
     pub(super) fn html(&self) -> anyhow::Result<String> {
         let mut out =
             String::from("<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>subsurf study</title>");
-        let _ = write!(out, "<style>{}</style><body>", include_str!("page.css"));
+        let _ = write!(out, "<style>{}</style><body>", CSS);
         self.introduction(&mut out);
         out.push_str("<h2>What is claimed, and whether it holds here</h2>");
         out.push_str(&claims(self));
@@ -153,21 +128,6 @@ impl Study<'_> {
         out.push_str(&self.by_material(false, &labels, time, &SIZED[1..], |paper, at| paper.times[at]));
     }
 
-    fn labels_compared(&self) -> Vec<&str> {
-        let mut labels = vec!["song", "clusters-equal", "k1", "k1-equal", "k2", "k3", "k5"];
-        labels.extend(self.papers());
-        labels
-    }
-
-    /// Captures without noise and, if there are any, with noise.
-    pub(super) fn halves(&self) -> Vec<(bool, &'static str)> {
-        let mut halves = vec![(false, "without noise")];
-        if self.records.iter().any(|record| record.noisy) {
-            halves.push((true, "with noise"));
-        }
-        halves
-    }
-
     fn errors(&self, out: &mut String) {
         out.push_str("<h2>Mean relative error of the diffuse albedo (their table 5)</h2>");
         for (noisy, title) in self.halves() {
@@ -205,15 +165,6 @@ impl Study<'_> {
                 |paper, at| paper.ssim[at],
             ));
         }
-    }
-
-    pub(super) fn mm(&self) -> [f64; 2] {
-        #[allow(clippy::cast_precision_loss, reason = "a length on a picture")]
-        self.size.map(|side| side as f64 * self.pitch_mm)
-    }
-
-    pub(super) fn picture(&self, material: &str, noisy: bool, label: &str, what: &str) -> Option<Vec<u8>> {
-        std::fs::read(picture_path(self.folder, &capture_name(material, noisy), label, what)).ok()
     }
 
     fn appearance(&self, out: &mut String) {
@@ -280,13 +231,4 @@ fn error_bar() -> Bar {
         (format!("{bound}{error}"), (error.log10() - low) / (high - low))
     });
     Bar { title: "relative error", ticks: ticks.to_vec(), colour }
-}
-
-/// Seconds for people.
-pub(super) fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s < 100.0 => format!("{s:.1} s"),
-        s if s < 3_600.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.1} h", s / 3_600.0),
-    }
 }

@@ -1,4 +1,4 @@
-//! Results of fits, kept in the study's folder: a study that was interrupted goes on where it was.
+//! Records: what came of the fits of a capture, cached in the study's folder.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -14,12 +14,12 @@ use subsurf_encoder::capture::Capture;
 use subsurf_encoder::metrics::Light;
 use subsurf_encoder::write_bytes;
 
-use super::colour::{error_map, grey_map};
-use super::kept;
 use super::plan::Fit;
-use crate::compare::{Judgement, judge};
-use crate::picture::{linear, write_png};
-use crate::progress::Bars;
+use crate::cache;
+use crate::page::colour::{error_map, grey_map};
+use subsurf_cli::compare::{Judgement, judge};
+use subsurf_cli::picture::{linear, write_png};
+use subsurf_cli::program::progress::Bars;
 
 /// What came of one fit. Judged by the capture without noise, whatever it was fitted to.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -27,7 +27,7 @@ pub(super) struct Record {
     pub(super) material: String,
     pub(super) noisy: bool,
     pub(super) label: String,
-    /// Options and capture, to see whether a kept record is still the answer.
+    /// Options and capture, to see whether a cached record is still the answer.
     request: String,
     pub(super) per_pixel: usize,
     pub(super) base_materials: usize,
@@ -46,7 +46,7 @@ pub(super) struct Record {
 }
 
 /// One capture of the study.
-pub(super) struct Subject<'a> {
+pub(super) struct FitCase<'a> {
     pub(super) material: &'a str,
     pub(super) noisy: bool,
     pub(super) capture: &'a Capture,
@@ -55,12 +55,12 @@ pub(super) struct Subject<'a> {
     pub(super) folder: &'a Path,
 }
 
-impl Subject<'_> {
+impl FitCase<'_> {
     pub(super) fn name(&self) -> String {
         capture_name(self.material, self.noisy)
     }
 
-    /// The record of a fit: the kept one if it is still the answer, else fits; true if it had to.
+    /// The record of a fit: the cached one if it is still the answer, else fits; true if it had to.
     pub(super) fn record(&self, fit: &Fit) -> anyhow::Result<(Record, bool)> {
         let options = self.settled(fit)?;
         let capture = self.capture;
@@ -68,10 +68,10 @@ impl Subject<'_> {
         let source = (capture.pitch_mm(), capture.addressing(), capture.eta(), capture.simulated());
         let request = format!("{} {options:?} {shape:?} {source:?}", env!("CARGO_PKG_VERSION"));
         let path = self.folder.join("fits").join(format!("{}-{}.json", self.name(), fit.label));
-        if let Some(kept) = kept::read::<Record>(&path)
-            && kept.request == request
+        if let Some(cached) = cache::read::<Record>(&path)
+            && cached.request == request
         {
-            return Ok((kept, false));
+            return Ok((cached, false));
         }
         let start = Instant::now();
         let encoded = bssrdf::encode(self.capture, None, &options, &Bars::new())?;
@@ -96,7 +96,7 @@ impl Subject<'_> {
             deflated: deflated(&encoded.bytes)?,
             lz4: lz4_flex::block::compress(&encoded.bytes).len() as u64,
         };
-        kept::write(&path, &record)?;
+        cache::write(&path, &record)?;
         Ok((record, true))
     }
 

@@ -2,41 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::page::{Study, duration};
 use super::record::Record;
-use crate::memory::human;
-
-/// A number or name from the paper.
-pub(super) fn other(text: &str) -> String {
-    format!("<span class=\"other\">{text}</span>")
-}
-
-/// Rows of cells under titles; cells that begin with a tick or a cross are coloured.
-pub(super) fn table(titles: &[String], rows: &[Vec<String>]) -> String {
-    let mut out = String::from("<table><thead><tr>");
-    for title in titles {
-        let _ = write!(out, "<th>{title}</th>");
-    }
-    out.push_str("</tr></thead><tbody>");
-    for row in rows {
-        out.push_str("<tr>");
-        for content in row {
-            let class = match content.chars().next() {
-                Some('✓') => " class=\"yes\"",
-                Some('✗') => " class=\"no\"",
-                _ => "",
-            };
-            let _ = write!(out, "<td{class}>{content}</td>");
-        }
-        out.push_str("</tr>");
-    }
-    out.push_str("</tbody></table>");
-    out
-}
-
-pub(super) fn mark(holds: bool, what: &str) -> String {
-    format!("{} {what}", if holds { '✓' } else { '✗' })
-}
+use super::results::Results;
+use crate::page::{duration, mark, table};
+use subsurf_viewer::human;
 
 /// `a` is better than `b` by this many dB under every light, least first.
 fn least_gain(a: &Record, b: &Record) -> Option<f64> {
@@ -54,7 +23,7 @@ fn better(a: &Record, b: Option<&Record>) -> String {
 }
 
 /// What is claimed of every capture.
-pub(super) fn claims(study: &Study<'_>) -> String {
+pub(super) fn claims(study: &Results<'_>) -> String {
     let titles = [
         "",
         "K = 2 better than the paper's fit, same size",
@@ -98,7 +67,7 @@ pub(super) fn claims(study: &Study<'_>) -> String {
 }
 
 /// Precisions of K = 2, and what a compressor would still find.
-pub(super) fn precision(study: &Study<'_>) -> String {
+pub(super) fn precision(study: &Results<'_>) -> String {
     let titles =
         ["", "", "bytes", "relative error", "PSNR uniform / disc / line (dB)", "deflate would save", "LZ4 would save"];
     let mut rows = Vec::new();
@@ -125,7 +94,7 @@ pub(super) fn precision(study: &Study<'_>) -> String {
 }
 
 /// All records, for spreadsheets.
-pub(super) fn csv(study: &Study<'_>) -> String {
+pub(super) fn csv(study: &Results<'_>) -> String {
     let mut out = String::from(
         "material,noise,fit,K,M,bytes,seconds,relative_error,psnr_uniform_db,psnr_disc_db,psnr_line_db,ssim_uniform,\
          ssim_disc,ssim_line,deflated_bytes,lz4_bytes\n",

@@ -1,5 +1,7 @@
-//! What is compared, and at how many bytes.
+//! Codecs that are compared, and at how many bytes.
 
+use subsurf_cli::encode::btf::{Common, MethodArg, grid, usual_bytes, usual_nodes};
+use subsurf_cli::program::progress::Bars;
 use subsurf_encoder::Error;
 use subsurf_encoder::btf::baseline::{
     Baseline, local_pca, local_pca_bytes, one_level, one_level_bytes, pca, pca_bytes,
@@ -8,9 +10,7 @@ use subsurf_encoder::btf::nested::Extent;
 use subsurf_encoder::btf::rate::{self, Target};
 use subsurf_encoder::btf::{Images, Survey};
 
-use super::{SEED, surveyed};
-use crate::encode::btf::{Common, MethodArg, grid, usual_bytes, usual_nodes};
-use crate::progress::Bars;
+use super::survey::{SEED, surveyed};
 
 /// A way to compress, and for baselines whose bytes they may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub(super) enum Codec {
     LocalPca,
 }
 
-/// What a codec made.
+/// Outcome of a codec.
 pub(super) enum Made {
     File(Vec<u8>),
     Baseline(Baseline),

@@ -1,29 +1,29 @@
-//! `subsurf study btf`: the BTF paper's tables on simulated materials.
+//! `subsurf-study btf`: the BTF paper's tables on simulated materials.
 
 mod codec;
 mod page;
 mod published;
 mod record;
 mod shared;
+mod survey;
 
 use std::path::PathBuf;
 use std::time::Instant;
 
-use subsurf_encoder::btf::{Images, Pixels, Survey};
+use subsurf_cli::encode::btf::load;
+use subsurf_cli::outln;
+use subsurf_cli::program::failure::bad_request;
+use subsurf_cli::simulate::btf::{Request, SampleArg};
+use subsurf_encoder::btf::{Images, Pixels};
 use subsurf_encoder::simulate::btf::Sample;
 use subsurf_encoder::write_bytes;
 
 use self::codec::Codec;
-use self::page::Study;
-use self::record::{Record, Subject};
+use self::page::Results;
+use self::record::{CodecCase, Record};
 use self::shared::{Member, Set, Shared};
-use super::page::duration;
-use crate::encode::btf::{detail, load};
-use crate::failure::bad_request;
-use crate::memory::human;
-use crate::progress::Bars;
-use crate::say::say;
-use crate::simulate::btf::{Request, SampleArg};
+use self::survey::SEED;
+use crate::page::duration;
 
 /// Repeat tables 2 and 3 of Havran, Filip and Myszkowski 2010 on simulated materials, beside their own encoder, one-level
 /// vector quantisation, PCA and local PCA at equal bytes.
@@ -50,8 +50,6 @@ pub(crate) struct Args {
     no_paper: bool,
 }
 
-const SEED: u64 = 1;
-
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if !(16..=1_024).contains(&args.size) || args.every == 0 {
         return Err(bad_request("--size may be 16 to 1024, and --every 1 or more"));
@@ -69,8 +67,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
     }
     for (number, sample) in samples.iter().enumerate() {
-        say!("{} ({} of {})", sample.name(), number + 1, samples.len());
-        let mut subject = Subject {
+        outln!("{} ({} of {})", sample.name(), number + 1, samples.len());
+        let mut case = CodecCase {
             name: sample.name(),
             side: args.size,
             folder: &args.dir,
@@ -80,8 +78,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         };
         let of_paper = |codec: &Codec| [Codec::Paper, Codec::NestedAsPaper].contains(codec);
         for codec in Codec::ALL.into_iter().filter(|codec| !(args.no_paper && of_paper(codec))) {
-            if let Some(record) = subject.record(codec, || images(args, Member { sample: *sample, seed: SEED }))? {
-                say!("  {}", record.line());
+            if let Some(record) = case.record(codec, || images(args, Member { sample: *sample, seed: SEED }))? {
+                outln!("  {}", record.line());
                 records.push(record);
             }
         }
@@ -93,11 +91,18 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let shared = sets.iter().map(|set| shared::shared(&args.dir, set, args.size, |member| images(args, member)));
     let shared: Vec<Shared> = shared.collect::<anyhow::Result<_>>()?;
     let names: Vec<&str> = samples.iter().map(|sample| sample.name()).collect();
-    let study = Study { folder: &args.dir, materials: &names, records: &records, shared: &shared, args };
-    write_bytes(&args.dir.join("btf.html"), study.html().as_bytes())?;
-    write_bytes(&args.dir.join("btf.csv"), study.csv().as_bytes())?;
+    let results = Results {
+        folder: &args.dir,
+        materials: &names,
+        records: &records,
+        shared: &shared,
+        side: args.size,
+        every: args.every,
+    };
+    write_bytes(&args.dir.join("btf.html"), results.html().as_bytes())?;
+    write_bytes(&args.dir.join("btf.csv"), results.csv().as_bytes())?;
     let page = std::path::absolute(args.dir.join("btf.html"))?;
-    say!("{} after {}; numbers in btf.csv beside it", page.display(), duration(start.elapsed().as_secs_f64()));
+    outln!("{} after {}; numbers in btf.csv beside it", page.display(), duration(start.elapsed().as_secs_f64()));
     Ok(())
 }
 
@@ -107,27 +112,8 @@ fn images(args: &Args, member: Member) -> anyhow::Result<Images> {
     let output = args.dir.join("images").join(format!("{}-{}", member.name(), args.size));
     let request = Request { sample, size: args.size, pixels: Pixels::Display { exposure: 1.0 }, seed };
     if !request.is_there(&output) {
-        say!("simulating {}", member.name());
+        outln!("simulating {}", member.name());
         request.write(&output)?;
     }
     load(&output)
-}
-
-fn survey_of(images: &[Images]) -> subsurf_encoder::Result<Survey> {
-    Survey::new(images, detail(images.len()), SEED, &Bars::new())
-}
-
-/// What the codecs of a material share.
-fn surveyed<'a>(images: &[Images], survey: &'a mut Option<Survey>) -> anyhow::Result<&'a Survey> {
-    if survey.is_none() {
-        *survey = Some(survey_of(images)?);
-    }
-    survey.as_ref().ok_or_else(|| bad_request("no survey"))
-}
-
-/// Bytes and what they are of what was measured.
-fn size(bytes: u64, raw_bytes: u64) -> String {
-    #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
-    let ratio = raw_bytes as f64 / bytes.max(1) as f64;
-    format!("{}, 1:{ratio:.0}", human(bytes))
 }

@@ -5,30 +5,31 @@ use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use subsurf_viewer::human;
 
 use super::codec::Codec;
 use super::published::published;
-use super::record::{PICTURED, Record, picture_path};
+use super::record::{PICTURED, Record, picture_path, size};
 use super::shared::Shared;
-use super::{Args, size};
-use crate::memory::human;
-use crate::study::page::duration;
-use crate::study::tables::{mark, other, table};
+use crate::page::{CSS, duration, mark, other, table};
 
-/// Everything the page is made from.
-pub(super) struct Study<'a> {
+/// Results of the study, all that its page is made from.
+pub(super) struct Results<'a> {
     pub(super) folder: &'a Path,
     pub(super) materials: &'a [&'a str],
     pub(super) records: &'a [Record],
     pub(super) shared: &'a [Shared],
-    pub(super) args: &'a Args,
+    /// Pixels of the images in x and in y.
+    pub(super) side: u32,
+    /// Every so many pairs of directions are judged.
+    pub(super) every: usize,
 }
 
 const NONE: &str = "\u{2013}";
 /// Codebooks as their table 3 has them.
 const BOOKS: [&str; 8] = ["P1", "P2", "C", "I1", "I2", "M", "P3", "P4"];
 
-impl Study<'_> {
+impl Results<'_> {
     fn find(&self, material: &str, codec: Codec) -> Option<&Record> {
         self.records.iter().find(|record| record.material == material && record.label == codec.label())
     }
@@ -37,7 +38,7 @@ impl Study<'_> {
         let mut out = String::from(
             "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>subsurf study of BTFs</title>",
         );
-        let _ = write!(out, "<style>{}</style><body>", include_str!("../page.css"));
+        let _ = write!(out, "<style>{}</style><body>", CSS);
         self.introduction(&mut out);
         out.push_str("<h2>What is claimed, and whether it holds here</h2>");
         out.push_str(&self.claims());
@@ -58,8 +59,8 @@ impl Study<'_> {
     }
 
     fn introduction(&self, out: &mut String) {
-        let side = self.args.size;
-        let pairs = match self.args.every {
+        let side = self.side;
+        let pairs = match self.every {
             1 => "all 6,561 pairs of directions".to_owned(),
             every => format!("every {every}th of 6,561 pairs of directions"),
         };

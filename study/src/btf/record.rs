@@ -1,27 +1,27 @@
-//! One material through one codec: kept on disk, as it takes minutes.
+//! Records: what came of a material through a codec, cached on disk, as it takes minutes.
 
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
+use subsurf_cli::compare::pair_at;
+use subsurf_cli::info::Parts;
+use subsurf_cli::picture::{display, write_png};
+use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::btf::Evaluate;
 use subsurf_encoder::btf::{Images, Survey};
 use subsurf_encoder::metrics::btf::{BtfError, compare, compare_images, decode, with_file};
 use subsurf_encoder::write_bytes;
+use subsurf_viewer::human;
 
 use super::codec::{Codec, Made};
-use super::size;
-use crate::compare::pair_at;
-use crate::info::Parts;
-use crate::picture::{display, write_png};
-use crate::progress::Bars;
-use crate::study::kept;
+use crate::cache;
 
 /// Pairs of directions that are shown: shares of all of them.
 pub(super) const PICTURED: [f64; 3] = [0.12, 0.52, 0.73];
 
-/// What was found.
+/// What came of a codec.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct Record {
     /// What it answers; another one is another question.
@@ -53,27 +53,27 @@ impl Record {
 }
 
 /// A material of the study.
-pub(super) struct Subject<'a> {
+pub(super) struct CodecCase<'a> {
     pub(super) name: &'a str,
     /// Pixels of its images in x and in y.
     pub(super) side: u32,
     pub(super) folder: &'a Path,
     pub(super) every: usize,
-    /// Its images, and what the codecs share, once something is not kept.
+    /// Its images, and what the codecs share, once something is not cached.
     pub(super) images: Vec<Images>,
     pub(super) survey: Option<Survey>,
 }
 
-impl Subject<'_> {
-    fn kept(&self, codec: Codec) -> PathBuf {
+impl CodecCase<'_> {
+    fn cached(&self, codec: Codec) -> PathBuf {
         self.folder.join("files").join(format!("{}-{}-{}.json", self.name, self.side, codec.label()))
     }
 
     fn read(&self, codec: Codec) -> Option<Record> {
-        kept::read(&self.kept(codec))
+        cache::read(&self.cached(codec))
     }
 
-    /// The record of a codec, the kept one if it is still the answer; none if it cannot be as small as it may be.
+    /// The record of a codec, the cached one if it is still the answer; none if it cannot be as small as it may be.
     pub(super) fn record(
         &mut self,
         codec: Codec,
@@ -81,8 +81,8 @@ impl Subject<'_> {
     ) -> anyhow::Result<Option<Record>> {
         let budget = codec.budget_of().and_then(|other| self.read(other)).map_or(0, |record| record.bytes);
         let request = format!("{} {codec:?} {budget} every {}", env!("CARGO_PKG_VERSION"), self.every);
-        if let Some(kept) = self.read(codec).filter(|kept| kept.request == request) {
-            return Ok(Some(kept));
+        if let Some(cached) = self.read(codec).filter(|cached| cached.request == request) {
+            return Ok(Some(cached));
         }
         if self.images.is_empty() {
             self.images.push(load()?);
@@ -97,7 +97,7 @@ impl Subject<'_> {
         let best = judged.into_iter().max_by(|(a, _), (b, _)| quality(a).total_cmp(&quality(b)));
         let Some((error, made)) = best else { return Ok(None) };
         self.draw(codec, &made)?;
-        let path = self.kept(codec);
+        let path = self.cached(codec);
         let (mut books, mut evaluations) = (Vec::new(), None);
         if let Made::File(bytes) = &made {
             write_bytes(&path.with_extension("subsurf"), bytes)?;
@@ -118,7 +118,7 @@ impl Subject<'_> {
             evaluations,
             books,
         };
-        kept::write(&path, &record)?;
+        cache::write(&path, &record)?;
         Ok(Some(record))
     }
 
@@ -185,4 +185,11 @@ fn evaluations_per_second(file: &dyn Evaluate) -> f64 {
         }
     }
     f64::from(count) / start.elapsed().as_secs_f64()
+}
+
+/// Bytes and what they are of what was measured.
+pub(super) fn size(bytes: u64, raw_bytes: u64) -> String {
+    #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
+    let ratio = raw_bytes as f64 / bytes.max(1) as f64;
+    format!("{}, 1:{ratio:.0}", human(bytes))
 }

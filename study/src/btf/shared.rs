@@ -3,6 +3,10 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use subsurf_cli::encode::btf::MethodArg;
+use subsurf_cli::outln;
+use subsurf_cli::program::failure::bad_request;
+use subsurf_cli::program::progress::Bars;
 use subsurf_encoder::btf::Images;
 use subsurf_encoder::btf::nested::Extent;
 use subsurf_encoder::btf::rate::judge;
@@ -10,11 +14,8 @@ use subsurf_encoder::simulate::btf::Sample;
 use subsurf_encoder::write_bytes;
 
 use super::codec::common;
-use super::{SEED, survey_of};
-use crate::encode::btf::MethodArg;
-use crate::progress::Bars;
-use crate::say::say;
-use crate::study::kept;
+use super::survey::{SEED, survey_of};
+use crate::cache;
 
 /// A sample, and the seed that it is simulated with.
 #[derive(Clone, Copy, Debug)]
@@ -83,8 +84,8 @@ pub(super) fn shared(
     let request = format!("{} {} {:?}", env!("CARGO_PKG_VERSION"), names.join(" "), [side; 2]);
     let files = folder.join("files");
     let path = files.join(format!("shared-{}-{side}.json", set.label));
-    if let Some(kept) = kept::read::<Shared>(&path).filter(|kept| kept.request == request) {
-        return Ok(kept);
+    if let Some(cached) = cache::read::<Shared>(&path).filter(|cached| cached.request == request) {
+        return Ok(cached);
     }
     let images = set.members.iter().map(|member| load(*member)).collect::<anyhow::Result<Vec<_>>>()?;
     let mut apart = (0, 0.0);
@@ -109,7 +110,7 @@ pub(super) fn shared(
         let p4 = share * Extent::USUAL.p4 * names.len() / 100;
         let bytes = prepared.encode(&Extent { p4, ..Extent::USUAL }.sizes(), &Bars::new())?.to_bytes();
         let together = (bytes.len() as u64, quality(&images, &bytes));
-        say!(
+        outln!(
             "  {}, shared, P4 = {p4}: {} bytes, MSSIM {:.4}; apart {} bytes, {:.4}",
             set.title,
             together.0,
@@ -123,8 +124,8 @@ pub(super) fn shared(
             break;
         }
     }
-    let found = found.ok_or_else(|| crate::failure::bad_request("no shared file was tried"))?;
-    kept::write(&path, &found)?;
+    let found = found.ok_or_else(|| bad_request("no shared file was tried"))?;
+    cache::write(&path, &found)?;
     Ok(found)
 }
 

@@ -15,21 +15,21 @@ const BOTTOM: usize = 34;
 const BAR: usize = 92;
 
 /// What a column or row of pictures shows, and its pictures; `None` leaves a hole.
-pub(super) struct Row {
-    pub(super) title: String,
-    pub(super) pictures: Vec<Option<Vec<u8>>>,
+pub(crate) struct Row {
+    pub(crate) title: String,
+    pub(crate) pictures: Vec<Option<Vec<u8>>>,
 }
 
 /// A colour bar beside a panel.
-pub(super) struct Bar {
-    pub(super) title: &'static str,
+pub(crate) struct Bar {
+    pub(crate) title: &'static str,
     /// What stands beside the bar, with its place from 0, the lower end, to 1.
-    pub(super) ticks: Vec<(String, f64)>,
-    pub(super) colour: fn(f64) -> Rgb<u8>,
+    pub(crate) ticks: Vec<(String, f64)>,
+    pub(crate) colour: fn(f64) -> Rgb<u8>,
 }
 
 /// A panel of PNG pictures, each `mm` wide and high.
-pub(super) fn panel(columns: &[String], rows: &[Row], mm: [f64; 2], bar: Option<&Bar>) -> String {
+pub(crate) fn panel(columns: &[String], rows: &[Row], mm: [f64; 2], bar: Option<&Bar>) -> String {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pixels on a page")]
     let height = (SIDE as f64 * mm[1] / mm[0]).round().max(1.0) as usize;
     let step = [SIDE + GAP, height + GAP];

@@ -3,22 +3,22 @@
 use plotters::prelude::*;
 
 /// Points of one kind, x and y, joined if `joined`.
-pub(super) struct Series {
-    pub(super) title: String,
-    pub(super) points: Vec<(f64, f64)>,
-    pub(super) joined: bool,
+pub(crate) struct Series {
+    pub(crate) title: String,
+    pub(crate) points: Vec<(f64, f64)>,
+    pub(crate) joined: bool,
 }
 
 /// An axis from `range.start` to `range.end`.
-pub(super) struct Axis {
-    pub(super) title: &'static str,
-    pub(super) range: std::ops::Range<f64>,
-    pub(super) scale: Scale,
+pub(crate) struct Axis {
+    pub(crate) title: &'static str,
+    pub(crate) range: std::ops::Range<f64>,
+    pub(crate) scale: Scale,
 }
 
 /// How values stand along an axis.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Scale {
+pub(crate) enum Scale {
     Linear,
     /// Equal factors are equally far apart.
     Logarithmic,
@@ -62,7 +62,7 @@ const COLOURS: [RGBColor; 8] = [
 const SIZE: (u32, u32) = (560, 400);
 
 /// A chart with a legend in one of its corners.
-pub(super) fn chart(
+pub(crate) fn chart(
     title: &str,
     x: &Axis,
     y: &Axis,

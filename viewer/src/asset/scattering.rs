@@ -1,191 +1,138 @@
-//! A material and a mesh as a path wants them: computed, and then brought to a device.
+//! What a technique needs of a translucent material and a mesh, computed without a device.
 
 use std::sync::Arc;
 
 use subsurf_decoder::Bssrdf;
-use subsurf_runtime::scene::{Mapping, Mesh, Outline, Scene, SkyShare, Surface};
-use subsurf_runtime::{
-    BtfMaterial, Frame, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions,
-    SeparableMaterial, SplatMaterial,
-};
+use subsurf_runtime::{Gpu, GpuMesh, GpuPoints, Known, Material, SeparableMaterial, SplatMaterial};
+use subsurf_scene::{Light, Mapping, Mesh, Outline, Scene, SkyShare, Surface, visibility};
 use subsurf_shaders::separable::{Detail, Factors};
 use subsurf_shaders::uniform::MAX_LIGHTS;
 
-use super::PathArg;
-use super::mesh::chosen_exposure;
-use crate::mesh::visibility;
+use super::gpu::GpuAsset;
+use crate::error::Result;
 
 /// Longest edge of the mesh between whose vertices light is gathered, in pixels of the material.
 const LONGEST_EDGE: f32 = 1.5;
 /// How close to the gather the separable path has to come on a flat patch, in dB.
 const LEAST_DB: f32 = 40.0;
 
-/// What takes long and needs no device.
-pub(crate) struct Ingredients {
-    mapping: Mapping,
-    of_path: OfPath,
+/// Technique by which a translucent material is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scattering {
+    /// Every point gathers light from all others within reach: the reference.
+    Gather,
+    /// Every place that the light reaches is spread over what lies around it.
+    Splat,
+    /// Weighted irradiance maps and shared Gaussians: many times faster, and an approximation.
+    Separable,
+    /// The same with one mean profile everywhere, as if the material were not heterogeneous; for comparison.
+    Homogeneous,
 }
 
-enum OfPath {
+/// Translucent material and mesh as a technique needs them: what takes long to compute, and needs no device.
+pub struct Asset {
+    mapping: Mapping,
+    parts: Parts,
+}
+
+enum Parts {
     Gather { fine: Mesh, surface: Surface },
     Splat { sky: Arc<Vec<SkyShare>>, factors: Factors },
     Separable { sky: Arc<Vec<SkyShare>>, factors: Factors },
 }
 
-impl Ingredients {
+impl Asset {
+    /// Computes what `technique` needs; the lights of the scene count for gathers only.
+    ///
     /// `sky`, where it is known already for this mesh and material, is not computed again.
-    pub(crate) fn compute(
+    ///
+    /// # Errors
+    /// The mesh is broken, or too fine a one would be needed.
+    pub fn compute(
         material: &Bssrdf<'_>,
         mesh: &Mesh,
         mapping: Mapping,
         scene: &Scene,
-        path: PathArg,
+        technique: Scattering,
         sky: Option<Arc<Vec<SkyShare>>>,
-    ) -> anyhow::Result<Self> {
+    ) -> Result<Self> {
         let sky = || match sky {
             Some(sky) => Ok(sky),
             None => SkyShare::of(mesh, material).map(Arc::new),
         };
-        let of_path = match path {
-            PathArg::Gather => {
+        let parts = match technique {
+            Scattering::Gather => {
                 let (fine, surface) = points(mesh, mapping, material, scene)?;
-                OfPath::Gather { fine, surface }
+                Parts::Gather { fine, surface }
             }
-            PathArg::Splat => OfPath::Splat { sky: sky()?, factors: Factors::of(material, Detail::default()) },
-            PathArg::Separable | PathArg::Homogeneous => {
-                OfPath::Separable { sky: sky()?, factors: factors(material, path) }
+            Scattering::Splat => Parts::Splat { sky: sky()?, factors: Factors::of(material, Detail::default()) },
+            Scattering::Separable | Scattering::Homogeneous => {
+                Parts::Separable { sky: sky()?, factors: factors(material, technique) }
             }
         };
-        Ok(Self { mapping, of_path })
+        Ok(Self { mapping, parts })
     }
 
-    /// Light from all around, the same for all paths that want it.
-    pub(crate) fn sky(&self) -> Option<&Arc<Vec<SkyShare>>> {
-        match &self.of_path {
-            OfPath::Splat { sky, .. } | OfPath::Separable { sky, .. } => Some(sky),
-            OfPath::Gather { .. } => None,
+    /// Light from all around at every vertex, the same for all techniques that want it; none for gathers.
+    #[must_use]
+    pub fn sky(&self) -> Option<&Arc<Vec<SkyShare>>> {
+        match &self.parts {
+            Parts::Splat { sky, .. } | Parts::Separable { sky, .. } => Some(sky),
+            Parts::Gather { .. } => None,
         }
     }
 
-    /// Brings everything to a device.
-    pub(crate) fn upload(&self, gpu: &Gpu, material: &Bssrdf<'_>, mesh: &Mesh) -> anyhow::Result<Prepared> {
+    /// Brings everything to a device; material and mesh have to be those that it was computed for.
+    ///
+    /// # Errors
+    /// The device cannot draw it, or has no room for it.
+    pub fn upload(&self, gpu: &Gpu, material: &Bssrdf<'_>, mesh: &Mesh) -> Result<GpuAsset> {
         let outline = Outline::new(mesh, self.mapping, material.header());
         let shared = |sky: &[SkyShare]| GpuMesh::upload(gpu, mesh, &outline, Known::Sky(sky));
-        Ok(match &self.of_path {
-            OfPath::Gather { fine, surface } => Prepared::Gather {
+        Ok(match &self.parts {
+            Parts::Gather { fine, surface } => GpuAsset::Gather {
                 mesh: GpuMesh::upload(gpu, fine, &outline, Known::Points(surface.point_of()))?,
                 points: GpuPoints::upload(gpu, surface)?,
                 material: Material::upload(gpu, material)?,
             },
-            OfPath::Splat { sky, factors } => {
-                Prepared::Splat { mesh: shared(sky)?, material: SplatMaterial::upload(gpu, material, factors)? }
+            Parts::Splat { sky, factors } => {
+                GpuAsset::Splat { mesh: shared(sky)?, material: SplatMaterial::upload(gpu, material, factors)? }
             }
-            OfPath::Separable { sky, factors } => {
-                Prepared::Separable { mesh: shared(sky)?, material: SeparableMaterial::upload(gpu, factors)? }
+            Parts::Separable { sky, factors } => {
+                GpuAsset::Separable { mesh: shared(sky)?, material: SeparableMaterial::upload(gpu, factors)? }
             }
         })
     }
 }
 
-/// Factors of a material, or of its mean.
-pub(super) fn factors(material: &Bssrdf<'_>, path: PathArg) -> Factors {
-    match path {
-        PathArg::Homogeneous => Factors::homogeneous(material, Detail::default().gaussians),
-        PathArg::Gather | PathArg::Splat | PathArg::Separable => Factors::within(material, LEAST_DB),
+/// Factors of a material, or of its mean for [`Scattering::Homogeneous`].
+#[must_use]
+pub fn factors(material: &Bssrdf<'_>, technique: Scattering) -> Factors {
+    match technique {
+        Scattering::Homogeneous => Factors::homogeneous(material, Detail::default().gaussians),
+        Scattering::Gather | Scattering::Splat | Scattering::Separable => Factors::within(material, LEAST_DB),
     }
 }
 
 /// The mesh with vertices close enough to gather light at, and them as points that exchange light.
-pub(super) fn points(
-    mesh: &Mesh,
-    mapping: Mapping,
-    material: &Bssrdf<'_>,
-    scene: &Scene,
-) -> anyhow::Result<(Mesh, Surface)> {
+///
+/// # Errors
+/// The mesh would have too many vertices.
+pub fn points(mesh: &Mesh, mapping: Mapping, material: &Bssrdf<'_>, scene: &Scene) -> Result<(Mesh, Surface)> {
     let fine = mesh.clone().subdivided(LONGEST_EDGE * material.header().pitch_mm)?;
-    let mut visibilities = vec![[0.0; MAX_LIGHTS]; fine.positions.len()];
-    for (k, light) in scene.lights.iter().take(MAX_LIGHTS).enumerate() {
-        for (of_vertex, seen) in visibilities.iter_mut().zip(visibility(&fine, light)) {
-            of_vertex[k] = seen;
-        }
-    }
+    let visibilities = vertex_visibilities(&fine, &scene.lights);
     let surface = Surface::new(&fine, mapping, material.header(), &visibilities);
     Ok((fine, surface))
 }
 
-/// A material and a mesh on the device as a path wants them.
-#[allow(clippy::large_enum_variant, reason = "one or two at a time, and they stay where they are")]
-pub(crate) enum Prepared {
-    Gather { mesh: GpuMesh, points: GpuPoints, material: Material },
-    Splat { mesh: GpuMesh, material: SplatMaterial },
-    Separable { mesh: GpuMesh, material: SeparableMaterial },
-    Btf { mesh: GpuMesh, material: BtfMaterial, number: usize },
-}
-
-impl Prepared {
-    pub(crate) fn mesh_bytes(&self) -> u64 {
-        match self {
-            Self::Gather { mesh, .. }
-            | Self::Splat { mesh, .. }
-            | Self::Separable { mesh, .. }
-            | Self::Btf { mesh, .. } => mesh.gpu_bytes(),
+/// What every vertex sees of every light: 1, or 0 in shadow.
+#[must_use]
+pub fn vertex_visibilities(mesh: &Mesh, lights: &[Light]) -> Vec<[f32; MAX_LIGHTS]> {
+    let mut visibilities = vec![[0.0; MAX_LIGHTS]; mesh.positions.len()];
+    for (k, light) in lights.iter().take(MAX_LIGHTS).enumerate() {
+        for (of_vertex, seen) in visibilities.iter_mut().zip(visibility(mesh, light)) {
+            of_vertex[k] = seen;
         }
     }
-
-    pub(crate) fn model(&self) -> Model<'_> {
-        match self {
-            Self::Gather { mesh, points, material } => Model::Gather { mesh, points, material },
-            Self::Splat { mesh, material } => Model::Splat { mesh, material },
-            Self::Separable { mesh, material } => Model::Separable { mesh, material },
-            Self::Btf { mesh, material, number } => Model::Btf { mesh, material, number: *number },
-        }
-    }
-
-    /// The renderer's name for the path.
-    pub(crate) fn path(&self) -> Path {
-        match self {
-            Self::Gather { material, .. } => Path::Gather(material.storage()),
-            Self::Splat { material, .. } => Path::Splat(material.planes().storage()),
-            Self::Separable { material, .. } => Path::Separable(material.terms()),
-            Self::Btf { material, .. } => Path::Btf(material.storage()),
-        }
-    }
-
-    pub(crate) fn material_bytes(&self) -> u64 {
-        match self {
-            Self::Gather { material, .. } => material.gpu_bytes(),
-            Self::Splat { material, .. } => material.planes().gpu_bytes(),
-            Self::Separable { material, .. } => material.gpu_bytes(),
-            Self::Btf { material, .. } => material.gpu_bytes(),
-        }
-    }
-}
-
-/// Everything to draw pictures of one size with.
-pub(crate) struct Ready {
-    pub(crate) prepared: Prepared,
-    pub(crate) renderer: Renderer,
-    pub(crate) frame: Frame,
-}
-
-impl Ready {
-    pub(crate) fn new(
-        gpu: &Gpu,
-        prepared: Prepared,
-        scene: &Scene,
-        size: [u32; 2],
-        options: RuntimeOptions,
-    ) -> anyhow::Result<Self> {
-        let renderer = Renderer::new(gpu, prepared.path(), options)?;
-        let frame = renderer.prepare(gpu, &prepared.model(), scene, size)?;
-        Ok(Self { prepared, renderer, frame })
-    }
-
-    pub(crate) fn picture(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<Vec<[u8; 3]>> {
-        Ok(self.renderer.picture(gpu, &mut self.frame, &self.prepared.model(), scene)?)
-    }
-
-    pub(crate) fn exposure(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<f32> {
-        chosen_exposure(gpu, &self.renderer, &mut self.frame, &self.prepared, scene)
-    }
+    visibilities
 }

@@ -1,46 +1,36 @@
-//! The window: events in, pictures out.
+//! Application: events in, pictures out.
 
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
 use glam::Vec2;
-use subsurf_runtime::{Backend, RuntimeOptions};
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::window::{Window, WindowId};
 
-use super::Notice;
+use super::config::Config;
 use super::controls::{Command, Drag, Pointer, command, steps};
-use super::painter::Overlay;
+use super::draw::{Overlay, Shows, Stage};
+use super::event::{Event, EventKind};
+use super::host::{Host, Picture};
+use super::job::JobQueue;
 use super::panel::{self, Message};
 use super::session::Session;
-use super::stage::Stage;
 use super::times::Patience;
-use crate::failure::NoDisplay;
-use crate::picture::{image, write_png};
-use crate::say::say;
+use crate::error::{Error, Result, one_line};
 
-/// Frames before a screenshot: the panel has settled, and the time is a median of several.
+/// Frames before a capture: the panel has settled, and the time is a median of several.
 const FRAMES: u32 = 5;
 
-/// What was asked for on the command line.
-pub(super) struct Wishes {
-    pub(super) backends: Vec<Backend>,
-    pub(super) options: RuntimeOptions,
-    pub(super) size: [u32; 2],
-    pub(super) screenshot: Option<PathBuf>,
-    /// Loses the device after so many frames: how the window survives that can be tested.
-    pub(super) loses_device_after: Option<u32>,
-}
-
-/// The window and what belongs to it.
-pub(super) struct App {
-    wishes: Wishes,
-    proxy: EventLoopProxy<Notice>,
+/// Window and all that belongs to it.
+pub(super) struct App<'a> {
+    config: Config,
+    proxy: EventLoopProxy<Event>,
+    host: &'a mut dyn Host,
     session: Session,
+    jobs: JobQueue,
     context: egui::Context,
     pointer: Pointer,
     opened: Option<Opened>,
@@ -52,7 +42,7 @@ pub(super) struct App {
     /// The next frame is saved.
     saves: bool,
     last: Instant,
-    outcome: anyhow::Result<()>,
+    outcome: Result<()>,
 }
 
 /// What there is once the window is open.
@@ -62,12 +52,24 @@ struct Opened {
     stage: Stage,
 }
 
-impl App {
-    pub(super) fn new(wishes: Wishes, session: Session, proxy: EventLoopProxy<Notice>) -> Self {
+impl<'a> App<'a> {
+    pub(super) fn new(
+        config: Config,
+        session: Session,
+        proxy: EventLoopProxy<Event>,
+        host: &'a mut dyn Host,
+    ) -> Self {
+        let results = proxy.clone();
+        let jobs = JobQueue::new(Arc::new(move |result| {
+            // Where the window is closed by now, nobody wants it.
+            let _ = results.send_event(Event(EventKind::Computed(result)));
+        }));
         Self {
-            wishes,
+            config,
             proxy,
+            host,
             session,
+            jobs,
             context: egui::Context::default(),
             pointer: Pointer::default(),
             opened: None,
@@ -82,21 +84,21 @@ impl App {
     }
 
     /// How it ended.
-    pub(super) fn outcome(self) -> anyhow::Result<()> {
+    pub(super) fn outcome(self) -> Result<()> {
         self.outcome
     }
 
-    fn end(&mut self, events: &ActiveEventLoop, outcome: anyhow::Result<()>) {
+    fn end(&mut self, events: &ActiveEventLoop, outcome: Result<()>) {
         self.outcome = outcome;
         events.exit();
     }
 
-    fn open(&mut self, events: &ActiveEventLoop) -> anyhow::Result<Opened> {
-        let [width, height] = self.wishes.size;
+    fn open(&mut self, events: &ActiveEventLoop) -> Result<Opened> {
+        let [width, height] = self.config.size;
         let attributes =
             Window::default_attributes().with_title("subsurf view").with_inner_size(PhysicalSize::new(width, height));
         let window = events.create_window(attributes);
-        let window = Arc::new(window.map_err(|error| NoDisplay(format!("no window can be opened: {error}")))?);
+        let window = Arc::new(window.map_err(|error| Error::NoDisplay(format!("no window can be opened: {error}")))?);
         let stage = self.open_stage(&window)?;
         // egui's textures are for the device that they were made on: another device, another context.
         self.context = egui::Context::default();
@@ -106,9 +108,9 @@ impl App {
         Ok(Opened { window, input, stage })
     }
 
-    fn open_stage(&mut self, window: &Arc<Window>) -> anyhow::Result<Stage> {
+    fn open_stage(&mut self, window: &Arc<Window>) -> Result<Stage> {
         self.number += 1;
-        Stage::open(&self.wishes.backends, window, self.wishes.options, &self.proxy, self.number)
+        Stage::open(&self.config.backends, window, self.config.options, &self.proxy, self.number)
     }
 
     /// Opens everything anew after the device was lost.
@@ -129,11 +131,10 @@ impl App {
                 self.opened = Some(opened);
                 self.session.changed();
                 self.session.failure = None;
-                let text = format!("the device was lost and opened anew ({reason})");
-                eprintln!("subsurf: {text}");
-                self.session.message = Some(Message::Done(text));
+                self.session.message = Some(Message::Done(format!("the device was lost and opened anew ({reason})")));
+                self.host.recovered(reason);
             }
-            Err(error) => self.end(events, Err(error.context("the device was lost"))),
+            Err(error) => self.end(events, Err(Error::Lost(Box::new(error)))),
         }
     }
 
@@ -150,21 +151,21 @@ impl App {
         }
         if let Err(error) = result {
             self.end(events, Err(error));
-        } else if self.wishes.screenshot.is_some()
+        } else if self.config.captures
             && let Some(error) = self.session.failure.take()
         {
             self.end(events, Err(error));
         }
     }
 
-    fn draw(&mut self, opened: &mut Opened, events: &ActiveEventLoop) -> anyhow::Result<()> {
+    fn draw(&mut self, opened: &mut Opened, events: &ActiveEventLoop) -> Result<()> {
         let Opened { window, input, stage } = opened;
         let seconds = self.last.elapsed().as_secs_f32();
         self.last = Instant::now();
         let mut goes_on = self.session.pass_time(seconds.min(0.1));
 
         // The panel, and what it asks for.
-        let (before, facts) = (self.session.settings, self.session.facts(stage));
+        let (before, facts) = (self.session.settings, self.session.facts(stage, &self.jobs));
         let (context, session) = (&self.context, &mut self.session);
         let mut commands = Vec::new();
         let output = context.run(input.take_egui_input(window), |context| {
@@ -180,31 +181,34 @@ impl App {
         painter.receive(gpu, &output.textures_delta);
 
         // The picture.
-        session.follow(stage);
+        session.follow(stage, &mut self.jobs);
         session.draw(stage);
         let shows = session.shows(stage);
         stage.present(shows, &overlay, window)?;
 
         self.frames += 1;
-        if self.wishes.loses_device_after == Some(self.frames) {
-            stage.gpu.device().destroy();
-            goes_on = true;
-        }
+        self.host.presented(self.frames, &stage.gpu);
         let is_settled = self.session.is_settled(stage);
-        if let (Some(path), true) = (&self.wishes.screenshot, is_settled) {
+        if self.config.captures && is_settled {
             self.settled += 1;
             (self.session.is_stale, goes_on) = (true, true);
             if self.settled > FRAMES {
-                let size = stage.canvas.size();
-                write_png(path, &image(&stage.capture(shows, &overlay)?, size[0]))?;
-                say!("{}: {} x {} pixels, drawn by {}", path.display(), size[0], size[1], facts.device);
+                let picture = picture(stage, shows, &overlay)?;
+                self.host.capture(&picture, &facts.device).map_err(Error::Host)?;
                 events.exit();
             }
         }
         commands.extend(std::mem::take(&mut self.saves).then_some(Command::Save));
         for command in commands {
             match command {
-                Command::Save => self.session.message = Some(save(stage, &self.session, &overlay)),
+                Command::Save => {
+                    let saved = picture(stage, self.session.shows(stage), &overlay).map_err(|error| one_line(&error));
+                    let saved = saved.and_then(|picture| self.host.save(&stem(&self.session), &picture));
+                    self.session.message = Some(match saved {
+                        Ok(place) => Message::Done(format!("saved {place}")),
+                        Err(reason) => Message::Failed(reason),
+                    });
+                }
                 command => self.session.obey(command, stage.canvas.size()),
             }
             goes_on = true;
@@ -238,30 +242,25 @@ impl App {
     }
 }
 
-/// Writes what the window shows into this folder, under a name that is not taken.
-fn save(stage: &mut Stage, session: &Session, overlay: &Overlay) -> Message {
-    let material = &session.subject.materials[session.settings.material];
-    let way = if material.is_btf() { "btf".to_owned() } else { format!("{:?}", session.settings.path) };
-    let stem = format!("{}-{}-{way}", material.name(), session.subject.mesh_name).to_lowercase();
-    let names = (1..).map(|number: u32| PathBuf::from(format!("{stem}-{number}.png")));
-    let path = names.into_iter().find(|name| !Path::new(name).exists()).unwrap_or_default();
-    let size = stage.canvas.size();
-    let written = stage.capture(session.shows(stage), overlay);
-    match written.and_then(|pixels| write_png(&path, &image(&pixels, size[0]))) {
-        Ok(()) => {
-            say!("{}", path.display());
-            Message::Done(format!("saved {}", path.display()))
-        }
-        Err(error) => Message::Failed(crate::failure::line(&error)),
-    }
+/// All that the window shows.
+fn picture(stage: &mut Stage, shows: Shows, overlay: &Overlay) -> Result<Picture> {
+    Ok(Picture { size: stage.canvas.size(), pixels: stage.capture(shows, overlay)? })
+}
+
+/// Name of a picture: material, mesh and technique.
+fn stem(session: &Session) -> String {
+    let material = &session.assets.materials[session.settings.material];
+    let technique =
+        if material.is_btf() { "btf".to_owned() } else { format!("{:?}", session.settings.technique) };
+    format!("{}-{}-{technique}", material.name(), session.assets.mesh_name).to_lowercase()
 }
 
 fn title(session: &Session) -> String {
-    let material = &session.subject.materials[session.settings.material];
-    format!("{} on {} – subsurf view", material.name(), session.subject.mesh_name)
+    let material = &session.assets.materials[session.settings.material];
+    format!("{} on {} – subsurf view", material.name(), session.assets.mesh_name)
 }
 
-impl ApplicationHandler<Notice> for App {
+impl ApplicationHandler<Event> for App<'_> {
     fn resumed(&mut self, events: &ActiveEventLoop) {
         if self.opened.is_some() {
             return;
@@ -281,12 +280,12 @@ impl ApplicationHandler<Notice> for App {
         }
     }
 
-    fn user_event(&mut self, events: &ActiveEventLoop, notice: Notice) {
-        match notice {
-            Notice::Computed(answer) => self.session.receive(answer),
-            Notice::DeviceError(reason) => self.session.fail(subsurf_runtime::Error::Device(reason).into()),
-            Notice::DeviceLost { number, reason } if number == self.number => self.recover(events, &reason),
-            Notice::DeviceLost { .. } => return,
+    fn user_event(&mut self, events: &ActiveEventLoop, event: Event) {
+        match event.0 {
+            EventKind::Computed(result) => self.session.receive(result, &mut self.jobs),
+            EventKind::DeviceError(reason) => self.session.fail(subsurf_runtime::Error::Device(reason).into()),
+            EventKind::DeviceLost { number, reason } if number == self.number => self.recover(events, &reason),
+            EventKind::DeviceLost { .. } => return,
         }
         if let Some(opened) = &self.opened {
             opened.window.request_redraw();
@@ -334,7 +333,7 @@ impl ApplicationHandler<Notice> for App {
                 }
             }
             WindowEvent::MouseWheel { delta, .. } if !response.consumed => {
-                self.session.studio.zoom(steps(delta));
+                self.session.state.zoom(steps(delta));
                 self.session.is_stale = true;
             }
             _ => return,

@@ -4,19 +4,18 @@ use glam::Vec2;
 use winit::event::{ElementState, MouseButton, MouseScrollDelta};
 use winit::keyboard::{Key, NamedKey};
 
-use crate::render::PathArg;
+use crate::asset::Scattering;
 
-/// Key, path, name and meaning of what can be drawn.
-pub(super) const PATHS: [(&str, PathArg, &str, &str); 4] = [
-    ("1", PathArg::Splat, "splat", "Every place that the light reaches is spread over what lies around it"),
-    ("2", PathArg::Separable, "separable", "Weighted irradiance maps and shared Gaussians: the fastest"),
-    ("3", PathArg::Homogeneous, "homogeneous", "One mean profile everywhere; for comparison"),
-    ("4", PathArg::Gather, "gather", "Every point gathers from all others: the reference, and slow"),
+/// Key, technique, name and meaning of what a translucent material can be drawn by.
+pub(super) const TECHNIQUES: [(&str, Scattering, &str, &str); 4] = [
+    ("1", Scattering::Splat, "splat", "Every place that the light reaches is spread over what lies around it"),
+    ("2", Scattering::Separable, "separable", "Weighted irradiance maps and shared Gaussians: the fastest"),
+    ("3", Scattering::Homogeneous, "homogeneous", "One mean profile everywhere; for comparison"),
+    ("4", Scattering::Gather, "gather", "Every point gathers from all others: the reference, and slow"),
 ];
 
-/// The keys, for `--help`.
-pub(super) const KEYS: &str = "\
-In the window:
+/// Keys and pointer of the window, in lines for a help text.
+pub const KEYS: &str = "\
   drag            turn the mesh
   right drag      drag the light; shift and drag do the same
   wheel           zoom
@@ -28,23 +27,15 @@ In the window:
   L               let the light go around
   X               choose the exposure
   R               view and light as at the beginning
-  S               save what the window shows as PNG, into this folder
+  S               save what the window shows as PNG
   H               hide the panel
   Q, Esc          quit
-  drop a file     a material (.subsurf) or a mesh (.obj, .ply, .glb, .gltf)
+  drop a file     a material (.subsurf) or a mesh (.obj, .ply, .glb, .gltf)";
 
-Examples:
-  subsurf view jade.subsurf onyx.subsurf --mesh bunny.ply
-  subsurf view jade.subsurf --budget 16MB --backend gl
-  subsurf view jade.subsurf --path splat --screenshot jade.png
-  subsurf view leather.subsurf --images leather/ --repeat 6
-
-Exit codes: 3 if there is no display or no device that draws to it.";
-
-/// What keys and buttons ask for.
+/// Request of a key or a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Command {
-    Path(PathArg),
+    Technique(Scattering),
     NextMaterial,
     NextShape,
     Error,
@@ -63,8 +54,8 @@ pub(super) fn command(key: &Key) -> Option<Command> {
         return Some(Command::Quit);
     }
     let text = key.to_text()?.to_lowercase();
-    if let Some((_, path, ..)) = PATHS.iter().find(|(key, ..)| *key == text) {
-        return Some(Command::Path(*path));
+    if let Some((_, technique, ..)) = TECHNIQUES.iter().find(|(key, ..)| *key == text) {
+        return Some(Command::Technique(*technique));
     }
     Some(match text.as_str() {
         "n" => Command::NextMaterial,
@@ -81,14 +72,14 @@ pub(super) fn command(key: &Key) -> Option<Command> {
     })
 }
 
-/// What the pointer drags.
+/// Thing that the pointer drags.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Drag {
     View,
     Light,
 }
 
-/// Where the pointer is and what it drags.
+/// Pointer: where it is and what it drags.
 #[derive(Debug, Default)]
 pub(super) struct Pointer {
     at: Vec2,
@@ -133,12 +124,12 @@ mod tests {
     #[test]
     fn every_key_of_the_help_does_something() {
         let asked = |text: &str| command(&Key::Character(text.into()));
-        for line in KEYS.lines().skip(1).take_while(|line| !line.is_empty()) {
+        for line in KEYS.lines() {
             for word in line[2..18].split([' ', ',']).filter(|word| word.len() == 1 && *word != "a") {
                 assert!(asked(word).is_some(), "{word} in \"{line}\"");
             }
         }
-        assert_eq!(asked("2"), Some(Command::Path(PathArg::Separable)));
+        assert_eq!(asked("2"), Some(Command::Technique(Scattering::Separable)));
         assert_eq!(asked("S"), Some(Command::Save));
         assert_eq!(command(&Key::Named(NamedKey::Escape)), Some(Command::Quit));
         assert_eq!(asked("ß"), None);

@@ -1,38 +1,36 @@
-//! Computes what is to be known of material and mesh, on a thread of its own: the window goes on.
+//! Jobs: what is to be known of material and mesh is computed on a thread of its own, and the window goes on.
 
 use std::sync::Arc;
 
 use glam::Vec3;
-use subsurf_encoder::btf::Images;
-use subsurf_runtime::scene::{Mesh, Scene, SkyShare};
 use subsurf_runtime::{BtfMaterial, Gpu};
-use winit::event_loop::EventLoopProxy;
+use subsurf_scene::{Mesh, Scene, SkyShare};
 
-use super::Notice;
-use super::subject::MaterialFile;
-use crate::info::Parsed;
-use crate::render::{
-    BtfArgs, Ingredients, MappingArg, PathArg, Prepared, choose_mapping, expect_uvs, prepare_btf, read_images,
-    upload_images,
+use super::assets::MaterialFile;
+use super::config::LoadImages;
+use crate::asset::{
+    Asset, BtfImageSet, GpuAsset, MappingChoice, Scattering, choose_mapping, expect_uvs, repeats, upload_images,
 };
+use crate::error::{Error, Result};
+use crate::file::Content;
 
-/// How a material is drawn.
+/// Way in which a material is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
-    /// A translucent one, by one of the paths.
-    Path(PathArg),
-    /// A BTF.
+pub(super) enum RenderMode {
+    /// A translucent one, by a technique.
+    Scattering(Scattering),
+    /// A BTF, from its file.
     Btf,
-    /// The images that it was made from.
+    /// A BTF, from the images that it was made from.
     Images,
 }
 
-/// What a picture is of, and how it is drawn.
+/// Identity of a picture: what it is of, and how it is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Key {
     pub(super) material: usize,
     pub(super) mesh: u32,
-    pub(super) way: Way,
+    pub(super) mode: RenderMode,
     /// The light from which vertices are shaded, where a path knows it beforehand.
     pub(super) light: Option<Vec3>,
 }
@@ -44,86 +42,94 @@ impl Key {
     }
 }
 
-/// What is to be computed.
-pub(super) struct Order {
+/// Work to do before a picture can be drawn.
+pub(super) struct Job {
     pub(super) key: Key,
     pub(super) material: Arc<MaterialFile>,
     pub(super) mesh: Arc<Mesh>,
-    pub(super) mapping: MappingArg,
-    pub(super) btf: Arc<BtfArgs>,
+    pub(super) mapping: MappingChoice,
+    /// Copies of a BTF along u and v, if they were asked for.
+    pub(super) repeats: Option<[f32; 2]>,
+    pub(super) images: Option<Arc<LoadImages>>,
     pub(super) scene: Scene,
 }
 
-/// What takes long and needs no device.
+/// What a job computes: all that takes long and needs no device.
 pub(super) enum Computed {
-    Scattering(Ingredients),
-    Btf { copies: [f32; 2] },
-    Images { copies: [f32; 2], images: Images },
+    Scattering(Asset),
+    Btf { repeats: [f32; 2] },
+    Images { repeats: [f32; 2], images: Box<dyn BtfImageSet> },
 }
 
 impl Computed {
     /// Brings everything to a device.
-    pub(super) fn upload(&self, gpu: &Gpu, file: &MaterialFile, mesh: &Mesh) -> anyhow::Result<Prepared> {
+    pub(super) fn upload(&self, gpu: &Gpu, file: &MaterialFile, mesh: &Mesh) -> Result<GpuAsset> {
         match (self, file.read()?) {
-            (Self::Scattering(ingredients), Parsed::Bssrdf(material)) => ingredients.upload(gpu, &material, mesh),
-            (Self::Btf { copies }, Parsed::Btf(btf)) => {
-                prepare_btf(gpu, mesh, *copies, BtfMaterial::upload(gpu, &btf)?, file.number())
+            (Self::Scattering(asset), Content::Bssrdf(material)) => asset.upload(gpu, &material, mesh),
+            (Self::Btf { repeats }, Content::Btf(btf)) => {
+                GpuAsset::btf(gpu, mesh, *repeats, BtfMaterial::upload(gpu, &btf)?, file.number())
             }
-            (Self::Images { copies, images }, _) => prepare_btf(gpu, mesh, *copies, upload_images(gpu, images)?, 0),
-            _ => Err(anyhow::anyhow!("{}: the file is of another kind than it was", file.name())),
+            (Self::Images { repeats, images }, _) => {
+                GpuAsset::btf(gpu, mesh, *repeats, upload_images(gpu, images.as_ref())?, 0)
+            }
+            _ => Err(Error::Request(format!("{}: the file is of another kind than it was", file.name()))),
         }
     }
 
     /// Light from all around, where it was computed.
     fn sky(&self) -> Option<&Arc<Vec<SkyShare>>> {
         match self {
-            Self::Scattering(ingredients) => ingredients.sky(),
+            Self::Scattering(asset) => asset.sky(),
             Self::Btf { .. } | Self::Images { .. } => None,
         }
     }
 }
 
-impl Order {
-    fn compute(&self, sky: Option<Arc<Vec<SkyShare>>>) -> anyhow::Result<Computed> {
-        match (self.material.read()?, self.key.way) {
-            (Parsed::Bssrdf(material), Way::Path(path)) => {
+impl Job {
+    fn compute(&self, sky: Option<Arc<Vec<SkyShare>>>) -> Result<Computed> {
+        match (self.material.read()?, self.key.mode) {
+            (Content::Bssrdf(material), RenderMode::Scattering(technique)) => {
                 let mapping = choose_mapping(&self.mesh, self.mapping, &material)?;
-                let ingredients = Ingredients::compute(&material, &self.mesh, mapping, &self.scene, path, sky)?;
-                Ok(Computed::Scattering(ingredients))
+                let asset = Asset::compute(&material, &self.mesh, mapping, &self.scene, technique, sky)?;
+                Ok(Computed::Scattering(asset))
             }
-            (Parsed::Btf(btf), way) => {
+            (Content::Btf(btf), mode) => {
                 expect_uvs(&self.mesh)?;
                 let size = btf.materials().nth(self.material.number()).map_or([1; 2], |material| material.size(0));
-                let copies = self.btf.copies(&self.mesh, size);
-                match (&self.btf.images, way) {
-                    (Some(folder), Way::Images) => Ok(Computed::Images { copies, images: read_images(folder)? }),
-                    _ => Ok(Computed::Btf { copies }),
+                let repeats = self.repeats.unwrap_or_else(|| repeats(&self.mesh, size));
+                match (&self.images, mode) {
+                    (Some(load), RenderMode::Images) => Ok(Computed::Images { repeats, images: load()? }),
+                    _ => Ok(Computed::Btf { repeats }),
                 }
             }
-            (Parsed::Bssrdf(_), Way::Btf | Way::Images) => Err(anyhow::anyhow!("{} is no BTF", self.material.name())),
+            (Content::Bssrdf(_), RenderMode::Btf | RenderMode::Images) => {
+                Err(Error::Request(format!("{} is no BTF", self.material.name())))
+            }
         }
     }
 }
 
-/// What came of an order.
-pub(super) struct Answer {
+/// Outcome of a job.
+pub(super) struct JobResult {
     key: Key,
-    result: anyhow::Result<Computed>,
+    result: Result<Computed>,
 }
 
-/// Computes one order at a time, and keeps what was wanted last.
-pub(super) struct Loader {
-    proxy: EventLoopProxy<Notice>,
+/// Queue of one: does a job at a time, and caches what was wanted last.
+pub(super) struct JobQueue {
+    /// Hands a result to the window's thread.
+    send: Arc<dyn Fn(JobResult) + Send + Sync>,
     pending: Option<Key>,
-    kept: Vec<(Key, Arc<Computed>)>,
+    cache: Vec<(Key, Arc<Computed>)>,
 }
 
-/// So many answers are kept: all paths of two materials.
-const KEPT: usize = 8;
+/// Results in the cache at most: all techniques of two materials.
+const CACHED: usize = 8;
 
-impl Loader {
-    pub(super) fn new(proxy: EventLoopProxy<Notice>) -> Self {
-        Self { proxy, pending: None, kept: Vec::new() }
+impl JobQueue {
+    /// `send` is called on another thread.
+    pub(super) fn new(send: Arc<dyn Fn(JobResult) + Send + Sync>) -> Self {
+        Self { send, pending: None, cache: Vec::new() }
     }
 
     /// What is being computed.
@@ -133,36 +139,33 @@ impl Loader {
 
     /// What was computed already.
     pub(super) fn find(&self, key: &Key) -> Option<Arc<Computed>> {
-        self.kept.iter().find(|(kept, _)| kept == key).map(|(_, computed)| computed.clone())
+        self.cache.iter().find(|(cached, _)| cached == key).map(|(_, computed)| computed.clone())
     }
 
-    /// Starts to compute, unless there is something to wait for; a [`Notice::Computed`] will come.
-    pub(super) fn start(&mut self, order: Order) {
+    /// Starts a job, unless there is one to wait for.
+    pub(super) fn start(&mut self, job: Job) {
         if self.pending.is_some() {
             return;
         }
-        self.pending = Some(order.key);
-        let sky = self.kept.iter().filter(|(key, _)| key.shares_sky(&order.key)).find_map(|(_, kept)| kept.sky());
-        let (sky, proxy) = (sky.cloned(), self.proxy.clone());
-        std::thread::spawn(move || {
-            let answer = Answer { key: order.key, result: order.compute(sky) };
-            // Where the window is closed by now, nobody wants it.
-            let _ = proxy.send_event(Notice::Computed(answer));
-        });
+        self.pending = Some(job.key);
+        let alike = self.cache.iter().filter(|(key, _)| key.shares_sky(&job.key));
+        let sky = alike.map(|(_, computed)| computed.sky()).find_map(|sky| sky.cloned());
+        let send = self.send.clone();
+        std::thread::spawn(move || send(JobResult { key: job.key, result: job.compute(sky) }));
     }
 
-    /// Takes an answer in; fails with the key where there is none.
-    pub(super) fn receive(&mut self, answer: Answer) -> Result<(), (Key, anyhow::Error)> {
+    /// Takes a result in; fails with the key of a job that failed.
+    pub(super) fn receive(&mut self, of: JobResult) -> std::result::Result<(), (Key, Error)> {
         self.pending = None;
-        let computed = answer.result.map_err(|error| (answer.key, error))?;
+        let computed = of.result.map_err(|error| (of.key, error))?;
         // Other meshes never come back. Points under another light hardly ever do, and are large.
-        let is_gather = |key: &Key| key.way == Way::Path(PathArg::Gather);
-        let replaces = |key: &Key| is_gather(&answer.key) && is_gather(key);
-        self.kept.retain(|(key, _)| key.mesh == answer.key.mesh && !replaces(key));
-        if self.kept.len() == KEPT {
-            self.kept.remove(0);
+        let is_gather = |key: &Key| key.mode == RenderMode::Scattering(Scattering::Gather);
+        let replaces = |key: &Key| is_gather(&of.key) && is_gather(key);
+        self.cache.retain(|(key, _)| key.mesh == of.key.mesh && !replaces(key));
+        if self.cache.len() == CACHED {
+            self.cache.remove(0);
         }
-        self.kept.push((answer.key, Arc::new(computed)));
+        self.cache.push((of.key, Arc::new(computed)));
         Ok(())
     }
 }

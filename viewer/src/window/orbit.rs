@@ -1,11 +1,11 @@
-//! The eye, which goes around the mesh, and the light, which can be dragged.
+//! Eye that goes around the mesh, and light that can be dragged.
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::{Quat, Vec2, Vec3};
-use subsurf_runtime::scene::View;
+use subsurf_scene::View;
 
-/// An eye that looks at a point from all around.
+/// Eye that looks at a point from all around.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Orbit {
     target_mm: Vec3,
@@ -40,6 +40,7 @@ impl Orbit {
         }
     }
 
+    /// What it sees.
     pub(super) fn view(&self, exposure: f32) -> View {
         let towards = Vec3::new(self.up.cos() * self.around.sin(), self.up.sin(), self.up.cos() * self.around.cos());
         View {

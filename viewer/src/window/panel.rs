@@ -3,14 +3,14 @@
 use egui::{Color32, Context, FontId, Frame, RichText, Slider, TextStyle, Ui, Window};
 use subsurf_runtime::Plan;
 
-use super::controls::{Command, PATHS};
-use crate::memory::human;
-use crate::render::PathArg;
+use super::controls::{Command, TECHNIQUES};
+use crate::asset::Scattering;
+use crate::units::human;
 
-/// What the panel changes.
+/// Settings that the panel changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Settings {
-    pub(super) path: PathArg,
+    pub(super) technique: Scattering,
     pub(super) material: usize,
     pub(super) roughness: f32,
     pub(super) exposure: f32,
@@ -23,7 +23,7 @@ pub(super) struct Settings {
     pub(super) is_open: bool,
 }
 
-/// What the panel tells.
+/// Facts that the panel tells.
 pub(super) struct Facts {
     pub(super) device: String,
     /// Whether the material is a BTF, and whether there are images to compare it with.
@@ -42,7 +42,7 @@ pub(super) struct Facts {
     pub(super) message: Option<Message>,
 }
 
-/// The last thing to know.
+/// News, until the next.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Message {
     Done(String),
@@ -88,9 +88,9 @@ fn choices(ui: &mut Ui, settings: &mut Settings, facts: &Facts, commands: &mut V
     ui.separator();
     match facts.btf {
         None => {
-            for (key, path, name, meaning) in PATHS {
+            for (key, technique, name, meaning) in TECHNIQUES {
                 let text = format!("{key}  {name}");
-                ui.selectable_value(&mut settings.path, path, text).on_hover_text(meaning);
+                ui.selectable_value(&mut settings.technique, technique, text).on_hover_text(meaning);
             }
             ui.checkbox(&mut settings.shows_error, "10 × difference to the gather (E)")
                 .on_hover_text("Of display values. The gather follows when the light is let go");
@@ -102,7 +102,7 @@ fn choices(ui: &mut Ui, settings: &mut Settings, facts: &Facts, commands: &mut V
                 .on_hover_text("Of display values, grain of the environment included");
         }
         Some(false) => {
-            ui.label("A BTF. With --images FOLDER, it is compared with the images that it was made from");
+            ui.label("A BTF, without images to compare it with");
         }
     }
 }
@@ -118,7 +118,7 @@ fn sliders(ui: &mut Ui, settings: &mut Settings, facts: &Facts, commands: &mut V
         for (name, hint, command) in [
             ("Expose", "X: so that this picture is neither dark nor burnt out", Command::Expose),
             ("Reset", "R: view and light as at the beginning", Command::Reset),
-            ("Save PNG", "S: what the window shows, into this folder", Command::Save),
+            ("Save PNG", "S: what the window shows", Command::Save),
         ] {
             if ui.button(name).on_hover_text(hint).clicked() {
                 commands.push(command);

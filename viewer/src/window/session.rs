@@ -1,78 +1,117 @@
-//! What is wanted, what is there, and how the one becomes the other.
+//! Session: what is wanted, what is there, and how the one becomes the other.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use glam::Vec3;
 
-use super::compose::Shows;
+use super::assets::{Assets, Dropped, MeshReading};
+use super::config::{Config, LoadImages};
 use super::controls::{Command, Drag};
-use super::loader::{Answer, Key, Loader, Order, Way};
+use super::draw::{Role, Shows, Stage};
+use super::job::{Job, JobQueue, JobResult, Key, RenderMode};
 use super::panel::{Facts, Message, Settings};
-use super::stage::{Role, Stage};
-use super::studio::Studio;
-use super::subject::{Dropped, Subject};
+use super::state::SceneState;
 use super::times::Times;
-use crate::failure::line;
-use crate::render::{MappingArg, PathArg};
+use crate::asset::{MappingChoice, Scattering};
+use crate::error::{Error, Result, one_line};
+use crate::request::ROUGHNESS;
+
+/// The reference of translucent materials.
+const GATHER: RenderMode = RenderMode::Scattering(Scattering::Gather);
 
 /// All that outlives a device.
 pub(super) struct Session {
-    pub(super) subject: Subject,
-    pub(super) studio: Studio,
+    pub(super) assets: Assets,
+    pub(super) state: SceneState,
     pub(super) settings: Settings,
-    pub(super) loader: Loader,
-    pub(super) mapping: MappingArg,
-    pub(super) budget_bytes: Option<u64>,
-    pub(super) times: Times,
+    mapping: MappingChoice,
+    repeats: Option<[f32; 2]>,
+    images: Option<Arc<LoadImages>>,
+    budget_bytes: Option<u64>,
+    times: Times,
     pub(super) message: Option<Message>,
     /// What went wrong since it was last asked for.
-    pub(super) failure: Option<anyhow::Error>,
+    pub(super) failure: Option<Error>,
     /// What failed is not tried again until something changes.
-    pub(super) refused: Vec<Key>,
+    refused: Vec<Key>,
     /// The picture is not of what is wanted any more.
     pub(super) is_stale: bool,
     /// The next picture chooses the exposure.
-    pub(super) exposes: bool,
+    exposes: bool,
 }
 
 impl Session {
+    /// Opens the files of a configuration.
+    pub(super) fn new(config: &Config) -> Result<Self> {
+        if !(config.extent_mm.is_finite() && config.extent_mm > 0.0) {
+            return Err(Error::Request(format!("an extent of {} mm; it must be positive", config.extent_mm)));
+        }
+        let reading = MeshReading { extent_mm: config.extent_mm, up: config.up };
+        let assets = Assets::open(&config.files, config.material.as_deref(), &config.mesh, reading)?;
+        Ok(Self {
+            state: SceneState::of(&assets.mesh, &config.environment, config.size),
+            assets,
+            settings: Settings {
+                technique: config.technique,
+                material: 0,
+                roughness: ROUGHNESS,
+                exposure: 1.0,
+                shows_error: config.shows_error,
+                splits: config.images.is_some() && !config.shows_error,
+                turns_light: false,
+                is_open: true,
+            },
+            mapping: config.mapping,
+            repeats: config.repeats,
+            images: config.images.clone(),
+            budget_bytes: config.options.budget_bytes,
+            times: Times::default(),
+            message: None,
+            failure: None,
+            refused: Vec::new(),
+            is_stale: true,
+            exposes: true,
+        })
+    }
+
     /// The light of the picture: a gather is too slow to follow the pointer.
     fn light(&self) -> Vec3 {
-        if self.gathers() { self.studio.rested } else { self.studio.light }
+        if self.gathers() { self.state.rested } else { self.state.light }
     }
 
     fn gathers(&self) -> bool {
-        !self.is_btf() && (self.settings.shows_error || self.settings.path == PathArg::Gather)
+        !self.is_btf() && (self.settings.shows_error || self.settings.technique == Scattering::Gather)
     }
 
     fn is_btf(&self) -> bool {
-        self.subject.materials[self.settings.material].is_btf()
+        self.assets.materials[self.settings.material].is_btf()
     }
 
     /// Whether a BTF is to be compared with its images.
     fn compares_images(&self) -> bool {
-        self.subject.btf.images.is_some() && (self.settings.splits || self.settings.shows_error)
+        self.images.is_some() && (self.settings.splits || self.settings.shows_error)
     }
 
     /// What is to be shown, and what it is to be compared with.
     fn wanted(&self, role: Role) -> Option<Key> {
-        let Settings { path, material, shows_error, .. } = self.settings;
-        let key = |way: Way| {
-            let light = (way == Way::Path(PathArg::Gather)).then_some(self.studio.rested);
-            Key { material, mesh: self.subject.mesh_number, way, light }
+        let Settings { technique, material, shows_error, .. } = self.settings;
+        let key = |mode: RenderMode| {
+            let light = (mode == GATHER).then_some(self.state.rested);
+            Key { material, mesh: self.assets.mesh_number, mode, light }
         };
         match (role, self.is_btf()) {
-            (Role::Shown, false) => Some(key(Way::Path(path))),
-            (Role::Shown, true) => Some(key(Way::Btf)),
+            (Role::Shown, false) => Some(key(RenderMode::Scattering(technique))),
+            (Role::Shown, true) => Some(key(RenderMode::Btf)),
             (Role::Reference, false) => {
-                (shows_error && path != PathArg::Gather).then(|| key(Way::Path(PathArg::Gather)))
+                (shows_error && technique != Scattering::Gather).then(|| key(GATHER))
             }
-            (Role::Reference, true) => self.compares_images().then(|| key(Way::Images)),
+            (Role::Reference, true) => self.compares_images().then(|| key(RenderMode::Images)),
         }
     }
 
     /// Brings to the device what is wanted and computed, and has the rest computed.
-    pub(super) fn follow(&mut self, stage: &mut Stage) {
+    pub(super) fn follow(&mut self, stage: &mut Stage, jobs: &mut JobQueue) {
         // What is shown may be what is compared with next, and the other way around: nothing is computed twice.
         let [shown, reference] = Role::ALL.map(|role| self.wanted(role));
         let is_there = |role, wanted: &Option<Key>| wanted.is_some() && stage.key(role) == wanted.as_ref();
@@ -88,28 +127,29 @@ impl Session {
             if stage.key(role) == Some(&key) || self.refused.contains(&key) {
                 continue;
             }
-            let material = &self.subject.materials[key.material];
-            if let Some(computed) = self.loader.find(&key) {
-                match stage.place(role, key, &computed, material, &self.subject.mesh) {
+            let material = &self.assets.materials[key.material];
+            if let Some(computed) = jobs.find(&key) {
+                match stage.place(role, key, &computed, material, &self.assets.mesh) {
                     Ok(()) => self.changed(),
                     Err(error) => self.refuse(key, error),
                 }
             } else {
-                self.loader.start(Order {
+                jobs.start(Job {
                     key,
                     material: material.clone(),
-                    mesh: self.subject.mesh.clone(),
+                    mesh: self.assets.mesh.clone(),
                     mapping: self.mapping,
-                    btf: self.subject.btf.clone(),
-                    scene: self.studio.scene(self.studio.rested, &self.settings).clone(),
+                    repeats: self.repeats,
+                    images: self.images.clone(),
+                    scene: self.state.scene(self.state.rested, &self.settings).clone(),
                 });
             }
         }
     }
 
     /// Takes in what was computed.
-    pub(super) fn receive(&mut self, answer: Answer) {
-        if let Err((key, error)) = self.loader.receive(answer) {
+    pub(super) fn receive(&mut self, result: JobResult, jobs: &mut JobQueue) {
+        if let Err((key, error)) = jobs.receive(result) {
             self.refuse(key, error);
         }
     }
@@ -135,8 +175,8 @@ impl Session {
         }
     }
 
-    fn draw_one(&mut self, stage: &mut Stage, role: Role, light: Vec3) -> anyhow::Result<Option<Duration>> {
-        let scene = self.studio.scene(light, &self.settings);
+    fn draw_one(&mut self, stage: &mut Stage, role: Role, light: Vec3) -> Result<Option<Duration>> {
+        let scene = self.state.scene(light, &self.settings);
         let time = stage.draw(role, scene)?;
         if role == Role::Reference || !std::mem::take(&mut self.exposes) {
             return Ok(time);
@@ -147,7 +187,7 @@ impl Session {
         };
         self.settings.exposure = exposure;
         // Drivers compile at the first frame: it does not count.
-        stage.draw(role, self.studio.scene(light, &self.settings))
+        stage.draw(role, self.state.scene(light, &self.settings))
     }
 
     /// What the window shows.
@@ -178,7 +218,7 @@ impl Session {
         }
         (self.is_stale, self.message) = (true, None);
         self.refused.clear();
-        if (before.path, before.material) != (self.settings.path, self.settings.material) {
+        if (before.technique, before.material) != (self.settings.technique, self.settings.material) {
             self.times.clear();
         }
     }
@@ -194,11 +234,11 @@ impl Session {
     pub(super) fn obey(&mut self, command: Command, size: [u32; 2]) {
         let before = self.settings;
         match command {
-            Command::Path(path) => self.settings.path = path,
+            Command::Technique(technique) => self.settings.technique = technique,
             Command::NextMaterial => {
-                self.settings.material = (self.settings.material + 1) % self.subject.materials.len();
+                self.settings.material = (self.settings.material + 1) % self.assets.materials.len();
             }
-            Command::NextShape => match self.subject.next_shape() {
+            Command::NextShape => match self.assets.next_shape() {
                 Ok(()) => self.show_mesh(size),
                 Err(error) => self.fail(error),
             },
@@ -207,7 +247,7 @@ impl Session {
             Command::TurnLight => self.settings.turns_light ^= true,
             Command::Expose => (self.exposes, self.is_stale) = (true, true),
             Command::Reset => {
-                self.studio.reset(&self.subject.mesh, size);
+                self.state.reset(&self.assets.mesh, size);
                 self.is_stale = true;
             }
             // Nothing of the picture changes.
@@ -222,7 +262,7 @@ impl Session {
 
     /// Opens a file that was dropped onto the window.
     pub(super) fn open(&mut self, path: &std::path::Path, size: [u32; 2]) {
-        match self.subject.drop(path) {
+        match self.assets.drop(path) {
             Ok(Dropped::Material(number)) => {
                 let before = self.settings;
                 self.settings.material = number;
@@ -235,23 +275,23 @@ impl Session {
 
     fn show_mesh(&mut self, size: [u32; 2]) {
         self.message = None;
-        self.studio.look_at(&self.subject.mesh, size);
+        self.state.look_at(&self.assets.mesh, size);
         self.changed();
     }
 
     /// Moves what is dragged.
     pub(super) fn drag(&mut self, drag: Drag, by: glam::Vec2) {
         match drag {
-            Drag::View => self.studio.turn(by),
-            Drag::Light => self.studio.drag_light(by),
+            Drag::View => self.state.turn(by),
+            Drag::Light => self.state.drag_light(by),
         }
         self.is_stale |= drag == Drag::View || !self.gathers();
     }
 
     /// The light was let go.
     pub(super) fn rest(&mut self) {
-        if self.studio.rested != self.studio.light {
-            self.studio.rested = self.studio.light;
+        if self.state.rested != self.state.light {
+            self.state.rested = self.state.light;
             self.is_stale = true;
         }
     }
@@ -260,35 +300,35 @@ impl Session {
     pub(super) fn pass_time(&mut self, seconds: f32) -> bool {
         let moves = self.settings.turns_light && !self.gathers();
         if moves {
-            self.studio.move_light(seconds);
+            self.state.move_light(seconds);
             self.is_stale = true;
         }
         moves
     }
 
-    pub(super) fn fail(&mut self, error: anyhow::Error) {
-        self.message = Some(Message::Failed(line(&error)));
+    pub(super) fn fail(&mut self, error: Error) {
+        self.message = Some(Message::Failed(one_line(&error)));
         self.failure = Some(error);
     }
 
-    fn refuse(&mut self, key: Key, error: anyhow::Error) {
+    fn refuse(&mut self, key: Key, error: Error) {
         self.refused.push(key);
         self.fail(error);
     }
 
     /// What the panel tells.
-    pub(super) fn facts(&self, stage: &Stage) -> Facts {
-        let busy = self.loader.pending().map(|key| match key.way {
-            Way::Path(PathArg::Gather) => "finding which points exchange light ...".to_owned(),
-            Way::Path(_) => "computing what the path needs ...".to_owned(),
-            Way::Btf => "reading the BTF ...".to_owned(),
-            Way::Images => "reading images ...".to_owned(),
+    pub(super) fn facts(&self, stage: &Stage, jobs: &JobQueue) -> Facts {
+        let busy = jobs.pending().map(|key| match key.mode {
+            GATHER => "finding which points exchange light ...".to_owned(),
+            RenderMode::Scattering(_) => "computing what the path needs ...".to_owned(),
+            RenderMode::Btf => "reading the BTF ...".to_owned(),
+            RenderMode::Images => "reading images ...".to_owned(),
         });
         Facts {
             device: format!("{}, {:?}", stage.gpu.info().name, stage.gpu.info().backend),
-            btf: self.is_btf().then(|| self.subject.btf.images.is_some()),
-            materials: self.subject.materials.iter().map(|file| file.name()).collect(),
-            mesh: format!("{}, {} triangles", self.subject.mesh_name, self.subject.mesh.triangles.len()),
+            btf: self.is_btf().then_some(self.images.is_some()),
+            materials: self.assets.materials.iter().map(|file| file.name()).collect(),
+            mesh: format!("{}, {} triangles", self.assets.mesh_name, self.assets.mesh.triangles.len()),
             size: stage.canvas.size(),
             frame_ms: self.times.median_ms(),
             device_bytes: stage.gpu.ledger().bytes(),

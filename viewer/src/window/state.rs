@@ -1,17 +1,17 @@
-//! Eye, light and surroundings.
+//! State of the scene: eye, light and surroundings.
 
 use glam::{Quat, Vec2, Vec3};
-use subsurf_runtime::scene::{Environment, LightShape, Mesh, Scene};
+use subsurf_scene::{Environment, LightShape, Mesh, Scene};
 
 use super::orbit::{Orbit, dragged};
 use super::panel::Settings;
-use crate::render::Shot;
+use crate::request::RenderRequest;
 
 /// Radians in a second.
 const LIGHT_SPEED: f32 = 0.6;
 
-/// The scene, and what moves in it.
-pub(super) struct Studio {
+/// Scene, and what moves in it.
+pub(super) struct SceneState {
     scene: Scene,
     orbit: Orbit,
     /// Towards the light.
@@ -20,12 +20,12 @@ pub(super) struct Studio {
     pub(super) rested: Vec3,
 }
 
-impl Studio {
+impl SceneState {
     /// The usual picture of a mesh, in a window of `size`.
     pub(super) fn of(mesh: &Mesh, environment: &Environment, size: [u32; 2]) -> Self {
-        let shot = Shot { environment: environment.clone(), ..Shot::usual(size) };
-        let scene = shot.scene(mesh);
-        Self { orbit: Orbit::of(&scene.view), scene, light: shot.direction, rested: shot.direction }
+        let request = RenderRequest { environment: environment.clone(), ..RenderRequest::usual(size) };
+        let scene = request.scene(mesh);
+        Self { orbit: Orbit::of(&scene.view), scene, light: request.direction, rested: request.direction }
     }
 
     /// View and light as at the beginning; the surroundings stay.

@@ -1,4 +1,4 @@
-//! How long the last frames took, and how often a device may be lost.
+//! Times of the last frames, and how often a device may be lost.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
@@ -30,7 +30,7 @@ impl Times {
     }
 }
 
-/// A device that is lost again and again is not opened again and again.
+/// Patience with a device: one that is lost again and again is not opened again and again.
 #[derive(Debug, Default)]
 pub(super) struct Patience(VecDeque<Instant>);
 

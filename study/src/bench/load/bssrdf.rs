@@ -1,61 +1,28 @@
-//! `subsurf bench load`: load size and latency of three ways to store the same material.
+//! Load size and latency of three ways to store the same translucent material.
 
-use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 use std::str::FromStr;
 
-use anyhow::{Context, bail};
+use anyhow::bail;
 use serde_json::{Value, json};
+use subsurf_cli::info::parse;
+use subsurf_cli::options::Size;
+use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::Addressing;
+use subsurf_decoder::bssrdf::{Addressing, Header};
 use subsurf_encoder::Progress;
 use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
 use subsurf_encoder::synthetic::{Shape, capture_row};
-use subsurf_encoder::{Unfinished, write_bytes};
-use tempfile::TempDir;
+use subsurf_encoder::write_bytes;
+use subsurf_viewer::read;
 
-use super::load_btf;
-use super::timing::{Steps, Storage};
-use crate::devices::{self, BackendArg};
-use crate::failure::bad_request;
-use crate::memory::human;
-use crate::progress::Bars;
-use crate::say::say;
+use super::options::{LoadOptions, load_one};
+use super::results::{Steps, Storage};
+use super::table::NAMES;
 
-/// Time how materials load: uncompressed capture, per-pixel profiles and 2-BMPP of the same size.
-///
-/// Each is read, parsed with all checks, uploaded, and drawn once (64 × 64 pixels), again and again, in a process of its
-/// own, with the file in the page cache and without. Times are medians in microseconds. The materials are synthetic:
-/// for timing their numbers do not matter. With --btf, a file of yours is timed beside its images.
-#[derive(clap::Args)]
-pub(crate) struct Args {
-    /// WIDTHxHEIGHT,WINDOW,M,S; more than once for several. The last of the usual ones has the size of the paper's onyx
-    #[arg(long = "case", value_name = "WxH,D,M,S")]
-    cases: Vec<CaseArg>,
-    /// A BTF of nested codebooks instead, beside its images in one uncompressed array
-    #[arg(long, value_name = "FILE", requires = "images", conflicts_with = "cases")]
-    btf: Option<PathBuf>,
-    /// The folder of images of the BTF
-    #[arg(long, value_name = "FOLDER", requires = "btf")]
-    images: Option<PathBuf>,
-    /// Runs of each, warm and cold
-    #[arg(long, default_value_t = 20)]
-    pub(super) runs: usize,
-    /// What draws
-    #[arg(long, value_enum, default_value = "auto")]
-    pub(super) backend: BackendArg,
-    /// Folder for the files, which are deleted at the end; the last case needs a gigabyte
-    #[arg(long, value_name = "DIR")]
-    dir: Option<PathBuf>,
-    /// Report as JSON
-    #[arg(long)]
-    pub(super) json: bool,
-}
-
+/// Size of a synthetic material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct CaseArg(Shape);
+pub(super) struct CaseArg(pub(super) Shape);
 
 impl FromStr for CaseArg {
     type Err = String;
@@ -66,7 +33,7 @@ impl FromStr for CaseArg {
         let [size, window, base_materials, samples] = parts[..] else {
             return Err(wrong());
         };
-        let size: crate::options::Size = size.parse()?;
+        let size: Size = size.parse()?;
         let window: u16 = window.parse().map_err(|_| wrong())?;
         let base_materials: u32 = base_materials.parse().map_err(|_| wrong())?;
         let samples: u16 = samples.parse().map_err(|_| wrong())?;
@@ -78,70 +45,43 @@ impl FromStr for CaseArg {
     }
 }
 
-/// The size of the demo's material, one in between, and the paper's onyx: 229 × 229 pixels, W = 39, M = 128, S = 25.
-const USUAL: [&str; 3] = ["64x64,25,64,13", "128x128,25,128,13", "229x229,39,128,25"];
+/// Usual cases: the size of the demo's material, one in between, and the paper's onyx: 229 × 229 pixels, W = 39, M = 128, S = 25.
+pub(super) const USUAL: [&str; 3] = ["64x64,25,64,13", "128x128,25,128,13", "229x229,39,128,25"];
 
-/// Three files of one material, and how large it is.
-pub(crate) struct Case {
-    pub(crate) size: [u32; 2],
-    pub(crate) window: u32,
-    pub(crate) base_materials: u32,
-    pub(crate) samples: u32,
+/// Case: three files of one material, and how large it is.
+pub(super) struct Case {
+    pub(super) size: [u32; 2],
+    pub(super) window: u32,
+    pub(super) base_materials: u32,
+    pub(super) samples: u32,
     /// In words: where it comes from.
-    pub(crate) source: &'static str,
+    pub(super) source: &'static str,
     /// Capture, per-pixel profiles, 2-BMPP.
-    pub(crate) files: [PathBuf; 3],
+    pub(super) files: [PathBuf; 3],
 }
 
-const NAMES: [&str; 3] = ["capture", "profiles", "bmpp"];
+impl Case {
+    /// Files that are there: a capture, its per-pixel profiles and its 2-BMPP.
+    pub(super) fn of_files(files: [PathBuf; 3]) -> anyhow::Result<Self> {
+        let bytes = read(&files[2])?;
+        let header = *parse(&files[2], &bytes)?.header();
+        Ok(Self::new(&header, "files", files))
+    }
 
-pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    if args.runs == 0 {
-        return Err(bad_request("--runs is 0; a median needs one at least, and 20 to be steady"));
-    }
-    if let (Some(btf), Some(images)) = (&args.btf, &args.images) {
-        return load_btf::run(args, btf, images);
-    }
-    let usual = || USUAL.iter().map(|text| text.parse::<CaseArg>()).collect::<Result<Vec<_>, _>>();
-    let cases = if args.cases.is_empty() { usual().map_err(anyhow::Error::msg)? } else { args.cases.clone() };
-    let folder = args.folder()?;
-    let _goes_when_interrupted = Unfinished::new(folder.path());
-    let mut results = Vec::new();
-    for CaseArg(shape) in cases {
-        let case = write_files(folder.path(), &shape)?;
-        let result = measure(&case, args.runs, args.backend)?;
-        for file in &case.files {
-            // The folder goes at the end anyway; a gigabyte should not wait for it.
-            std::fs::remove_file(file).ok();
+    fn new(header: &Header, source: &'static str, files: [PathBuf; 3]) -> Self {
+        Self {
+            size: [header.width, header.height],
+            window: 2 * u32::from(header.window_radius) + 1,
+            base_materials: header.base_materials,
+            samples: header.samples.into(),
+            source,
+            files,
         }
-        if !args.json {
-            say!("{}", markdown(&result));
-        }
-        results.push(result);
     }
-    if args.json {
-        say!("{:#}", json!({ "runs": args.runs, "device": device(args.backend)?, "cases": results }));
-    }
-    Ok(())
-}
-
-impl Args {
-    /// A folder for files, which goes with its value.
-    pub(super) fn folder(&self) -> anyhow::Result<TempDir> {
-        let folder = match &self.dir {
-            Some(dir) => tempfile::tempdir_in(dir),
-            None => tempfile::tempdir(),
-        };
-        folder.map_err(|error| bad_request(format!("no folder for the files, name one with --dir: {error}")))
-    }
-}
-
-pub(super) fn device(backend: BackendArg) -> anyhow::Result<String> {
-    Ok(devices::name(backend.open()?.as_ref()))
 }
 
 /// Writes a synthetic material three times.
-fn write_files(folder: &Path, shape: &Shape) -> anyhow::Result<Case> {
+pub(super) fn write_files(folder: &Path, shape: &Shape) -> anyhow::Result<Case> {
     let files = ["capture.npy", "profiles.subsurf", "bmpp.subsurf"].map(|name| folder.join(name));
     let bmpp = shape.bmpp();
     write_bytes(&files[1], &shape.per_pixel())?;
@@ -170,23 +110,16 @@ fn write_files(folder: &Path, shape: &Shape) -> anyhow::Result<Case> {
         }
         Ok(())
     })?;
-    Ok(Case {
-        size: shape.size,
-        window: 2 * u32::from(shape.radius) + 1,
-        base_materials: shape.base_materials,
-        samples: shape.samples.into(),
-        source: "synthetic, for timing",
-        files,
-    })
+    Ok(Case::new(&header, "synthetic, for timing", files))
 }
 
 /// Loads the three files, each in a process of its own.
-pub(crate) fn measure(case: &Case, runs: usize, backend: BackendArg) -> anyhow::Result<Value> {
+pub(super) fn measure(case: &Case, options: &LoadOptions) -> anyhow::Result<Value> {
     let bars = Bars::new();
     bars.begin(&format!("loading {} × {} pixels", case.size[0], case.size[1]), 3);
     let mut storages = Vec::new();
     for file in &case.files {
-        storages.push(load_one(file, None, runs, backend)?);
+        storages.push(load_one(file, None, options)?);
         bars.advance(1);
     }
     let [capture, profiles, bmpp] = &storages[..] else {
@@ -220,92 +153,4 @@ pub(crate) fn measure(case: &Case, runs: usize, backend: BackendArg) -> anyhow::
         "ratios": { "capture_over_bmpp": ratios(capture), "profiles_over_bmpp": ratios(profiles) },
         "bmpp_checks_over_memcpy": parse_over_memcpy,
     }))
-}
-
-/// Loads one file in a process of its own: of a BTF, with the folder of its images.
-pub(super) fn load_one(
-    file: &Path,
-    images: Option<&Path>,
-    runs: usize,
-    backend: BackendArg,
-) -> anyhow::Result<Storage> {
-    let backend = clap::ValueEnum::to_possible_value(&backend).context("backends have names")?;
-    let mut command = Command::new(std::env::current_exe()?);
-    command.args(["bench", "load-one", "--runs", &runs.to_string(), "--backend", backend.get_name()]).arg(file);
-    if let Some(images) = images {
-        command.arg("--images").arg(images);
-    }
-    let output = command.stderr(Stdio::piped()).output()?;
-    if !output.status.success() {
-        std::io::stderr().write_all(&output.stderr)?;
-        bail!("{}: loading failed, see above", file.display());
-    }
-    serde_json::from_slice(&output.stdout).with_context(|| format!("{}: no result", file.display()))
-}
-
-/// A result as a table.
-pub(crate) fn markdown(result: &Value) -> String {
-    let mut out = String::new();
-    let text = |path: &str| result.pointer(path).map(ToString::to_string).unwrap_or_default();
-    let number = |path: String| result.pointer(&path).and_then(Value::as_f64);
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        out,
-        "{} × {} pixels, window {}, M = {}, S = {} ({})\n",
-        text("/width"),
-        text("/height"),
-        text("/window"),
-        text("/base_materials"),
-        text("/samples"),
-        text("/source").trim_matches('"'),
-    );
-    let _ = writeln!(out, "| | capture | per-pixel profiles | 2-BMPP |\n|---|---:|---:|---:|");
-    let mut row = |name: &str, path: &str, show: fn(f64) -> String| {
-        let values = NAMES.map(|storage| number(format!("/storage/{storage}{path}")));
-        // Without a device there is no upload, and elsewhere than on Linux the page cache cannot be dropped.
-        if values.iter().all(|value| value.is_none_or(|value| value == 0.0)) {
-            return;
-        }
-        let [capture, profiles, bmpp] = values.map(|value| value.map_or("-".to_owned(), show));
-        let _ = writeln!(out, "| {name} | {capture} | {profiles} | {bmpp} |");
-    };
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bytes")]
-    let bytes = |value: f64| human(value as u64);
-    row("file", "/bytes", bytes);
-    row("on the device", "/gpu_bytes", bytes);
-    row("peak resident memory", "/peak_rss_bytes", bytes);
-    row("of it before loading", "/baseline_rss_bytes", bytes);
-    for (kind, label) in [("warm_us", "warm"), ("cold_us", "cold")] {
-        for step in ["read", "parse", "upload", "first_frame", "total"] {
-            row(&format!("{label}: {}", step.replace('_', " ")), &format!("/{kind}/{step}"), micros);
-        }
-    }
-    for (name, path) in [("capture", "capture_over_bmpp"), ("per-pixel profiles", "profiles_over_bmpp")] {
-        let ratio = |key: &str| number(format!("/ratios/{path}/{key}")).map_or("-".to_owned(), |r| format!("{r:.0}"));
-        let _ = writeln!(
-            out,
-            "\n{name} over 2-BMPP: {} × the bytes; read, parse and upload take {} × as long warm, {} × cold",
-            ratio("bytes"),
-            ratio("load_warm"),
-            ratio("load_cold"),
-        );
-    }
-    let part = |name: &str| number(format!("/storage/bmpp/{name}")).map_or("-".to_owned(), micros);
-    let _ = writeln!(
-        out,
-        "\n2-BMPP parse: structure and values {}, CRC-32 {}; a memcpy of the file {}",
-        part("checks_us"),
-        part("crc_us"),
-        part("memcpy_us"),
-    );
-    out
-}
-
-/// Microseconds for people.
-pub(super) fn micros(us: f64) -> String {
-    match us {
-        us if us >= 1e6 => format!("{:.2} s", us / 1e6),
-        us if us >= 1e3 => format!("{:.2} ms", us / 1e3),
-        us => format!("{us:.1} µs"),
-    }
 }

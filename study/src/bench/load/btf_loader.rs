@@ -1,114 +1,26 @@
-//! Load size and latency of a BTF: its file beside its images, uncompressed in one array.
+//! Loads a BTF, or its images in one array: read, parsed, uploaded, drawn once.
 
-use std::io::Write as _;
 use std::path::Path;
 
-use serde_json::json;
+use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::Btf;
-use subsurf_encoder::Progress as _;
-use subsurf_encoder::Unfinished;
-use subsurf_encoder::btf::{Folder, Images};
-use subsurf_runtime::scene::{Mesh, Outline, Scene, relief};
+use subsurf_encoder::btf::Folder;
 use subsurf_runtime::{
     BtfImages, BtfMaterial, BtfStorage, Gpu, GpuMesh, Known, Model, Path as DrawPath, Renderer, RuntimeOptions,
 };
+use subsurf_scene::{Mesh, Outline, Scene, relief};
+use subsurf_viewer::{RenderRequest, parse_btf};
 
-use super::load::{self, load_one, micros};
-use super::load_one::Clock;
-use super::timing::{Steps, Storage};
-use crate::failure::bad_request;
-use crate::info::parse_btf;
-use crate::memory::human;
-use crate::progress::Bars;
-use crate::render::{Shot, in_bytes, read_images};
-use crate::say::say;
+use super::results::Steps;
+use crate::bench::timing::Clock;
 
 /// Pixels to a side of the first frame.
 const FRAME: [u32; 2] = [64; 2];
 /// Copies of the material on the mesh of the first frame.
 const COPIES: [f32; 2] = [4.0; 2];
 
-/// Loads a file and its images, each in a process of its own.
-pub(super) fn run(args: &load::Args, file: &Path, images: &Path) -> anyhow::Result<()> {
-    let folder = args.folder()?;
-    let _goes_when_interrupted = Unfinished::new(folder.path());
-    let array = folder.path().join("images.raw");
-    let loaded = read_images(images)?;
-    write_array(&array, &loaded)?;
-    let (size, pairs) = (loaded.size(), loaded.pairs());
-    drop(loaded);
-    let bars = Bars::new();
-    bars.begin("loading", 2);
-    let one = |path: &Path| {
-        let found = load_one(path, Some(images), args.runs, args.backend);
-        bars.advance(1);
-        found
-    };
-    let (compressed, raw) = (one(file)?, one(&array)?);
-    let load = |steps: &Option<Steps>| steps.map(|steps| steps.load());
-    #[allow(clippy::cast_precision_loss, reason = "ratios for people")]
-    let bytes = raw.bytes as f64 / compressed.bytes as f64;
-    let warm = raw.warm_us.load() / compressed.warm_us.load();
-    let cold = load(&raw.cold_us).zip(load(&compressed.cold_us)).map(|(raw, compressed)| raw / compressed);
-    if args.json {
-        let value = json!({
-            "runs": args.runs, "device": load::device(args.backend)?, "width": size[0], "height": size[1], "pairs": pairs,
-            "storage": { "images": raw, "file": compressed },
-            "images_over_file": { "bytes": bytes, "load_warm": warm, "load_cold": cold },
-        });
-        say!("{value:#}");
-        return Ok(());
-    }
-    say!("{} × {} texels, {pairs} pairs of directions\n\n| | images | file |\n|---|---:|---:|", size[0], size[1]);
-    let row = |name: &str, of: &dyn Fn(&Storage) -> Option<f64>, show: fn(f64) -> String| {
-        if let (Some(raw), Some(compressed)) = (of(&raw), of(&compressed)) {
-            say!("| {name} | {} | {} |", show(raw), show(compressed));
-        }
-    };
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bytes")]
-    let size_of = |value: f64| human(value as u64);
-    #[allow(clippy::cast_precision_loss, reason = "bytes for people")]
-    let bytes_of = |bytes: u64| Some(bytes as f64);
-    row("file", &|storage| bytes_of(storage.bytes), size_of);
-    row("on the device", &|storage| bytes_of(storage.gpu_bytes), size_of);
-    row("peak resident memory", &|storage| bytes_of(storage.peak_rss_bytes), size_of);
-    row("of it before loading", &|storage| bytes_of(storage.baseline_rss_bytes), size_of);
-    type Step = (&'static str, fn(&Steps) -> f64);
-    let steps: [Step; 5] = [
-        ("read", |steps| steps.read),
-        ("parse", |steps| steps.parse),
-        ("upload", |steps| steps.upload),
-        ("first frame", |steps| steps.first_frame),
-        ("total", |steps| steps.total),
-    ];
-    for (name, of) in steps {
-        row(&format!("warm: {name}"), &|storage| Some(of(&storage.warm_us)), micros);
-    }
-    for (name, of) in steps {
-        row(&format!("cold: {name}"), &|storage| storage.cold_us.as_ref().map(of), micros);
-    }
-    let cold = cold.map_or("-".to_owned(), |ratio| format!("{ratio:.0}"));
-    say!(
-        "\nimages over file: {bytes:.0} × the bytes; read, parse and upload take {warm:.0} × as long warm, {cold} × cold"
-    );
-    Ok(())
-}
-
-/// All pixels, `[light][view][pixel][rgb]`, in bytes.
-fn write_array(path: &Path, images: &Images) -> anyhow::Result<()> {
-    let bars = Bars::new();
-    bars.begin("writing the images as an array", images.pairs() as u64);
-    let mut file = std::io::BufWriter::new(std::fs::File::create(path)?);
-    for pair in 0..images.pairs() {
-        file.write_all(in_bytes(images, pair).as_flattened())?;
-        bars.advance(1);
-    }
-    file.flush()?;
-    Ok(())
-}
-
-/// What an application has before it loads its first BTF.
-pub(super) struct Bench<'a> {
+/// A BTF or its images, to be loaded again and again.
+pub(super) struct BtfLoader<'a> {
     gpu: Option<&'a Gpu>,
     path: &'a Path,
     storage: BtfStorage,
@@ -119,7 +31,8 @@ pub(super) struct Bench<'a> {
     drawn: Option<(Renderer, GpuMesh)>,
 }
 
-impl<'a> Bench<'a> {
+impl<'a> BtfLoader<'a> {
+    /// Compiles what an application has before it loads its first BTF.
     pub(super) fn new(gpu: Option<&'a Gpu>, path: &'a Path, images: &Path) -> anyhow::Result<Self> {
         let folder = Folder::open(images)?;
         let is_array = path.extension().is_some_and(|extension| extension == "raw");
@@ -137,7 +50,7 @@ impl<'a> Bench<'a> {
             size: folder.size(),
             lights: folder.lights().iter().map(|light| light.unit()).collect(),
             views: folder.views().iter().map(|view| view.unit()).collect(),
-            scene: Shot::usual(FRAME).scene(&mesh),
+            scene: RenderRequest::usual(FRAME).scene(&mesh),
             drawn: gpu.map(draw).transpose()?,
         })
     }

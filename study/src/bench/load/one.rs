@@ -3,22 +3,17 @@
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
-use anyhow::Context;
+use subsurf_cli::devices::BackendArg;
+use subsurf_cli::outln;
+use subsurf_cli::program::memory::resident;
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
-use subsurf_decoder::bssrdf::{Coding, Header};
 use subsurf_decoder::container::{Container, Crc, crc32};
-use subsurf_encoder::capture::{Capture, Overrides};
-use subsurf_runtime::{Gpu, Material, PatchLight, PatchRenderer, Region, Storage as GpuStorage, storage_of};
-use subsurf_shaders::cpu::{self, Reflectance, Rgb};
 
-use super::load_btf;
-use super::timing::{Steps, Storage, median, medians};
-use crate::devices::BackendArg;
-use crate::memory::resident;
-use crate::say::say;
+use super::btf_loader::BtfLoader;
+use super::file_loader::{FileLoader, describe};
+use super::results::{Steps, Storage, medians};
+use crate::bench::timing::{Clock, median};
 
 /// Load one file and print its times as JSON
 #[derive(clap::Args)]
@@ -33,42 +28,39 @@ pub(crate) struct Args {
     backend: BackendArg,
 }
 
-/// Pixels to a side of the first frame.
-const FRAME: u32 = 64;
-
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let gpu = args.backend.open()?;
     // What there is before anything of the file is: the driver.
     let baseline = resident().map_or(0, |memory| memory.peak);
     if let Some(images) = &args.images {
-        let bench = load_btf::Bench::new(gpu.as_ref(), &args.file, images)?;
-        return report(args, baseline, || bench.once(), || Ok(BTreeMap::new()));
+        let loader = BtfLoader::new(gpu.as_ref(), &args.file, images)?;
+        return report(args, baseline, || loader.once(), || Ok(BTreeMap::new()));
     }
     let is_capture = args.file.extension().is_some_and(|extension| extension == "npy");
     let (header, storage) = describe(&args.file, is_capture)?;
-    let bench = Bench::new(gpu.as_ref(), &args.file, header, storage)?;
+    let loader = FileLoader::new(gpu.as_ref(), &args.file, header, storage)?;
     let parts =
         || Ok(if is_capture { BTreeMap::new() } else { parts_of_parse(&std::fs::read(&args.file)?, args.runs) });
-    report(args, baseline, || bench.once(), parts)
+    report(args, baseline, || loader.once(), parts)
 }
 
 /// Runs, warm and cold, and says what they took.
 fn report(
     args: &Args,
     baseline: u64,
-    bench: impl Fn() -> anyhow::Result<(Steps, u64)>,
+    once: impl Fn() -> anyhow::Result<(Steps, u64)>,
     parts_us: impl FnOnce() -> anyhow::Result<BTreeMap<String, f64>>,
 ) -> anyhow::Result<()> {
     // One run that does not count: driver caches, page cache.
-    let (_, gpu_bytes) = bench()?;
-    let once = || bench().map(|(steps, _)| steps);
-    let warm: Vec<Steps> = (0..args.runs).map(|_| once()).collect::<anyhow::Result<_>>()?;
+    let (_, gpu_bytes) = once()?;
+    let steps = || once().map(|(steps, _)| steps);
+    let warm: Vec<Steps> = (0..args.runs).map(|_| steps()).collect::<anyhow::Result<_>>()?;
     let mut cold = Vec::new();
     for _ in 0..args.runs {
         if !drop_from_cache(&args.file)? {
             break;
         }
-        cold.push(once()?);
+        cold.push(steps()?);
     }
     let peak_rss_bytes = resident().map_or(0, |memory| memory.peak);
     let result = Storage {
@@ -80,162 +72,8 @@ fn report(
         cold_us: (!cold.is_empty()).then(|| medians(&cold)),
         parts_us: parts_us()?,
     };
-    say!("{}", serde_json::to_string(&result)?);
+    outln!("{}", serde_json::to_string(&result)?);
     Ok(())
-}
-
-/// What the header says, and how the device will hold it.
-fn describe(path: &Path, is_capture: bool) -> anyhow::Result<(Header, GpuStorage)> {
-    if is_capture {
-        let capture = Capture::open(path, &Overrides::default())?;
-        return Ok((header_of(&capture)?, GpuStorage::Capture));
-    }
-    let bytes = std::fs::read(path)?;
-    let material = crate::info::parse(path, &bytes)?;
-    Ok((*material.header(), storage_of(&material)))
-}
-
-/// A capture has no profiles; everything else is as in a file.
-fn header_of(capture: &Capture) -> anyhow::Result<Header> {
-    let radius = u16::try_from(capture.radius())?;
-    Ok(Header {
-        model: MODEL_2BMPP,
-        coding: Coding::Exact,
-        addressing: capture.addressing(),
-        width: u32::try_from(capture.width())?,
-        height: u32::try_from(capture.height())?,
-        window_radius: radius,
-        samples: 2,
-        base_materials: 1,
-        pitch_mm: capture.pitch_mm(),
-        r_max_mm: f32::from(radius.max(1)) * 1.5 * capture.pitch_mm(),
-        eta: capture.eta(),
-    })
-}
-
-struct Bench<'a> {
-    gpu: Option<&'a Gpu>,
-    path: &'a Path,
-    header: Header,
-    storage: GpuStorage,
-    /// What an application has before it loads its first material: pipelines, and light.
-    renderer: Option<PatchRenderer>,
-    irradiance: Vec<Rgb>,
-    region: Region,
-}
-
-impl<'a> Bench<'a> {
-    fn new(gpu: Option<&'a Gpu>, path: &'a Path, header: Header, storage: GpuStorage) -> anyhow::Result<Self> {
-        let renderer = gpu.map(|gpu| PatchRenderer::new(gpu, storage)).transpose()?;
-        let size = [header.width.min(FRAME), header.height.min(FRAME)];
-        let origin = [(header.width - size[0]) / 2, (header.height - size[1]) / 2];
-        Ok(Self {
-            gpu,
-            path,
-            header,
-            storage,
-            renderer,
-            irradiance: vec![[1.0; 3]; (header.width * header.height) as usize],
-            region: Region { origin, size },
-        })
-    }
-
-    /// File to picture, once; and the material's bytes on the device.
-    fn once(&self) -> anyhow::Result<(Steps, u64)> {
-        let mut clock = Clock::new();
-        let bytes = std::fs::read(self.path)?;
-        let read = clock.lap();
-
-        // A capture's array starts where its header ends; there is nothing else to check.
-        let entries = match self.storage {
-            GpuStorage::Capture => Some(self.entries_of(&bytes)?),
-            _ => None,
-        };
-        let material = if entries.is_none() { Some(crate::info::parse(self.path, &bytes)?) } else { None };
-        let parse = clock.lap();
-
-        let (upload, first_frame, gpu_bytes) = match (self.gpu, &self.renderer) {
-            (Some(gpu), Some(renderer)) => {
-                let uploaded = self.upload(gpu, material.as_ref(), entries.unwrap_or(&[]))?;
-                let light = PatchLight::upload(gpu, [self.header.width, self.header.height], &self.irradiance)?;
-                gpu.finish()?;
-                let upload = clock.lap();
-                let exitance = renderer.gather(gpu, &uploaded, &light, self.region)?;
-                renderer.picture(gpu, &exitance, self.region.size, 1.0)?;
-                (upload, clock.lap(), uploaded.gpu_bytes())
-            }
-            _ => {
-                let (origin, size) = (self.region.origin, self.region.size);
-                let exitance = match &material {
-                    Some(material) => cpu::gather(material, &self.irradiance, origin, size),
-                    None => {
-                        let entries = Entries { header: self.header, entries: entries.unwrap_or(&[]) };
-                        cpu::gather(&entries, &self.irradiance, origin, size)
-                    }
-                };
-                std::hint::black_box(cpu::present(&exitance, size, size, 1.0));
-                (0.0, clock.lap(), 0)
-            }
-        };
-        Ok((Steps { read, parse, upload, first_frame, total: read + parse + upload + first_frame }, gpu_bytes))
-    }
-
-    fn upload(&self, gpu: &Gpu, material: Option<&Bssrdf<'_>>, entries: &[u8]) -> anyhow::Result<Material> {
-        Ok(match material {
-            Some(material) => Material::upload(gpu, material)?,
-            None => Material::upload_capture(gpu, &self.header, entries)?,
-        })
-    }
-
-    fn entries_of<'b>(&self, bytes: &'b [u8]) -> anyhow::Result<&'b [u8]> {
-        let capture = Capture::open(self.path, &Overrides::default())?;
-        let len = capture.pixels() * capture.window_len() * size_of::<f32>();
-        let start = bytes.len().checked_sub(len).context("captures for timing are float32")?;
-        Ok(&bytes[start..])
-    }
-}
-
-/// The CPU twin's view of a capture.
-struct Entries<'a> {
-    header: Header,
-    entries: &'a [u8],
-}
-
-impl Reflectance for Entries<'_> {
-    fn header(&self) -> &Header {
-        &self.header
-    }
-
-    fn rd(&self, x_i: [i32; 2], x_o: [i32; 2]) -> Rgb {
-        let radius = i32::from(self.header.window_radius);
-        let d = 2 * radius + 1;
-        let x = self.header.addressing.map(x_i[0], self.header.width) as usize;
-        let y = self.header.addressing.map(x_i[1], self.header.height) as usize;
-        let place = usize::try_from((x_o[1] - x_i[1] + radius) * d + (x_o[0] - x_i[0] + radius)).unwrap_or(0);
-        let window = usize::try_from(d * d).unwrap_or(0);
-        let first = ((y * self.header.width as usize + x) * window + place) * 3;
-        [0, 1, 2].map(|c| {
-            let bytes = self.entries.get((first + c) * 4..).and_then(|rest| rest.first_chunk::<4>());
-            let rd = bytes.map_or(0.0, |bytes| f32::from_le_bytes(*bytes));
-            if rd > 0.0 { rd } else { 0.0 }
-        })
-    }
-}
-
-/// Microseconds from lap to lap.
-pub(super) struct Clock(Instant);
-
-impl Clock {
-    pub(super) fn new() -> Self {
-        Self(Instant::now())
-    }
-
-    pub(super) fn lap(&mut self) -> f64 {
-        let now = Instant::now();
-        let lap = now.duration_since(self.0).as_secs_f64() * 1e6;
-        self.0 = now;
-        lap
-    }
 }
 
 /// What parsing consists of, and a copy of the file for scale.

@@ -1,29 +1,26 @@
-//! `subsurf bench render`: how close every path comes to the reference, and what it costs.
+//! `subsurf-study bench render`: every technique against the reference gather.
 
-use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+mod page;
 
-use base64::Engine as _;
+use std::path::PathBuf;
+
 use image::RgbImage;
-use serde_json::{Value, json};
+use subsurf_cli::info::parse;
+use subsurf_cli::options::Size;
+use subsurf_cli::outln;
+use subsurf_cli::picture::{image, montage, write_png};
+use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::{psnr_db, ssim};
-use subsurf_encoder::write_bytes;
-use subsurf_runtime::scene::{Mesh, Scene};
 use subsurf_runtime::{BACKGROUND, Backend, Gpu, RuntimeOptions};
+use subsurf_scene::{Mesh, Scene};
+use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scattering, choose_mapping, read};
 
-use super::course::{self, Course};
-use super::frames::named;
+use self::page::{Page, Row};
+use super::case::{self, BenchCase};
+use super::devices::to_compare;
+use super::meshes::{named, stem};
 use super::timing::{median, quantile};
-use crate::devices::to_compare;
-use crate::failure::bad_request;
-use crate::info::{parse, read_file};
-use crate::memory::human;
-use crate::mesh::stem;
-use crate::options::Size;
-use crate::picture::{image, montage, write_png};
-use crate::render::{Ingredients, MappingArg, PathArg, Ready, Shot, choose_mapping};
-use crate::say::say;
 
 /// Compare all paths with the reference gather: PSNR, SSIM, difference pictures, frame times and memory.
 ///
@@ -48,22 +45,6 @@ pub(crate) struct Args {
     frames: usize,
 }
 
-/// One path, one material, one mesh, one device.
-struct Row {
-    material: String,
-    mesh: String,
-    path: &'static str,
-    backend: Backend,
-    psnr_db: f64,
-    ssim: f64,
-    /// Median and 95th percentile of frames in ms.
-    frame_ms: Option<[f64; 2]>,
-    /// Of the reference, in the same run.
-    gather_ms: Option<f64>,
-    material_bytes: u64,
-    buffer_bytes: u64,
-}
-
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     std::fs::create_dir_all(&args.output)?;
     let gpus = to_compare();
@@ -73,7 +54,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let meshes = args.meshes.iter().map(|path| named(path)).collect::<anyhow::Result<Vec<_>>>()?;
     let mut page = Page { folder: &args.output, rows: Vec::new(), pictures: Vec::new() };
     for file in &args.files {
-        let bytes = read_file(file)?;
+        let bytes = read(file)?;
         let material = parse(file, &bytes)?;
         for (mesh_name, mesh) in &meshes {
             compare(args, &gpus, (&stem(file), &material), (mesh_name, mesh), &mut page)?;
@@ -92,39 +73,39 @@ fn compare(
     page: &mut Page<'_>,
 ) -> anyhow::Result<()> {
     let size = args.size.0;
-    let mapping = choose_mapping(mesh, MappingArg::Auto, material)?;
-    let mut scene = Shot::usual(size).scene(mesh);
-    let compute = |path, sky| Ingredients::compute(material, mesh, mapping, &scene, path, sky);
-    let gather = compute(PathArg::Gather, None)?;
-    let splat = compute(PathArg::Splat, None)?;
-    let separable = compute(PathArg::Separable, splat.sky().cloned())?;
-    let homogeneous = compute(PathArg::Homogeneous, splat.sky().cloned())?;
+    let mapping = choose_mapping(mesh, MappingChoice::Auto, material)?;
+    let mut scene = RenderRequest::usual(size).scene(mesh);
+    let compute = |technique, sky| Asset::compute(material, mesh, mapping, &scene, technique, sky);
+    let gather = compute(Scattering::Gather, None)?;
+    let splat = compute(Scattering::Splat, None)?;
+    let separable = compute(Scattering::Separable, splat.sky().cloned())?;
+    let homogeneous = compute(Scattering::Homogeneous, splat.sky().cloned())?;
     let paths = [("splat", &splat), ("separable", &separable), ("homogeneous", &homogeneous)];
     let (first, gpu) = &gpus[0];
-    let ready = |gpu, ingredients: &Ingredients, scene: &Scene| {
-        Ready::new(gpu, ingredients.upload(gpu, material, mesh)?, scene, size, RuntimeOptions::default())
+    let session = |gpu, asset: &Asset, scene: &Scene| {
+        RenderSession::new(gpu, asset.upload(gpu, material, mesh)?, scene, size, RuntimeOptions::default())
     };
-    let exposure = ready(gpu, &separable, &scene)?.exposure(gpu, &scene)?;
+    let exposure = session(gpu, &separable, &scene)?.exposure(gpu, &scene)?;
     scene.view.exposure = exposure;
-    let reference = ready(gpu, &gather, &scene)?.picture(gpu, &scene)?;
+    let reference = session(gpu, &gather, &scene)?.picture(gpu, &scene)?;
     let mut shown = vec![image(&reference, size[0])];
     for (backend, gpu) in gpus {
-        let course = |ingredients| Course::new(gpu, ingredients, material, mesh, size);
+        let case = |asset| BenchCase::new(gpu, asset, material, mesh, size);
         let gather_ms = match args.frames {
             0 => None,
             _ => {
-                let mut courses = [course(&gather)?];
-                course::run(gpu, &mut courses, mesh, size, 0)?;
-                Some(median(&courses[0].times.frames))
+                let mut cases = [case(&gather)?];
+                case::run(gpu, &mut cases, mesh, size, 0)?;
+                Some(median(&cases[0].times.frames))
             }
         };
-        let mut courses = paths.iter().map(|(_, path)| course(path)).collect::<anyhow::Result<Vec<_>>>()?;
+        let mut cases = paths.iter().map(|(_, path)| case(path)).collect::<anyhow::Result<Vec<_>>>()?;
         if args.frames > 0 {
-            course::run(gpu, &mut courses, mesh, size, args.frames)?;
+            case::run(gpu, &mut cases, mesh, size, args.frames)?;
         }
-        for ((path, _), mut course) in paths.into_iter().zip(courses) {
-            let found = course.picture(gpu, &scene)?;
-            let times = course.times;
+        for ((path, _), mut case) in paths.into_iter().zip(cases) {
+            let found = case.picture(gpu, &scene)?;
+            let times = case.times;
             let (psnr_db, ssim) = similarity(&reference, &found, size[0]);
             let row = Row {
                 material: material_name.to_owned(),
@@ -138,7 +119,7 @@ fn compare(
                 material_bytes: times.material_bytes,
                 buffer_bytes: times.buffer_bytes,
             };
-            say!("{}", row.line());
+            outln!("{}", row.line());
             page.rows.push(row);
             if backend == first {
                 shown.push(image(&found, size[0]));
@@ -177,99 +158,4 @@ fn similarity(reference: &[[u8; 3]], found: &[[u8; 3]], width: u32) -> (f64, f64
 fn differences(reference: &[[u8; 3]], found: &[[u8; 3]]) -> Vec<[u8; 3]> {
     let pairs = reference.iter().zip(found);
     pairs.map(|(a, b)| [0, 1, 2].map(|c| a[c].abs_diff(b[c]).saturating_mul(10))).collect()
-}
-
-impl Row {
-    fn line(&self) -> String {
-        let time = self.frame_ms.map_or(String::new(), |[median, p95]| format!(", {median:.1} ms (p95 {p95:.1})"));
-        let ratio = match (self.frame_ms, self.gather_ms) {
-            (Some([median, _]), Some(gather)) => format!(", gather {gather:.0} ms = {:.1} ×", gather / median),
-            _ => String::new(),
-        };
-        format!(
-            "{}, {}, {}: {:<11} {:.1} dB, SSIM {:.3}{time}{ratio}; material {}, buffers {}",
-            self.material,
-            self.mesh,
-            self.backend,
-            self.path,
-            self.psnr_db,
-            self.ssim,
-            human(self.material_bytes),
-            human(self.buffer_bytes),
-        )
-    }
-
-    fn json(&self) -> Value {
-        json!({
-            "material": self.material, "mesh": self.mesh, "path": self.path, "backend": self.backend.to_string(),
-            "psnr_db": self.psnr_db, "ssim": self.ssim, "frame_median_ms": self.frame_ms.map(|times| times[0]),
-            "frame_p95_ms": self.frame_ms.map(|times| times[1]), "gather_ms": self.gather_ms,
-            "material_bytes": self.material_bytes, "buffer_bytes": self.buffer_bytes,
-        })
-    }
-
-    fn cells(&self) -> String {
-        let time = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1}"));
-        format!(
-            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.1}</td><td>{:.3}</td><td>{}</td><td>{}</td>\
-             <td>{}</td><td>{}</td><td>{}</td></tr>",
-            self.material,
-            self.mesh,
-            self.path,
-            self.backend,
-            self.psnr_db,
-            self.ssim,
-            time(self.frame_ms.map(|times| times[0])),
-            time(self.frame_ms.map(|times| times[1])),
-            time(self.gather_ms),
-            human(self.material_bytes),
-            human(self.buffer_bytes),
-        )
-    }
-}
-
-struct Page<'a> {
-    folder: &'a Path,
-    rows: Vec<Row>,
-    /// Title and file.
-    pictures: Vec<(String, String)>,
-}
-
-impl Page<'_> {
-    fn write(&self, gpus: &[(Backend, Gpu)], [width, height]: [u32; 2]) -> anyhow::Result<()> {
-        let rows: Vec<Value> = self.rows.iter().map(Row::json).collect();
-        write_bytes(&self.folder.join("render.json"), format!("{:#}\n", Value::Array(rows)).as_bytes())?;
-        let mut out = String::from("<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>paths</title>");
-        let _ = write!(out, "<style>{}</style><body>", include_str!("../study/page.css"));
-        let devices: Vec<String> =
-            gpus.iter().map(|(backend, gpu)| format!("{backend}: {}", gpu.info().name)).collect();
-        let _ = write!(
-            out,
-            "<h1>Paths against the reference</h1><p class=\"note\">Every path draws the same scene at {width} × {height} \
-             pixels: one directional light with shadow, a dim studio around, a coat of roughness 0.25. The reference gathers light \
-             between points of the surface by their distances in space. PSNR is of display values over the pixels that the \
-             mesh covers in either picture; SSIM is of the whole picture. Times are medians of whole frames until the device \
-             is through, the light turning from frame to frame; those of one device come from one run and compare with each \
-             other only. {}.</p>",
-            devices.join("; ")
-        );
-        out.push_str(
-            "<table><thead><tr><th>material</th><th>mesh</th><th>path</th><th>device</th><th>PSNR, dB</th><th>SSIM</th>\
-             <th>frame, ms</th><th>p95</th><th>gather, ms</th><th>material</th><th>buffers</th></tr></thead>",
-        );
-        self.rows.iter().for_each(|row| out.push_str(&row.cells()));
-        out.push_str(
-            "</table><p class=\"note\">Pictures: reference, splat, separable, homogeneous; below each its difference from \
-             the reference, ten times.</p>",
-        );
-        for (title, file) in &self.pictures {
-            let bytes = std::fs::read(self.folder.join(file))?;
-            let data = base64::engine::general_purpose::STANDARD.encode(bytes);
-            let _ = write!(out, "<h3>{title}</h3><img style=\"max-width:100%\" src=\"data:image/png;base64,{data}\">");
-        }
-        out.push_str("</body></html>\n");
-        write_bytes(&self.folder.join("index.html"), out.as_bytes())?;
-        say!("\n{}", self.folder.join("index.html").display());
-        Ok(())
-    }
 }

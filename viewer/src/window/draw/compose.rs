@@ -9,9 +9,9 @@ use subsurf_runtime::wgpu::{
     TextureViewDimension, VertexState,
 };
 
-/// What the window shows.
+/// Choice of what the window shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Shows {
+pub(in crate::window) enum Shows {
     /// The picture.
     Picture,
     /// Ten times the difference of display values.
@@ -21,7 +21,7 @@ pub(super) enum Shows {
 }
 
 /// Pipelines that cover a window of one format.
-pub(super) struct Composer {
+pub(in crate::window) struct Composer {
     layout: BindGroupLayout,
     picture: RenderPipeline,
     difference: RenderPipeline,
@@ -29,7 +29,7 @@ pub(super) struct Composer {
 }
 
 impl Composer {
-    pub(super) fn new(gpu: &Gpu, format: TextureFormat) -> Self {
+    pub(in crate::window) fn new(gpu: &Gpu, format: TextureFormat) -> Self {
         let device = gpu.device();
         let image = |binding| BindGroupLayoutEntry {
             binding,
@@ -83,7 +83,7 @@ impl Composer {
     }
 
     /// Binds a picture, and what it is compared with.
-    pub(super) fn bind(&self, gpu: &Gpu, picture: &TextureView, reference: &TextureView) -> BindGroup {
+    pub(in crate::window) fn bind(&self, gpu: &Gpu, picture: &TextureView, reference: &TextureView) -> BindGroup {
         let entry = |(binding, view)| BindGroupEntry { binding, resource: BindingResource::TextureView(view) };
         gpu.device().create_bind_group(&BindGroupDescriptor {
             label: Some("compose"),
@@ -92,7 +92,7 @@ impl Composer {
         })
     }
 
-    pub(super) fn record(&self, pass: &mut RenderPass<'_>, pictures: &BindGroup, shows: Shows) {
+    pub(in crate::window) fn record(&self, pass: &mut RenderPass<'_>, pictures: &BindGroup, shows: Shows) {
         pass.set_pipeline(match shows {
             Shows::Picture => &self.picture,
             Shows::Difference => &self.difference,

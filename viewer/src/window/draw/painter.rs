@@ -19,13 +19,13 @@ use subsurf_runtime::wgpu::{
 };
 
 /// The panel of one frame, ready to paint.
-pub(super) struct Overlay {
-    pub(super) primitives: Vec<ClippedPrimitive>,
-    pub(super) pixels_per_point: f32,
+pub(in crate::window) struct Overlay {
+    pub(in crate::window) primitives: Vec<ClippedPrimitive>,
+    pub(in crate::window) pixels_per_point: f32,
 }
 
 /// The pipeline for a window of one format, egui's textures, and room for its triangles.
-pub(super) struct Painter {
+pub(in crate::window) struct Painter {
     pipeline: RenderPipeline,
     screen: Buffer,
     of_screen: BindGroup,
@@ -58,7 +58,7 @@ impl Growing {
 }
 
 impl Painter {
-    pub(super) fn new(gpu: &Gpu, format: TextureFormat) -> Self {
+    pub(in crate::window) fn new(gpu: &Gpu, format: TextureFormat) -> Self {
         let device = gpu.device();
         let group = |entries: &[(ShaderStages, BindingType)]| {
             let entry = |((visibility, ty), binding): (&(ShaderStages, BindingType), u32)| BindGroupLayoutEntry {
@@ -114,14 +114,14 @@ impl Painter {
     }
 
     /// Takes over textures that are new or have changed.
-    pub(super) fn receive(&mut self, gpu: &Gpu, textures: &TexturesDelta) {
+    pub(in crate::window) fn receive(&mut self, gpu: &Gpu, textures: &TexturesDelta) {
         for (id, delta) in &textures.set {
             self.set(gpu, *id, delta);
         }
     }
 
     /// Forgets textures, after the last frame with them was painted.
-    pub(super) fn forget(&mut self, textures: &TexturesDelta) {
+    pub(in crate::window) fn forget(&mut self, textures: &TexturesDelta) {
         for id in &textures.free {
             self.images.remove(id);
         }
@@ -171,7 +171,7 @@ impl Painter {
     }
 
     /// Paints over a target of `size` pixels.
-    pub(super) fn record(&mut self, gpu: &Gpu, pass: &mut RenderPass<'_>, overlay: &Overlay, size: [u32; 2]) {
+    pub(in crate::window) fn record(&mut self, gpu: &Gpu, pass: &mut RenderPass<'_>, overlay: &Overlay, size: [u32; 2]) {
         let (mut vertices, mut indices) = (Vec::<Vertex>::new(), Vec::<u32>::new());
         let mut ranges = Vec::new();
         for ClippedPrimitive { clip_rect, primitive } in &overlay.primitives {

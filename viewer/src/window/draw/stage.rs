@@ -1,38 +1,39 @@
-//! Everything on the device: it goes as a whole when the device is lost.
+//! Stage: everything on the device, which goes as a whole when the device is lost.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use subsurf_runtime::scene::{Mesh, Scene};
 use subsurf_runtime::wgpu::{
     BindGroup, Color, CommandEncoderDescriptor, LoadOp, Operations, PollType, RenderPassColorAttachment,
     RenderPassDescriptor, StoreOp, TextureFormat, TextureView, TextureViewDescriptor,
 };
 use subsurf_runtime::{Backend, Frame, Gpu, Path, PictureTarget, Plan, Renderer, RuntimeOptions};
+use subsurf_scene::{Mesh, Scene};
 use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
 
-use super::Notice;
 use super::compose::{Composer, Shows};
-use super::loader::{Computed, Key};
 use super::painter::{Overlay, Painter};
-use super::subject::MaterialFile;
-use super::window::Canvas;
-use crate::render::{Prepared, chosen_exposure};
+use super::surface::Canvas;
+use crate::asset::{GpuAsset, chosen_exposure};
+use crate::error::{Error, Result};
+use crate::window::assets::MaterialFile;
+use crate::window::event::{Event, EventKind};
+use crate::window::job::{Computed, Key};
 
-/// The picture in the window, and what it is compared with.
+/// Role of a picture: the one in the window, or what it is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Role {
+pub(in crate::window) enum Role {
     Shown,
     Reference,
 }
 
 impl Role {
-    pub(super) const ALL: [Self; 2] = [Self::Shown, Self::Reference];
+    pub(in crate::window) const ALL: [Self; 2] = [Self::Shown, Self::Reference];
 }
 
-/// What the buffers of a frame were made for.
+/// Size and distance that the buffers of a frame were made for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Fit {
     size: [u32; 2],
@@ -53,18 +54,18 @@ impl Fit {
     }
 }
 
-/// One picture: what it is of, and its buffers.
+/// Picture: what it is of, and its buffers.
 struct Drawn {
     key: Key,
-    prepared: Prepared,
+    asset: GpuAsset,
     /// `None` where there was no room for them.
     buffers: Option<(Fit, Frame, PictureTarget)>,
 }
 
-/// The device, the window's surface, pipelines, and the pictures.
-pub(super) struct Stage {
-    pub(super) gpu: Gpu,
-    pub(super) canvas: Canvas,
+/// Device, the window's surface, pipelines, and the pictures.
+pub(in crate::window) struct Stage {
+    pub(in crate::window) gpu: Gpu,
+    pub(in crate::window) canvas: Canvas,
     is_lost: Arc<AtomicBool>,
     composer: Composer,
     painter: Painter,
@@ -77,13 +78,13 @@ pub(super) struct Stage {
 
 impl Stage {
     /// Opens the first of several backends that works.
-    pub(super) fn open(
+    pub(in crate::window) fn open(
         backends: &[Backend],
         window: &Arc<Window>,
         options: RuntimeOptions,
-        proxy: &EventLoopProxy<Notice>,
+        proxy: &EventLoopProxy<Event>,
         number: u32,
-    ) -> anyhow::Result<Self> {
+    ) -> Result<Self> {
         let mut failed = None;
         for backend in backends {
             match Canvas::open(*backend, window) {
@@ -91,20 +92,20 @@ impl Stage {
                 Err(error) => failed = Some(error),
             }
         }
-        Err(failed.unwrap_or_else(|| anyhow::anyhow!("no backend to try")))
+        Err(failed.unwrap_or_else(|| Error::Request("no backend to try".to_owned())))
     }
 
-    fn new(canvas: Canvas, gpu: Gpu, options: RuntimeOptions, proxy: &EventLoopProxy<Notice>, number: u32) -> Self {
+    fn new(canvas: Canvas, gpu: Gpu, options: RuntimeOptions, proxy: &EventLoopProxy<Event>, number: u32) -> Self {
         let (lost, wrong) = (proxy.clone(), proxy.clone());
         let is_lost = Arc::new(AtomicBool::new(false));
         let flag = is_lost.clone();
         gpu.device().set_device_lost_callback(move |_, reason| {
             flag.store(true, Ordering::Relaxed);
             // Nobody is there any more when the window closes.
-            let _ = lost.send_event(Notice::DeviceLost { number, reason });
+            let _ = lost.send_event(Event(EventKind::DeviceLost { number, reason }));
         });
         gpu.device().on_uncaptured_error(Arc::new(move |error: subsurf_runtime::wgpu::Error| {
-            let _ = wrong.send_event(Notice::DeviceError(error.to_string()));
+            let _ = wrong.send_event(Event(EventKind::DeviceError(error.to_string())));
         }));
         let format = canvas.format();
         Self {
@@ -120,75 +121,75 @@ impl Stage {
         }
     }
 
-    /// Whether the device is gone; a [`Notice::DeviceLost`] has come or will.
-    pub(super) fn is_lost(&self) -> bool {
+    /// Whether the device is gone; an [`EventKind::DeviceLost`] has come or will.
+    pub(in crate::window) fn is_lost(&self) -> bool {
         // The device says so only when it is asked, and has nothing else to say then.
         let _ = self.gpu.device().poll(PollType::Poll);
         self.is_lost.load(Ordering::Relaxed)
     }
 
     /// What a picture is of.
-    pub(super) fn key(&self, role: Role) -> Option<&Key> {
+    pub(in crate::window) fn key(&self, role: Role) -> Option<&Key> {
         self.drawn[role as usize].as_ref().map(|drawn| &drawn.key)
     }
 
     /// Whether there is something to show.
-    pub(super) fn has_picture(&self, role: Role) -> bool {
+    pub(in crate::window) fn has_picture(&self, role: Role) -> bool {
         self.drawn[role as usize].as_ref().is_some_and(|drawn| drawn.buffers.is_some())
     }
 
     /// What was chosen within the budget.
-    pub(super) fn plan(&self) -> Option<&Plan> {
+    pub(in crate::window) fn plan(&self) -> Option<&Plan> {
         let (_, frame, _) = self.drawn[Role::Shown as usize].as_ref()?.buffers.as_ref()?;
         Some(frame.plan())
     }
 
     /// Bytes of the material and of the mesh that are shown.
-    pub(super) fn model_bytes(&self) -> Option<[u64; 2]> {
-        let prepared = &self.drawn[Role::Shown as usize].as_ref()?.prepared;
-        Some([prepared.material_bytes(), prepared.mesh_bytes()])
+    pub(in crate::window) fn model_bytes(&self) -> Option<[u64; 2]> {
+        let asset = &self.drawn[Role::Shown as usize].as_ref()?.asset;
+        Some([asset.material_bytes(), asset.mesh_bytes()])
     }
 
     /// Shows what was compared with, and compares with what was shown.
-    pub(super) fn swap(&mut self) {
+    pub(in crate::window) fn swap(&mut self) {
         self.drawn.swap(0, 1);
         self.pictures = None;
     }
 
-    pub(super) fn clear(&mut self, role: Role) {
+    pub(in crate::window) fn clear(&mut self, role: Role) {
         self.drawn[role as usize] = None;
         self.pictures = None;
     }
 
     /// Brings another model to the device. What was there goes first: both might not fit.
-    pub(super) fn place(
+    pub(in crate::window) fn place(
         &mut self,
         role: Role,
         key: Key,
         computed: &Computed,
         material: &MaterialFile,
         mesh: &Mesh,
-    ) -> anyhow::Result<()> {
+    ) -> Result<()> {
         self.clear(role);
-        let prepared = computed.upload(&self.gpu, material, mesh)?;
-        let path = prepared.path();
+        let asset = computed.upload(&self.gpu, material, mesh)?;
+        let path = asset.path();
         if !self.renderers.iter().any(|(made, _)| *made == path) {
             self.renderers.push((path, Renderer::new(&self.gpu, path, self.options)?));
         }
-        self.drawn[role as usize] = Some(Drawn { key, prepared, buffers: None });
+        self.drawn[role as usize] = Some(Drawn { key, asset, buffers: None });
         Ok(())
     }
 
     /// Draws a picture of the size of the window, and waits for it. How long that took, if there was anything to draw.
-    pub(super) fn draw(&mut self, role: Role, scene: &Scene) -> anyhow::Result<Option<Duration>> {
+    pub(in crate::window) fn draw(&mut self, role: Role, scene: &Scene) -> Result<Option<Duration>> {
         let Some(drawn) = &mut self.drawn[role as usize] else {
             return Ok(None);
         };
-        let path = drawn.prepared.path();
+        let path = drawn.asset.path();
         let Some((_, renderer)) = self.renderers.iter().find(|(made, _)| *made == path) else {
             return Ok(None);
         };
-        let (gpu, model) = (&self.gpu, drawn.prepared.model());
+        let (gpu, model) = (&self.gpu, drawn.asset.model());
         let fit = Fit::of(scene, self.canvas.size());
         if !drawn.buffers.as_ref().is_some_and(|(made, ..)| made.serves(&fit)) {
             // The old ones go first, for they count in the budget.
@@ -206,23 +207,23 @@ impl Stage {
     }
 
     /// The exposure that suits what is shown.
-    pub(super) fn exposure(&mut self, scene: &Scene) -> anyhow::Result<Option<f32>> {
-        let Some(Drawn { prepared, buffers: Some((_, frame, _)), .. }) = &mut self.drawn[Role::Shown as usize] else {
+    pub(in crate::window) fn exposure(&mut self, scene: &Scene) -> Result<Option<f32>> {
+        let Some(Drawn { asset, buffers: Some((_, frame, _)), .. }) = &mut self.drawn[Role::Shown as usize] else {
             return Ok(None);
         };
-        let path = prepared.path();
+        let path = asset.path();
         let Some((_, renderer)) = self.renderers.iter().find(|(made, _)| *made == path) else {
             return Ok(None);
         };
-        chosen_exposure(&self.gpu, renderer, frame, prepared, scene).map(Some)
+        chosen_exposure(&self.gpu, renderer, frame, asset, scene).map(Some)
     }
 
-    pub(super) fn painter(&mut self) -> (&mut Painter, &Gpu) {
+    pub(in crate::window) fn painter(&mut self) -> (&mut Painter, &Gpu) {
         (&mut self.painter, &self.gpu)
     }
 
     /// Shows the picture with the panel over it; whether the window took it.
-    pub(super) fn present(&mut self, shows: Shows, overlay: &Overlay, window: &Window) -> anyhow::Result<bool> {
+    pub(in crate::window) fn present(&mut self, shows: Shows, overlay: &Overlay, window: &Window) -> Result<bool> {
         let Some(texture) = self.canvas.texture(&self.gpu)? else {
             return Ok(false);
         };
@@ -234,7 +235,7 @@ impl Stage {
     }
 
     /// What the window shows, row by row from the top.
-    pub(super) fn capture(&mut self, shows: Shows, overlay: &Overlay) -> anyhow::Result<Vec<[u8; 3]>> {
+    pub(in crate::window) fn capture(&mut self, shows: Shows, overlay: &Overlay) -> Result<Vec<[u8; 3]>> {
         let format = self.canvas.format();
         let target = self.gpu.target(self.canvas.size(), format)?;
         self.compose(target.view(), shows, overlay);

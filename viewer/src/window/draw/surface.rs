@@ -1,4 +1,4 @@
-//! The window's surface: what it is configured to, and what is done when it is lost.
+//! Surface of the window: what it is configured to, and what is done when it is lost.
 
 use std::sync::Arc;
 
@@ -9,13 +9,13 @@ use subsurf_runtime::wgpu::{
 use subsurf_runtime::{Backend, Gpu, OnScreen};
 use winit::window::Window;
 
-use crate::failure::NoDisplay;
+use crate::error::{Error, Result};
 
 /// A surface is asked this often for a texture before a frame is given up.
 const ATTEMPTS: usize = 3;
 
-/// The surface of a window.
-pub(super) struct Canvas {
+/// Surface of a window.
+pub(in crate::window) struct Canvas {
     window: Arc<Window>,
     instance: Instance,
     adapter: Adapter,
@@ -26,7 +26,7 @@ pub(super) struct Canvas {
     is_suboptimal: bool,
 }
 
-/// What to do with what a surface answers.
+/// Step that a surface's answer asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Step {
     Draw,
@@ -69,28 +69,28 @@ fn configuration(capabilities: &SurfaceCapabilities, size: [u32; 2]) -> Option<S
 
 impl Canvas {
     /// Opens the best device of a backend that draws to the window, and configures the window's surface.
-    pub(super) fn open(backend: Backend, window: &Arc<Window>) -> anyhow::Result<(Self, Gpu)> {
+    pub(in crate::window) fn open(backend: Backend, window: &Arc<Window>) -> Result<(Self, Gpu)> {
         let screen = Gpu::open_for(backend, window.clone(), window.clone())?;
         let OnScreen { gpu, surface, instance, adapter } = screen;
         let size = window.inner_size();
         let config = configuration(&surface.get_capabilities(&adapter), [size.width, size.height]);
-        let config = config.ok_or_else(|| NoDisplay("the window takes no pictures of 8 bits".to_owned()))?;
+        let config = config.ok_or_else(|| Error::NoDisplay("the window takes no pictures of 8 bits".to_owned()))?;
         surface.configure(gpu.device(), &config);
         let window = window.clone();
         Ok((Self { window, instance, adapter, surface: Some(surface), config, is_suboptimal: false }, gpu))
     }
 
-    pub(super) fn format(&self) -> TextureFormat {
+    pub(in crate::window) fn format(&self) -> TextureFormat {
         self.config.format
     }
 
     /// Pixels of the window.
-    pub(super) fn size(&self) -> [u32; 2] {
+    pub(in crate::window) fn size(&self) -> [u32; 2] {
         [self.config.width, self.config.height]
     }
 
     /// Follows the window.
-    pub(super) fn resize(&mut self, gpu: &Gpu, size: [u32; 2]) {
+    pub(in crate::window) fn resize(&mut self, gpu: &Gpu, size: [u32; 2]) {
         [self.config.width, self.config.height] = size.map(|side| side.max(1));
         self.configure(gpu);
     }
@@ -103,7 +103,7 @@ impl Canvas {
     }
 
     /// The texture that is shown next; `None` if there is none this time.
-    pub(super) fn texture(&mut self, gpu: &Gpu) -> anyhow::Result<Option<SurfaceTexture>> {
+    pub(in crate::window) fn texture(&mut self, gpu: &Gpu) -> Result<Option<SurfaceTexture>> {
         if self.is_suboptimal {
             self.configure(gpu);
         }
@@ -127,13 +127,13 @@ impl Canvas {
         Ok(None)
     }
 
-    fn recreate(&mut self, gpu: &Gpu) -> anyhow::Result<()> {
+    fn recreate(&mut self, gpu: &Gpu) -> Result<()> {
         self.surface = None;
         let surface = self.instance.create_surface(self.window.clone());
-        let surface = surface.map_err(|error| NoDisplay(format!("the window's surface was lost: {error}")))?;
+        let surface = surface.map_err(|error| Error::NoDisplay(format!("the window's surface was lost: {error}")))?;
         // Another one may have other formats; pipelines are for the one that there was.
         if !surface.get_capabilities(&self.adapter).formats.contains(&self.config.format) {
-            return Err(NoDisplay("the window's surface came back in another format".to_owned()).into());
+            return Err(Error::NoDisplay("the window's surface came back in another format".to_owned()));
         }
         self.surface = Some(surface);
         self.configure(gpu);
