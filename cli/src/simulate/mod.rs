@@ -100,6 +100,7 @@ Materials: apple chicken1 chicken2 cream ketchup marble potato skimmilk skin1 sk
 Built-in materials are synthetic patterns of the same measured media; blue-wax has an invented pigment beside them. Nothing
 here was measured as a patch.";
 
+/// Built-in material by its name on a command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SceneArg(pub Scene);
 
@@ -265,6 +266,7 @@ impl Request<'_> {
         Ok(simulate(&slab, &self.finish, &writer, &Bars::new())?)
     }
 
+    /// Facts that stand beside the array.
     #[allow(clippy::cast_possible_truncation, reason = "lengths and indices need no more than f32")]
     pub fn sidecar(&self) -> Sidecar {
         let simulated = json!({

@@ -17,7 +17,7 @@ use crate::program::failure::bad_request;
 use crate::program::interrupt::Graceful;
 use crate::options::ByteCount;
 use crate::program::progress::Bars;
-pub use methods::{Common, detail, usual_bytes};
+pub use methods::{Common, Encoded, detail, usual_bytes};
 use report::Report;
 
 /// How a file is made.

@@ -8,7 +8,8 @@ use subsurf_encoder::metrics::btf::BtfError;
 
 use super::methods::Made;
 use crate::compare::{mssim, mssim_json};
-use crate::program::memory::{human, resident};
+use crate::program::memory::resident;
+use subsurf_viewer::human;
 use crate::outln;
 
 /// Facts about one run.
