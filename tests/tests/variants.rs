@@ -77,29 +77,6 @@ fn targets_of_srgb_and_of_several_samples_show_the_same() {
     }
 }
 
-/// Shifted taps are grain, and no other light; on thin folds too.
-#[test]
-fn jitter_keeps_the_light() {
-    let file = material_of(Recipe::Jade);
-    for mesh in [torus(9.0, 4.0, 32), drapery(14.0, 1.0, 5, 40)] {
-        let scene = scene(&mesh);
-        let [a, b] = Backend::ALL.map(|backend| {
-            let gpu = device(backend);
-            let loaded = Loaded::new(&gpu, Way::Separable, &file, &mesh);
-            let draw =
-                |jitters| loaded.picture_with(&gpu, &scene, SIZE, RuntimeOptions { jitters, ..Default::default() });
-            let (plain, jittered) = (draw(false), draw(true));
-            let sum = |picture: &[[u8; 3]]| picture.iter().flatten().map(|c| f64::from(*c)).sum::<f64>();
-            let db = psnr(&plain, &jittered);
-            println!("{backend}: {db:.1} dB between taps in place and shifted");
-            assert!(plain != jittered && db >= 35.0, "{backend}: {db} dB");
-            assert!((sum(&plain) / sum(&jittered) - 1.0).abs() < 5e-3, "{backend}: as bright");
-            jittered
-        });
-        assert!(share_that_differs(&a, &b) <= EDGE_PIXELS, "the same grain on both APIs");
-    }
-}
-
 /// Bits of half floats in integers give the pictures that half floats give; where they cannot, it is said.
 #[test]
 fn devices_without_half_floats_to_draw_to_draw_the_same() {

@@ -1,6 +1,6 @@
 //! Twin of `surface_gather.wgsl`.
 
-use glam::{UVec3, Vec3, Vec4, Vec4Swizzles};
+use glam::{UVec3, Vec3, Vec4Swizzles};
 use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
 use subsurf_scene::{PointGrid, SurfacePoints};

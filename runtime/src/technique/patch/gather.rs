@@ -42,7 +42,7 @@ impl PatchRenderer {
         let surface = gpu.texture(&spec)?;
         let view = gpu.uniform("view", &uniform::View { origin: region.origin, pad: [0; 2] });
         let of_material = self.gather.bind(gpu, 0, &material.resources())?;
-        let of_view = [view.as_entire_binding(), BindingResource::TextureView(&light.0.view)];
+        let of_view = [view.as_entire_binding(), BindingResource::TextureView(light.view())];
         let of_view = self.gather.bind(gpu, 1, &of_view)?;
         let d = 2 * u64::from(material.header().window_radius) + 1;
         for rows in Rows::bands(region.size, d * d * u64::from(region.size[0])) {

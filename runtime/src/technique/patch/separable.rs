@@ -6,7 +6,7 @@ use wgpu::{BindGroup, BindingResource, CommandEncoderDescriptor};
 use super::surface::{Exitance, PatchLight, nearest};
 use crate::asset::SeparableMaterial;
 use crate::error::Result;
-use crate::gpu::{CoverPass, Gpu, HALF, Rows, Slot, TextureSpec};
+use crate::gpu::{CoverPass, Gpu, HALF, Slot, TextureSpec};
 use crate::technique::cascade::{BlurPasses, Cascade, Ends};
 
 /// Pipelines of separable blurs on flat patches of L terms; made once.
