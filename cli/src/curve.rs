@@ -5,8 +5,8 @@ use subsurf_encoder::rate::{Point, Walked};
 
 use crate::compare::db;
 use crate::encode::coding_name;
-use subsurf_viewer::human;
 use crate::outln;
+use subsurf_viewer::human;
 
 /// One model that was tried.
 pub(crate) fn line(point: &Point) -> String {

@@ -10,11 +10,11 @@ use subsurf_viewer::{human, material_number, read};
 
 use super::Args;
 use crate::encode::btf::load;
-use crate::program::failure::bad_request;
 use crate::info::{Parts, read_error};
-use crate::picture::{display, montage, write_png};
-use crate::program::progress::Bars;
 use crate::outln;
+use crate::picture::{display, montage, write_png};
+use crate::program::failure::bad_request;
+use crate::program::progress::Bars;
 
 /// Pairs of directions that pictures are made of: shares of all of them.
 const PICTURED: [f64; 6] = [0.003, 0.12, 0.31, 0.52, 0.73, 0.96];

@@ -14,13 +14,13 @@ pub use btf::pair_at;
 pub(crate) use btf::{mssim, mssim_json};
 
 use crate::encode::btf::is_btf;
-use crate::program::failure::bad_request;
 use crate::info::parse;
-use subsurf_viewer::{human, read};
 use crate::options::CaptureArgs;
-use crate::picture::{montage, triptych, write_png};
-use crate::program::progress::Bars;
 use crate::outln;
+use crate::picture::{montage, triptych, write_png};
+use crate::program::failure::bad_request;
+use crate::program::progress::Bars;
+use subsurf_viewer::{human, read};
 
 /// Judge a file against the capture it was made from.
 ///

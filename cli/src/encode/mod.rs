@@ -17,13 +17,13 @@ use subsurf_encoder::{check_target, write_bytes};
 
 use crate::compare::{Judgement, judge};
 use crate::curve;
+use crate::options::{ByteCount, CaptureArgs};
+use crate::outln;
 use crate::program::failure::bad_request;
 use crate::program::interrupt::Graceful;
 use crate::program::memory::{available, resident};
-use subsurf_viewer::human;
-use crate::options::{ByteCount, CaptureArgs};
 use crate::program::progress::Bars;
-use crate::outln;
+use subsurf_viewer::human;
 
 /// Fit a material to a capture and write a .subsurf file; `encode btf` does so with the images of a BTF.
 ///

@@ -8,10 +8,10 @@ use serde_json::{Value, json};
 use subsurf_encoder::btf::{Folder, FolderWriter, Pixels, bonn};
 use subsurf_encoder::simulate::btf::{Sample, simulate};
 
-use crate::program::failure::bad_request;
-use subsurf_viewer::human;
-use crate::program::progress::Bars;
 use crate::outln;
+use crate::program::failure::bad_request;
+use crate::program::progress::Bars;
+use subsurf_viewer::human;
 
 /// Simulate a BTF: images of a rough surface under light from 81 directions, seen from 81 directions.
 ///

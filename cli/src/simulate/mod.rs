@@ -15,11 +15,11 @@ use subsurf_encoder::check_target;
 use subsurf_encoder::simulate::maps::{self, MeanFreePath, Weight};
 use subsurf_encoder::simulate::{Finish, MediumMap, Scene, Sensor, Slab, Summary, simulate};
 
-use crate::program::failure::bad_request;
-use subsurf_viewer::human;
 use crate::options::{AddressingArg, Size};
-use crate::program::progress::Bars;
 use crate::outln;
+use crate::program::failure::bad_request;
+use crate::program::progress::Bars;
+use subsurf_viewer::human;
 
 /// Simulate a capture: light diffusing in a slab of given media, measured pixel by pixel.
 ///

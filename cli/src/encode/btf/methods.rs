@@ -7,9 +7,9 @@ use subsurf_encoder::btf::{Detail, Images, Survey, factored, nested, paper};
 
 use super::Args;
 use super::report::line;
-use subsurf_viewer::human;
-use crate::program::progress::Bars;
 use crate::outln;
+use crate::program::progress::Bars;
+use subsurf_viewer::human;
 
 /// Components that files of some materials are made from: as many as factors can have, and more than codebooks can hold.
 pub fn detail(materials: usize) -> Detail {

@@ -13,9 +13,9 @@ use subsurf_encoder::btf::rate::{self, Target};
 use subsurf_encoder::btf::{Folder, Images, Merl, Source, Ubo};
 use subsurf_encoder::{check_target, write_bytes};
 
+use crate::options::ByteCount;
 use crate::program::failure::bad_request;
 use crate::program::interrupt::Graceful;
-use crate::options::ByteCount;
 use crate::program::progress::Bars;
 pub use methods::{Common, Encoded, detail, usual_bytes};
 use report::Report;

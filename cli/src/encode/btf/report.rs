@@ -8,9 +8,9 @@ use subsurf_encoder::metrics::btf::BtfError;
 
 use super::methods::Made;
 use crate::compare::{mssim, mssim_json};
+use crate::outln;
 use crate::program::memory::resident;
 use subsurf_viewer::human;
-use crate::outln;
 
 /// Facts about one run.
 pub(super) struct Report<'a> {
