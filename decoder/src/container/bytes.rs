@@ -1,0 +1,142 @@
+//! Slices of a file, and views of them as little-endian numbers of any alignment.
+
+use half::f16;
+
+/// `bytes[offset .. offset + length]` for numbers that came from a file; `None` where they lead outside.
+pub(crate) fn slice_at(bytes: &[u8], offset: u64, length: u64) -> Option<&[u8]> {
+    let start = usize::try_from(offset).ok()?;
+    let end = usize::try_from(offset.checked_add(length)?).ok()?;
+    bytes.get(start..end)
+}
+
+/// A borrowed run of little-endian `f32` values of any alignment.
+#[derive(Clone, Copy, Debug)]
+pub struct F32Le<'a>(&'a [[u8; 4]]);
+
+impl<'a> F32Le<'a> {
+    /// Views `bytes` as `f32`s; up to three bytes left over at the end are not part of the view.
+    #[must_use]
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Self(bytes.as_chunks().0)
+    }
+
+    /// Number of values.
+    #[must_use]
+    pub fn len(self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there are no values.
+    #[must_use]
+    pub fn is_empty(self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Value number `index`.
+    #[must_use]
+    pub fn get(self, index: usize) -> Option<f32> {
+        self.0.get(index).copied().map(f32::from_le_bytes)
+    }
+
+    /// All values in order.
+    pub fn iter(self) -> impl Iterator<Item = f32> + 'a {
+        self.0.iter().copied().map(f32::from_le_bytes)
+    }
+
+    /// The values as they stand in the file, ready for a texture upload.
+    #[must_use]
+    pub fn as_bytes(self) -> &'a [u8] {
+        self.0.as_flattened()
+    }
+
+    /// The values' bit patterns as signed integers, which compare branch-free.
+    pub(crate) fn bits(self) -> impl Iterator<Item = i32> + 'a {
+        self.0.iter().copied().map(i32::from_le_bytes)
+    }
+
+    /// Whether `outside` gives a negative number for the bits of any value.
+    ///
+    /// Lanes of their own and one branch at the end: the loop compiles to vector code that keeps up with memory.
+    pub(crate) fn any_negative(self, outside: impl Fn(i32) -> i32) -> bool {
+        const LANES: usize = 16;
+        let (blocks, rest) = self.0.as_chunks::<LANES>();
+        let mut any = [0; LANES];
+        for block in blocks {
+            for (any, value) in any.iter_mut().zip(block) {
+                *any |= outside(i32::from_le_bytes(*value));
+            }
+        }
+        let rest = rest.iter().map(|value| outside(i32::from_le_bytes(*value)));
+        any.into_iter().chain(rest).fold(0, |any, value| any | value) < 0
+    }
+
+    /// Three consecutive values from `index`, zero where there are none.
+    pub(crate) fn rgb_at(self, index: usize) -> [f32; 3] {
+        let rgb = self.0.get(index..).and_then(<[[u8; 4]]>::first_chunk::<3>);
+        rgb.map_or([0.0; 3], |rgb| rgb.map(f32::from_le_bytes))
+    }
+}
+
+/// A borrowed run of little-endian `u16` values of any alignment.
+#[derive(Clone, Copy, Debug)]
+pub struct U16Le<'a>(&'a [[u8; 2]]);
+
+impl<'a> U16Le<'a> {
+    /// Views `bytes` as `u16`s; a byte left over at the end is not part of the view.
+    #[must_use]
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Self(bytes.as_chunks().0)
+    }
+
+    /// Value number `index`.
+    #[must_use]
+    pub fn get(self, index: usize) -> Option<u16> {
+        self.0.get(index).copied().map(u16::from_le_bytes)
+    }
+
+    /// All values in order.
+    pub fn iter(self) -> impl Iterator<Item = u16> + 'a {
+        self.0.iter().copied().map(u16::from_le_bytes)
+    }
+
+    /// The values as they stand in the file, ready for a texture upload.
+    #[must_use]
+    pub fn as_bytes(self) -> &'a [u8] {
+        self.0.as_flattened()
+    }
+}
+
+/// A borrowed run of little-endian half floats of any alignment.
+#[derive(Clone, Copy, Debug)]
+pub struct F16Le<'a>(U16Le<'a>);
+
+impl<'a> F16Le<'a> {
+    /// Views `bytes` as half floats; a byte left over at the end is not part of the view.
+    #[must_use]
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Self(U16Le::new(bytes))
+    }
+
+    /// Value number `index`.
+    #[must_use]
+    pub fn get(self, index: usize) -> Option<f32> {
+        self.0.get(index).map(|bits| f16::from_bits(bits).to_f32())
+    }
+
+    /// The values as they stand in the file, ready for a texture upload.
+    #[must_use]
+    pub fn as_bytes(self) -> &'a [u8] {
+        self.0.as_bytes()
+    }
+
+    /// The values' bit patterns.
+    pub fn bits(self) -> impl Iterator<Item = u16> + 'a {
+        self.0.iter()
+    }
+
+    /// Three consecutive values from `index`, zero where there are none.
+    pub(crate) fn rgb_at(self, index: usize) -> [f32; 3] {
+        let rgb = self.0.0.get(index..).and_then(<[[u8; 2]]>::first_chunk::<3>);
+        rgb.map_or([0.0; 3], |rgb| rgb.map(|bytes| f16::from_le_bytes(bytes).to_f32()))
+    }
+}
