@@ -1,7 +1,7 @@
 //! A rate-distortion curve for people and for programs.
 
 use serde_json::{Value, json};
-use subsurf_encoder::rate::{Point, Walked};
+use subsurf_encoder::rate::bssrdf::{Point, Walked};
 
 use crate::compare::db;
 use crate::encode::coding_name;

@@ -6,7 +6,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::bssrdf::{Options, encode};
 use subsurf_encoder::metrics::psnr_db;
-use subsurf_encoder::simulate::{Finish, Scene as Recipe};
+use subsurf_encoder::simulate::diffusion::{Finish, Scene as Recipe};
 use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, SkyShare, Surface, View};
 use subsurf_runtime::{
     BACKGROUND, Backend, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions,

@@ -8,8 +8,9 @@ use subsurf_decoder::bssrdf::{Addressing, Coding};
 use subsurf_encoder::Progress;
 use subsurf_encoder::bssrdf::{Encoded, Method, Options, Problem, encode, file_bytes};
 use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
-use subsurf_encoder::metrics::{compare, psnr_db};
-use subsurf_encoder::rate::{self, Point, Target, Walked};
+use subsurf_encoder::metrics::psnr_db;
+use subsurf_encoder::metrics::bssrdf::compare;
+use subsurf_encoder::rate::bssrdf::{Point, Target, Walked, self};
 use subsurf_encoder::synthetic::{capture_row, unit};
 use subsurf_tests::{open, shape, write_capture};
 

@@ -4,7 +4,7 @@ use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::metrics::psnr_db;
-use subsurf_encoder::simulate::Scene as Recipe;
+use subsurf_encoder::simulate::diffusion::Scene as Recipe;
 use subsurf_encoder::synthetic::per_pixel_of;
 use subsurf_runtime::scene::{bowl, drapery, knot, torus};
 use subsurf_runtime::{BACKGROUND, Backend, Error, Gpu, Model, Path, Renderer, RuntimeOptions};

@@ -4,7 +4,7 @@
 use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
-use subsurf_encoder::simulate::Scene as Recipe;
+use subsurf_encoder::simulate::diffusion::Scene as Recipe;
 use subsurf_runtime::scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
 use subsurf_runtime::wgpu::TextureFormat;
 use subsurf_runtime::{

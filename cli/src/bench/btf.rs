@@ -7,7 +7,7 @@ use glam::{Quat, Vec3};
 use serde_json::{Value, json};
 use subsurf_decoder::Btf;
 use subsurf_encoder::Progress as _;
-use subsurf_encoder::btf::Images;
+use subsurf_encoder::capture::Images;
 use subsurf_runtime::scene::{Light, LightShape, Mesh, Outline, REFLECTION_SIZE, Scene, relief, sphere};
 use subsurf_runtime::{BACKGROUND, Backend, BtfFiltering, BtfMaterial, BtfOptions, BtfStorage, Gpu, RuntimeOptions};
 use subsurf_shaders::cpu;

@@ -7,7 +7,7 @@ use serde_json::json;
 use subsurf_decoder::Btf;
 use subsurf_encoder::Progress as _;
 use subsurf_encoder::Unfinished;
-use subsurf_encoder::btf::{Folder, Images};
+use subsurf_encoder::capture::{Folder, Images};
 use subsurf_runtime::scene::{Mesh, Outline, Scene, relief};
 use subsurf_runtime::{
     BtfImages, BtfMaterial, BtfStorage, Gpu, GpuMesh, Known, Model, Path as DrawPath, Renderer, RuntimeOptions,

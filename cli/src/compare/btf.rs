@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 use subsurf_decoder::btf::{Catalog, Evaluate};
-use subsurf_encoder::btf::Images;
+use subsurf_encoder::capture::Images;
 use subsurf_encoder::metrics::btf::{BtfError, compare, decode, with_file};
 
 use super::Args;

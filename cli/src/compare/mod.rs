@@ -8,7 +8,8 @@ use serde_json::{Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::Progress;
 use subsurf_encoder::capture::Capture;
-use subsurf_encoder::metrics::{self, Comparison, Light};
+use subsurf_encoder::metrics;
+use subsurf_encoder::metrics::bssrdf::{Comparison, Light};
 
 pub(crate) use btf::{mssim, mssim_json, pair_at};
 
@@ -75,7 +76,7 @@ pub(crate) fn judge(
     bytes: u64,
     progress: &dyn Progress,
 ) -> anyhow::Result<Judgement> {
-    let comparison = metrics::compare(capture, material, progress)?;
+    let comparison = metrics::bssrdf::compare(capture, material, progress)?;
     Ok(Judgement {
         relative_error_mean: comparison.albedo.mean_relative_error(),
         psnr_db: comparison.psnr_db(),

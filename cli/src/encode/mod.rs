@@ -10,9 +10,9 @@ use serde_json::json;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Coding;
 use subsurf_decoder::bssrdf::layout::MAX_BASE_MATERIALS;
-use subsurf_encoder::bssrdf::{self, Encoded, Method, Options, fit_bytes};
+use subsurf_encoder::bssrdf::{Encoded, Method, Options, fit_bytes, self};
 use subsurf_encoder::capture::{Capture, sidecar_path};
-use subsurf_encoder::rate::{self, Point, Target, Walked};
+use subsurf_encoder::rate::bssrdf::{Point, Target, Walked, self};
 use subsurf_encoder::{check_target, write_bytes};
 
 use crate::compare::{Judgement, judge};

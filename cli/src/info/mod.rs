@@ -10,7 +10,7 @@ use subsurf_decoder::bssrdf::{Coding, Model, Profiles};
 use subsurf_decoder::btf::{Catalog, Model as BtfModel};
 use subsurf_decoder::container::{Container, Crc};
 use subsurf_decoder::{Bssrdf, Btf, Section};
-use subsurf_encoder::btf::Folder;
+use subsurf_encoder::capture::Folder;
 
 pub(crate) use btf::{Parts, material_number};
 

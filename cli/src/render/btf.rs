@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3, Vec4};
 use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Btf;
-use subsurf_encoder::btf::{Folder, Images};
+use subsurf_encoder::capture::{Folder, Images};
 use subsurf_runtime::scene::{Mesh, Outline, REFLECTION_SIZE, Scene};
 use subsurf_runtime::{
     BACKGROUND, BtfFiltering, BtfImages, BtfMaterial, BtfOptions, Gpu, GpuMesh, Known, RuntimeOptions,

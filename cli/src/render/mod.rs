@@ -14,7 +14,7 @@ use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::check_target;
-use subsurf_encoder::metrics::Light;
+use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_runtime::scene::Environment;
 use subsurf_runtime::{Keeping, RuntimeOptions};
 use subsurf_shaders::cpu::{self, Rgb};

@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use clap::ValueEnum;
 use serde_json::{Value, json};
-use subsurf_encoder::btf::{Folder, FolderWriter, Pixels, bonn};
-use subsurf_encoder::simulate::btf::{Sample, simulate};
+use subsurf_encoder::capture::{Folder, FolderWriter, Pixels, bonn};
+use subsurf_encoder::simulate::relief::{Sample, simulate};
 
 use crate::failure::bad_request;
 use crate::memory::human;

@@ -12,8 +12,8 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_decoder::bssrdf::layout::LENGTHS_MM;
 use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
 use subsurf_encoder::check_target;
-use subsurf_encoder::simulate::maps::{self, MeanFreePath, Weight};
-use subsurf_encoder::simulate::{Finish, MediumMap, Scene, Sensor, Slab, Summary, simulate};
+use subsurf_encoder::simulate::diffusion::maps::{MeanFreePath, Weight, self};
+use subsurf_encoder::simulate::diffusion::{Finish, MediumMap, Scene, Sensor, Slab, Summary, simulate};
 
 use crate::failure::bad_request;
 use crate::memory::human;

@@ -18,7 +18,7 @@ use std::time::Instant;
 use serde_json::json;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar};
-use subsurf_encoder::simulate::{Finish, MediumMap, Scene, Sensor, expose};
+use subsurf_encoder::simulate::diffusion::{Finish, MediumMap, Scene, Sensor, expose};
 use subsurf_encoder::write_bytes;
 
 use crate::failure::bad_request;

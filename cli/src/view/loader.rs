@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use subsurf_encoder::btf::Images;
+use subsurf_encoder::capture::Images;
 use subsurf_runtime::scene::{Mesh, Scene, SkyShare};
 use subsurf_runtime::{BtfMaterial, Gpu};
 use winit::event_loop::EventLoopProxy;

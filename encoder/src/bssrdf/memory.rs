@@ -1,10 +1,10 @@
 //! How much memory a fit takes.
 
-use super::field::Field;
-use super::lanes::Lanes;
-use super::normal::{BLOCK_ROWS, BLOCKS_AT_ONCE};
-use super::options::{Method, Options, geometry};
-use super::window::{Geometry, rings};
+use crate::bssrdf::field::Field;
+use crate::math::lanes::Lanes;
+use crate::bssrdf::normal::{BLOCK_ROWS, BLOCKS_AT_ONCE};
+use crate::bssrdf::options::{Method, Options, geometry};
+use crate::bssrdf::window::{Geometry, rings};
 use crate::capture::Capture;
 use crate::error::Result;
 

@@ -1,21 +1,19 @@
 //! Fits diffuse BSSRDFs: per-pixel profiles and K-BMPP.
 
-mod banded;
-mod cluster;
-mod direct;
-mod field;
-mod lanes;
-mod lsp;
+pub(crate) mod clusters;
+pub(crate) mod direct;
+pub(crate) mod field;
 mod memory;
-mod normal;
-mod options;
-mod paper;
-mod window;
+pub(crate) mod normal;
+pub(crate) mod options;
+pub(crate) mod profiles;
+pub(crate) mod window;
 mod write;
 
 use subsurf_decoder::Section;
 use subsurf_decoder::bssrdf::Header;
 
+use crate::baseline::yatagawa2020;
 use crate::capture::Capture;
 use crate::error::Result;
 use crate::progress::Progress;
@@ -76,16 +74,16 @@ impl<'a> Problem<'a> {
         let mut header = options.header(self.capture, &self.normal.geometry);
         let (sections, cost) = match options.method {
             Method::Lsp => {
-                let profiles = self.profiles.get_or_insert_with(|| lsp::fit(&self.normal, progress));
+                let profiles = self.profiles.get_or_insert_with(|| profiles::fit(&self.normal, progress));
                 (vec![local_profiles(&self.normal, profiles)], self.normal.cost(profiles))
             }
             Method::Paper => {
-                let model = paper::fit(&self.normal, options.per_pixel, options.base_materials, options.seed, progress);
+                let model = yatagawa2020::fit(&self.normal, options.per_pixel, options.base_materials, options.seed, progress);
                 self.of_bases(&mut header, model, options.half_profiles)
             }
             Method::Clusters | Method::Direct => {
-                let profiles = self.profiles.get_or_insert_with(|| lsp::fit(&self.normal, progress));
-                let clusters = cluster::cluster(&self.normal, profiles, options.base_materials, options.seed, progress);
+                let profiles = self.profiles.get_or_insert_with(|| profiles::fit(&self.normal, progress));
+                let clusters = clusters::cluster(&self.normal, profiles, options.base_materials, options.seed, progress);
                 let mut model = Model::of_clusters(clusters, self.normal.geometry.nodes);
                 if options.method == Method::Direct {
                     direct::refine(&self.normal, &mut model, options.per_pixel, options.coding, progress);

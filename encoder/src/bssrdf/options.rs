@@ -5,7 +5,7 @@ use subsurf_decoder::bssrdf::layout::{
 };
 use subsurf_decoder::bssrdf::{Coding, Header};
 
-use super::window::Geometry;
+use crate::bssrdf::window::Geometry;
 use crate::capture::Capture;
 use crate::error::{Error, Result};
 
@@ -54,7 +54,7 @@ impl Default for Options {
 
 impl Options {
     /// K of the file; 0 for per-pixel profiles.
-    pub(super) fn model(&self) -> usize {
+    pub(crate) fn model(&self) -> usize {
         match self.method {
             Method::Lsp => 0,
             Method::Clusters => 1,
@@ -63,12 +63,12 @@ impl Options {
     }
 
     /// The largest M that a file of this K holds.
-    pub(super) fn most_base_materials(&self) -> usize {
+    pub(crate) fn most_base_materials(&self) -> usize {
         if self.model() == 1 { MAX_SINGLE_BASE_MATERIALS as usize } else { MAX_BASE_MATERIALS as usize }
     }
 
     /// Whether a file can hold what is asked for.
-    pub(super) fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         let model = self.model();
         let refuse = |message: String| Err(Error::Request(message));
         if matches!(self.method, Method::Direct | Method::Paper) && !MODELS_BMPP.map(usize::from).contains(&model) {
@@ -90,7 +90,7 @@ impl Options {
     }
 
     /// The header of the file, base materials as asked for.
-    pub(super) fn header(&self, capture: &Capture, geometry: &Geometry) -> Header {
+    pub(crate) fn header(&self, capture: &Capture, geometry: &Geometry) -> Header {
         let model = self.model();
         let bases = if model == 0 { 0 } else { self.base_materials };
         let small = |n: usize| u32::try_from(n).expect("checked when the capture was opened");
@@ -117,7 +117,7 @@ impl Options {
 const BEYOND_CORNER: f64 = 1.0 + 1e-6;
 
 /// Pixels and nodes of a capture, with S = R + 1 nodes if `samples` does not say otherwise.
-pub(super) fn geometry(capture: &Capture, samples: Option<usize>) -> Result<Geometry> {
+pub(crate) fn geometry(capture: &Capture, samples: Option<usize>) -> Result<Geometry> {
     let nodes = samples.unwrap_or((capture.radius() + 1).max(2));
     if !(2..=MAX_SAMPLES.into()).contains(&nodes) {
         return Err(Error::Request(format!("{nodes} samples; a profile holds 2 to {MAX_SAMPLES}")));

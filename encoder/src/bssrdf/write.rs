@@ -5,7 +5,7 @@ use subsurf_decoder::Section;
 use subsurf_decoder::bssrdf::layout::{HEADER_BYTES, MAX_CODED_RATIO, MAX_LOG, MAX_PAIRS, MODEL_2BMPP};
 use subsurf_decoder::bssrdf::{Coding, Header, Mixture};
 
-use crate::container;
+use crate::file::container;
 
 /// A file of one material: container, header, and the sections of its model in file order.
 ///

@@ -165,7 +165,7 @@ impl Resampler {
 
     /// [`Self::fit`] of many, side by side in columns; in f32, and several times faster.
     #[allow(clippy::cast_possible_truncation, reason = "tables are f32")]
-    pub(super) fn fit_all(&self, values: &DMatrix<f32>) -> DMatrix<f32> {
+    pub(crate) fn fit_all(&self, values: &DMatrix<f32>) -> DMatrix<f32> {
         let (count, nodes) = (values.ncols(), self.grid.light_nodes());
         let lights = values.nrows() / self.views;
         let mut at_rows = DMatrix::zeros(nodes * count, self.rows.len());
@@ -256,7 +256,7 @@ impl Measured {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::btf::bonn;
+    use crate::capture::bonn;
 
     /// What varies slowly with both directions comes back from the nodes; on the pole, whatever the azimuth.
     #[test]

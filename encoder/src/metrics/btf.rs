@@ -6,7 +6,7 @@ use subsurf_decoder::container::Crc;
 use subsurf_decoder::{Btf, Factored, ReadError};
 
 use super::image::ssim_of_planes;
-use crate::btf::Images;
+use crate::capture::Images;
 use crate::btf::factored::{Memory, expanded};
 use crate::progress::Progress;
 

@@ -1,8 +1,7 @@
 //! How far a fitted material is from its capture.
 
+pub mod bssrdf;
 pub mod btf;
 mod image;
-mod relight;
 
 pub use image::{psnr_db, ssim};
-pub use relight::{Comparison, Light, Relit, compare};

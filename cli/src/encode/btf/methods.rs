@@ -2,8 +2,10 @@
 
 use subsurf_decoder::btf::Grid;
 use subsurf_encoder::btf::nested::{ChromaSizes, Extent};
-use subsurf_encoder::btf::rate::{self, Point, Rung, Target, Walked};
-use subsurf_encoder::btf::{Detail, Images, Survey, factored, nested, paper};
+use subsurf_encoder::rate::btf::{Point, Rung, Target, Walked, self};
+use subsurf_encoder::baseline::havran2010;
+use subsurf_encoder::btf::{Detail, Survey, factored, nested};
+use subsurf_encoder::capture::Images;
 
 use super::Args;
 use super::report::line;
@@ -79,10 +81,10 @@ impl Common {
     /// The paper's encoder with its thresholds times `looseness`.
     pub(crate) fn paper(self, materials: &[Images], looseness: f32) -> Encoded {
         let Self { grid, names, has_mipmaps, seed } = self;
-        let usual = paper::Options::default();
+        let usual = havran2010::Options::default();
         let similarity = usual.similarity.times(looseness);
-        let options = paper::Options { grid, similarity, names, has_mipmaps, seed, ..usual };
-        Ok(paper::encode(materials, &options, &Bars::new())?.to_bytes())
+        let options = havran2010::Options { grid, similarity, names, has_mipmaps, seed, ..usual };
+        Ok(havran2010::encode(materials, &options, &Bars::new())?.to_bytes())
     }
 }
 

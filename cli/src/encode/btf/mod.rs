@@ -9,8 +9,8 @@ use std::time::Instant;
 use clap::ValueEnum;
 use subsurf_decoder::btf::Grid;
 use subsurf_encoder::btf::nested::Extent;
-use subsurf_encoder::btf::rate::{self, Target};
-use subsurf_encoder::btf::{Folder, Images, Merl, Source, Ubo};
+use subsurf_encoder::rate::btf::{Target, self};
+use subsurf_encoder::capture::{Folder, Images, Merl, Source, Ubo};
 use subsurf_encoder::{check_target, write_bytes};
 
 use crate::failure::bad_request;

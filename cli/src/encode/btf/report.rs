@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde_json::json;
-use subsurf_encoder::btf::rate::Point;
+use subsurf_encoder::rate::btf::Point;
 use subsurf_encoder::metrics::btf::BtfError;
 
 use super::methods::Made;

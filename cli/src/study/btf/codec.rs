@@ -1,12 +1,11 @@
 //! What is compared, and at how many bytes.
 
 use subsurf_encoder::Error;
-use subsurf_encoder::btf::baseline::{
-    Baseline, local_pca, local_pca_bytes, one_level, one_level_bytes, pca, pca_bytes,
-};
+use subsurf_encoder::baseline::whole_brdf::{Baseline, local_pca, local_pca_bytes, one_level, one_level_bytes, pca, pca_bytes};
 use subsurf_encoder::btf::nested::Extent;
-use subsurf_encoder::btf::rate::{self, Target};
-use subsurf_encoder::btf::{Images, Survey};
+use subsurf_encoder::rate::btf::{Target, self};
+use subsurf_encoder::btf::Survey;
+use subsurf_encoder::capture::Images;
 
 use super::{SEED, surveyed};
 use crate::encode::btf::{Common, MethodArg, grid, usual_bytes, usual_nodes};

@@ -9,8 +9,9 @@ mod shared;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use subsurf_encoder::btf::{Images, Pixels, Survey};
-use subsurf_encoder::simulate::btf::Sample;
+use subsurf_encoder::btf::Survey;
+use subsurf_encoder::capture::{Images, Pixels};
+use subsurf_encoder::simulate::relief::Sample;
 use subsurf_encoder::write_bytes;
 
 use self::codec::Codec;

@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 use subsurf_decoder::btf::Evaluate;
-use subsurf_encoder::btf::{Images, Survey};
+use subsurf_encoder::btf::Survey;
+use subsurf_encoder::capture::Images;
 use subsurf_encoder::metrics::btf::{BtfError, compare, compare_images, decode, with_file};
 use subsurf_encoder::write_bytes;
 

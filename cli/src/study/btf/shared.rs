@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use subsurf_encoder::btf::Images;
+use subsurf_encoder::capture::Images;
 use subsurf_encoder::btf::nested::Extent;
-use subsurf_encoder::btf::rate::judge;
-use subsurf_encoder::simulate::btf::Sample;
+use subsurf_encoder::rate::btf::judge;
+use subsurf_encoder::simulate::relief::Sample;
 use subsurf_encoder::write_bytes;
 
 use super::codec::common;

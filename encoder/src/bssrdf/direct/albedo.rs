@@ -6,10 +6,10 @@
 
 use rayon::prelude::*;
 
-use super::super::field::Field;
-use super::super::lanes::{Lanes, ZERO};
-use super::super::normal::Normal;
-use super::super::window::Geometry;
+use crate::bssrdf::field::Field;
+use crate::math::lanes::{Lanes, ZERO};
+use crate::bssrdf::normal::Normal;
+use crate::bssrdf::window::Geometry;
 
 /// √Rd of every pixel at the distance of every ring: Rd(i, j) is the product of two entries (eq. 1).
 pub(super) struct Albedo {

@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Mixture;
 
-use super::super::field::Field;
-use super::super::normal::Normal;
+use crate::bssrdf::field::Field;
+use crate::bssrdf::normal::Normal;
 use super::Model;
 use super::albedo::Albedo;
 use super::mix::{Curvatures, Tilt, product};

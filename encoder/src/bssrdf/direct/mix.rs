@@ -3,8 +3,8 @@
 use subsurf_decoder::bssrdf::Mixture;
 use subsurf_decoder::bssrdf::layout::MAX_PER_PIXEL;
 
-use super::super::banded::Banded;
-use super::super::lanes::{Lanes, ZERO};
+use crate::math::banded::Banded;
+use crate::math::lanes::{Lanes, ZERO};
 use super::Model;
 use super::albedo::Constraint;
 

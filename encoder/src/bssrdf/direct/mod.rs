@@ -3,12 +3,12 @@
 //! Yatagawa et al. 2020 alternate L-BFGS-B with a randomised search; both halves have better answers. With the base
 //! profiles fixed, a pixel's cost is a quadratic in its own profile, and the best ratio of each of the M (M − 1)/2 base
 //! pairs is the vertex of a parabola; further base materials join the best pair one by one ([`assign`]). With indices
-//! and ratios fixed, the cost is a quadratic in all base profiles together ([`profiles`]).
+//! and ratios fixed, the cost is a quadratic in all base profiles together ([`solve`]).
 
 mod albedo;
 mod assign;
 mod mix;
-mod profiles;
+mod solve;
 
 use std::collections::BTreeMap;
 
@@ -16,12 +16,12 @@ use rayon::prelude::*;
 use subsurf_decoder::bssrdf::layout::{MAX_CODED_RATIO, MAX_PAIRS, MODELS_BMPP};
 use subsurf_decoder::bssrdf::{Coding, Mixture};
 
-pub(super) use profiles::{gather, image_of};
+pub(crate) use solve::{gather, image_of};
 
-use super::cluster::Clusters;
-use super::field::Field;
-use super::lanes::{self, Lanes, ZERO};
-use super::normal::Normal;
+use crate::bssrdf::clusters::Clusters;
+use crate::bssrdf::field::Field;
+use crate::math::lanes::{self, Lanes, ZERO};
+use crate::bssrdf::normal::Normal;
 use crate::progress::Progress;
 use albedo::Albedo;
 
@@ -48,22 +48,22 @@ fn albedo_weight(coding: Coding) -> f32 {
 }
 
 /// A K-BMPP model relative to the mean profile.
-pub(super) struct Model {
-    pub(super) nodes: usize,
+pub(crate) struct Model {
+    pub(crate) nodes: usize,
     /// K.
-    pub(super) per_pixel: usize,
+    pub(crate) per_pixel: usize,
     /// Ratios are whole multiples of 1/levels, if they are to be stored so.
-    pub(super) levels: Option<f32>,
+    pub(crate) levels: Option<f32>,
     /// The only pairs there may be, sorted.
-    pub(super) palette: Option<Vec<[usize; 2]>>,
+    pub(crate) palette: Option<Vec<[usize; 2]>>,
     /// `[base][node]`.
-    pub(super) bases: Vec<Lanes>,
-    pub(super) mixtures: Vec<Mixture>,
+    pub(crate) bases: Vec<Lanes>,
+    pub(crate) mixtures: Vec<Mixture>,
 }
 
 impl Model {
     /// Every pixel is its cluster.
-    pub(super) fn of_clusters(clusters: Clusters, nodes: usize) -> Self {
+    pub(crate) fn of_clusters(clusters: Clusters, nodes: usize) -> Self {
         let mixture = |&cluster: &usize| {
             let cluster = u16::try_from(cluster).expect("at most 65,536 clusters");
             Mixture { bases: [cluster; 5], ratios: [1.0, 0.0, 0.0, 0.0, 0.0] }
@@ -73,7 +73,7 @@ impl Model {
     }
 
     /// Leaves out base materials that no pixel has: a capture may have fewer distinct profiles than were asked for.
-    pub(super) fn drop_unused(&mut self) {
+    pub(crate) fn drop_unused(&mut self) {
         let mut used = vec![false; self.count()];
         for (base, _) in (0..self.mixtures.len()).flat_map(|pixel| self.parts(pixel)) {
             used[base] = true;
@@ -93,7 +93,7 @@ impl Model {
     }
 
     /// M.
-    pub(super) fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.bases.len() / self.nodes
     }
 
@@ -142,7 +142,7 @@ impl Model {
     }
 
     /// All pixels' profiles.
-    pub(super) fn field(&self, normal: &Normal) -> Field {
+    pub(crate) fn field(&self, normal: &Normal) -> Field {
         let mut field = Field::new(normal.geometry);
         self.write_to(&mut field);
         field
@@ -160,7 +160,7 @@ impl Model {
 
 /// Alternates both steps from a model of one base material per pixel until the cost settles, then lets the search weigh
 /// albedos. Three and five base materials per pixel start from the model of fewer, so that they begin no worse.
-pub(super) fn refine(normal: &Normal, model: &mut Model, per_pixel: usize, coding: Coding, progress: &dyn Progress) {
+pub(crate) fn refine(normal: &Normal, model: &mut Model, per_pixel: usize, coding: Coding, progress: &dyn Progress) {
     let mut field = model.field(normal);
     // One base material per pixel is where clusters start, and pairs are searched exhaustively from there.
     let stages = MODELS_BMPP.into_iter().map(usize::from).filter(|&k| k == per_pixel || (1 < k && k < per_pixel));
@@ -180,7 +180,7 @@ pub(super) fn refine(normal: &Normal, model: &mut Model, per_pixel: usize, codin
         }
         let mut albedo = Albedo::new(normal, &field, albedo_weight(coding));
         assign::search(normal, model, &mut field, Some(&mut albedo));
-        profiles::solve(normal, model, &mut field);
+        solve::solve(normal, model, &mut field);
         progress.advance(1);
     };
     for _ in 0..WEIGHED_ROUNDS {
@@ -211,7 +211,7 @@ fn alternate(normal: &Normal, model: &mut Model, field: &mut Field, progress: &d
     let mut cost = normal.cost(field);
     for round in 0..ROUNDS {
         assign::search(normal, model, field, None);
-        profiles::solve(normal, model, field);
+        solve::solve(normal, model, field);
         let next = normal.cost(field);
         let settled = next > cost * (1.0 - SETTLED);
         cost = next;

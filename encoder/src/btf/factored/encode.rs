@@ -11,7 +11,8 @@ use super::write::Contents;
 use crate::btf::mipmaps::Mipmaps;
 use crate::btf::nested::materials;
 use crate::btf::resample::{Measured, Resampler};
-use crate::btf::{Images, Survey};
+use crate::btf::Survey;
+use crate::capture::Images;
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 

@@ -17,7 +17,6 @@ pub use encode::{Options, Prepared};
 pub use memory::{Memory, expanded};
 pub use sizes::Sizes;
 pub use texels::StageSize;
-pub(super) use texels::{means, nearest};
 
 #[cfg(test)]
 #[allow(clippy::cast_possible_truncation, reason = "small numbers")]

@@ -5,6 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
+use crate::math::k_means::euclidean::{Choice, means, nearest};
 use crate::progress::Progress;
 
 /// What one stage may take.
@@ -24,8 +25,6 @@ pub(super) struct Quantised {
     pub(super) indices: Vec<u8>,
 }
 
-/// Texels that one thread compares at a time.
-const BLOCK: usize = 1_024;
 /// Rounds of k-means that a stage begins with.
 const FIRST_ROUNDS: usize = 8;
 /// Sweeps over all stages that follow.
@@ -36,62 +35,6 @@ const WHOLE_SWEEPS: usize = 8;
 /// Progress steps of [`quantise`] for so many stages.
 pub(super) fn steps(stages: usize) -> u64 {
     (stages * (FIRST_ROUNDS + SWEEPS)) as u64
-}
-
-/// A codeword, and the squared distance to it.
-type Choice = (u8, f32);
-
-/// The nearest codewords of columns.
-pub(in crate::btf) fn nearest(columns: &DMatrix<f32>, words: &DMatrix<f32>) -> Vec<Choice> {
-    let count = words.nrows();
-    let halves: Vec<f32> = words.column_iter().map(|word| 0.5 * word.norm_squared()).collect();
-    let starts: Vec<usize> = (0..columns.ncols()).step_by(BLOCK).collect();
-    let of_block = |start: &usize| {
-        let block = columns.view((0, *start), (count, BLOCK.min(columns.ncols() - start)));
-        let products = words.tr_mul(&block);
-        let best = |(texel, products): (usize, nalgebra::DVectorView<'_, f32>)| {
-            let mut best = (0, f32::INFINITY);
-            for (word, (half, product)) in halves.iter().zip(products.iter()).enumerate() {
-                let distance = half - product;
-                if distance < best.1 {
-                    best = (word, distance);
-                }
-            }
-            let (word, distance) = best;
-            (u8::try_from(word).expect("at most 256"), 2.0 * distance + block.column(texel).norm_squared())
-        };
-        products.column_iter().enumerate().map(|(k, column)| best((k, column.as_view()))).collect::<Vec<_>>()
-    };
-    starts.par_iter().flat_map_iter(of_block).collect()
-}
-
-/// Means of the columns of every codeword; those that nothing chose start again at what is farthest from its own.
-pub(in crate::btf) fn means(columns: &DMatrix<f32>, chosen: &[Choice], words: &mut DMatrix<f32>) {
-    let count = words.nrows();
-    let mut sums = DMatrix::<f32>::zeros(count, words.ncols());
-    let mut members = vec![0_usize; words.ncols()];
-    for (texel, (word, _)) in chosen.iter().enumerate() {
-        let word = usize::from(*word);
-        members[word] += 1;
-        let mut sum = sums.column_mut(word);
-        sum += columns.column(texel).rows(0, count);
-    }
-    let empty = members.iter().filter(|members| **members == 0).count();
-    let mut far: Vec<usize> = (0..chosen.len()).collect();
-    if empty > 0 && far.len() > empty {
-        far.select_nth_unstable_by(empty, |a, b| chosen[*b].1.total_cmp(&chosen[*a].1).then(a.cmp(b)));
-        far.truncate(empty);
-        far.sort_unstable();
-    }
-    let mut far = far.into_iter();
-    for (word, members) in members.iter().enumerate() {
-        let mut of_word = words.column_mut(word);
-        if *members > 0 {
-            of_word.copy_from(&(sums.column(word) / *members as f32));
-        } else if let Some(texel) = far.next() {
-            of_word.copy_from(&columns.column(texel).rows(0, count));
-        }
-    }
 }
 
 /// Adds the chosen codewords, times `sign`.

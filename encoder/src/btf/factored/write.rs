@@ -9,7 +9,7 @@ use subsurf_decoder::btf::{Header, Material};
 use super::angles::Tucker;
 use super::coder::Encoder;
 use super::texels::Quantised;
-use crate::container;
+use crate::file::container;
 
 /// All of a file.
 pub(super) struct Contents<'a> {

@@ -4,9 +4,9 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use subsurf_decoder::btf::Grid;
 
-use super::clusters::product;
+use crate::math::k_means::shape_gain::product;
 use super::luma::Built;
-use super::means::Weighted;
+use crate::math::k_means::weighted::Weighted;
 use super::scales::gain;
 use super::write::{Chroma, Item};
 

@@ -11,7 +11,8 @@ use super::sizes::Sizes;
 use super::write::Database;
 use crate::btf::mipmaps::Mipmaps;
 use crate::btf::resample::{Measured, Resampler};
-use crate::btf::{Images, Survey};
+use crate::btf::Survey;
+use crate::capture::Images;
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 
@@ -125,7 +126,7 @@ fn mean_over_views(values: &[f32], light: usize) -> Vec<f32> {
 }
 
 /// What a file says of materials, and how many there are.
-pub(in crate::btf) fn materials(
+pub(crate) fn materials(
     sizes: &[[u32; 2]],
     names: &[String],
     has_mipmaps: bool,

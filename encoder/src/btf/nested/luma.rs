@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use subsurf_decoder::btf::Grid;
 use subsurf_decoder::btf::layout::Scales;
 
-use super::clusters::{Match, Samples, product};
+use crate::math::k_means::shape_gain::{Match, Samples, product};
 use super::scales::{Fineness, code, gain, scales};
 use super::sizes::Sizes;
 use super::slices::{Slices, from_bytes, to_bytes};

@@ -1,6 +1,6 @@
 //! How large codebooks are.
 
-use crate::btf::rate::Rung;
+use crate::rate::btf::Rung;
 
 /// Most entries of the codebooks of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

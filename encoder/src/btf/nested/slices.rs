@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::clusters::Match;
+use crate::math::k_means::shape_gain::Match;
 use super::write::slice_mean;
 
 /// Slices of `nodes` values, each with weights of its own for all of them.
@@ -120,7 +120,7 @@ impl Slices<'_> {
 
 /// Rows as the file has them: bytes, and their mean.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "values from −1 to 1")]
-pub(in crate::btf) fn to_bytes(rows: &[f32], nodes: usize, is_signed: bool) -> Vec<u8> {
+pub(crate) fn to_bytes(rows: &[f32], nodes: usize, is_signed: bool) -> Vec<u8> {
     let byte = |value: &f32| {
         if is_signed { ((value * 127.0).round() as i8).cast_unsigned() } else { (value * 255.0).round() as u8 }
     };

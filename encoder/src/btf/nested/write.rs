@@ -5,8 +5,8 @@ use subsurf_decoder::bits::{PADDING_BYTES, index_bits};
 use subsurf_decoder::btf::layout::{Book, Books, ChromaBooks, HEIGHTS_PER_OCTAVE, MAX_STAGES, Scales, StageBooks};
 use subsurf_decoder::btf::{Header, Material};
 
-use super::heights::by_means;
-use crate::container;
+use super::slice_exponents::by_means;
+use crate::file::container;
 
 /// A file of nested codebooks before it is packed.
 #[derive(Clone, Debug, PartialEq)]

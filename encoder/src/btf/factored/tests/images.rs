@@ -4,7 +4,8 @@ use glam::Vec3;
 use subsurf_decoder::btf::{Evaluate, Factored, Grid};
 
 use crate::btf::factored::{CoreSize, Memory, Options, Prepared, Sizes, StageSize, expanded};
-use crate::btf::{Detail, Images, Source, Survey};
+use crate::btf::{Detail, Survey};
+use crate::capture::{Images, Source};
 use crate::error::{Error, Result};
 use crate::metrics::btf::{BtfError, compare};
 

@@ -1,0 +1,5 @@
+//! What only comparisons need: earlier methods, from their papers.
+
+pub mod havran2010;
+pub mod whole_brdf;
+pub(crate) mod yatagawa2020;

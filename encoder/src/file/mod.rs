@@ -1,0 +1,4 @@
+//! `.subsurf` files as bytes and on disk.
+
+pub(crate) mod container;
+pub(crate) mod output;
