@@ -1,4 +1,4 @@
-//! What can go wrong, sorted by whose fault it is.
+//! Errors, sorted by whose fault they are.
 
 use std::fmt::Display;
 use std::io;
@@ -29,9 +29,15 @@ pub enum Error {
         /// The decoder's reason.
         source: subsurf_decoder::ReadError,
     },
-    /// The request itself makes no sense.
+    /// A request that makes no sense, or that nothing can meet; the text says what to ask for instead.
     #[error("{0}")]
     Request(String),
+    /// The decoder refuses a file that was just made: a bug of this library, whatever it was given.
+    #[error("the file that was just made cannot be read: {source}; this is a bug of subsurf, please report it")]
+    OwnOutput {
+        /// The decoder's reason.
+        source: subsurf_decoder::ReadError,
+    },
     /// Writing failed.
     #[error("{}: cannot write: {source}", path.display())]
     Output {
@@ -51,9 +57,9 @@ impl Error {
         Self::Output { path: path.to_owned(), source }
     }
 
-    /// Whether the input or the request is to blame, rather than this machine.
+    /// Whether the input or the request is to blame, rather than this machine or this library.
     #[must_use]
     pub fn is_callers(&self) -> bool {
-        !matches!(self, Self::Output { .. })
+        !matches!(self, Self::Output { .. } | Self::OwnOutput { .. })
     }
 }

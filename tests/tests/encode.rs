@@ -17,10 +17,10 @@ use subsurf_tests::{open, shape, write_capture};
 /// Every method, K and coding.
 fn kinds() -> [Options; 10] {
     let direct = Options::default();
-    let [lsp, clusters] = [Method::Lsp, Method::Clusters].map(|method| Options { method, ..direct });
+    let [lsp, clusters] = [Method::Song2009, Method::Clusters].map(|method| Options { method, ..direct });
     let [one, three, five] = [1, 3, 5].map(|per_pixel| Options { per_pixel, ..direct });
     let [small, palette] = [Coding::SmallRatios, Coding::Palette].map(|coding| Options { coding, ..direct });
-    let paper = Options { method: Method::Paper, ..direct };
+    let paper = Options { method: Method::Yatagawa2020, ..direct };
     [lsp, clusters, paper, one, direct, three, five, small, palette, Options { half_profiles: true, ..direct }]
 }
 
@@ -144,7 +144,7 @@ fn missing_entries_weigh_nothing_with(addressing: Addressing) {
     let folder = tempfile::tempdir().unwrap();
     let full = capture_of_bmpp(folder.path(), [26, 20], 4, addressing);
     // The paper's fit ends where chance takes it, with holes or without.
-    for kind in kinds().into_iter().filter(|kind| kind.method != Method::Paper) {
+    for kind in kinds().into_iter().filter(|kind| kind.method != Method::Yatagawa2020) {
         // However a hole is written, it is the same hole.
         let by_hole = [0.0, -1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY].map(|hole| {
             let holes = with_holes(folder.path(), &full, |_| hole);
@@ -252,7 +252,7 @@ fn sizes_are_known_beforehand() {
     let path = capture_of_bmpp(folder.path(), [26, 20], 4, Addressing::Clamp);
     let capture = open(&path);
     let mut problem = Problem::new(&capture, None, &()).unwrap();
-    for kind in kinds().into_iter().filter(|kind| kind.method != Method::Lsp) {
+    for kind in kinds().into_iter().filter(|kind| kind.method != Method::Song2009) {
         let options = Options { base_materials: 12, ..kind };
         let bytes = problem.fit(&options, &()).unwrap().bytes.len() as u64;
         let foreseen = file_bytes(&capture, None, &options).unwrap();

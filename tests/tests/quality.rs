@@ -60,7 +60,7 @@ fn judge(scene: Scene, share: f64) {
     let capture = simulated(folder.path(), scene, 80, 12, 0.5, Addressing::Clamp, &finish);
 
     let [lsp, clusters, direct] =
-        [Method::Lsp, Method::Clusters, Method::Direct].map(|method| quality(&capture, method, 128));
+        [Method::Song2009, Method::Clusters, Method::Direct].map(|method| quality(&capture, method, 128));
     println!(
         "{}: relative error {:.5} (per-pixel profiles {:.5}, clusters {:.5}), {:.2} dB ({:.2}, {:.2})",
         scene.name(),

@@ -8,9 +8,11 @@ use crate::math::banded::Banded;
 use crate::bssrdf::field::Field;
 use crate::math::lanes::{self, Lanes, ZERO};
 use crate::bssrdf::normal::Normal;
+use crate::math::k_means::KMeans;
 use crate::progress::Progress;
 
-const ROUNDS: u64 = 30;
+/// Rounds of Lloyd's iteration, at most.
+const ROUNDS: usize = 30;
 
 /// Cluster centres `[cluster][node]` and the cluster of every pixel.
 pub(crate) struct Clusters {
@@ -21,42 +23,61 @@ pub(crate) struct Clusters {
 /// Clusters the profiles of a field into at most `count` clusters: k-means++ (Arthur and Vassilvitskii 2007), then
 /// Lloyd's rounds. The distance of two profiles is what their difference costs in eq. 5: (p − q)ᵀ A (p − q).
 pub(crate) fn cluster(normal: &Normal, profiles: &Field, count: usize, seed: u64, progress: &dyn Progress) -> Clusters {
-    let nodes = normal.geometry.nodes;
     let pixels = normal.geometry.pixels();
     let metric = normal.mean_matrix();
-    progress.begin("clustering profiles", ROUNDS);
+    progress.begin("clustering profiles", ROUNDS as u64);
 
-    let mut centres = first_centres(&metric, profiles, pixels, count, seed);
+    let first = first_centres(&metric, profiles, pixels, count, seed);
     let mut cluster_of = vec![0; pixels];
-    for round in 0..ROUNDS {
-        let nearest: Vec<usize> =
-            (0..pixels).into_par_iter().map(|pixel| nearest(&metric, &centres, profiles.at(pixel)).0).collect();
+    let mut left = ROUNDS as u64;
+    let centres = Profiles { metric: &metric, field: profiles, pixels }.lloyd(first, ROUNDS, |nearest| {
         let settled = nearest == cluster_of;
         cluster_of = nearest;
+        let ends = settled || progress.stopped();
+        let steps = if ends { left } else { 1 };
+        progress.advance(steps);
+        left -= steps;
+        !ends
+    });
+    Clusters { centres, cluster_of }
+}
+
+/// The profiles of all pixels, to be clustered by what differences cost in eq. 5.
+struct Profiles<'a> {
+    metric: &'a Banded,
+    field: &'a Field,
+    pixels: usize,
+}
+
+impl KMeans for Profiles<'_> {
+    /// Centres `[cluster][node]`.
+    type Codebook = Vec<Lanes>;
+    type Assignment = Vec<usize>;
+
+    fn assign(&self, centres: &Vec<Lanes>) -> Vec<usize> {
+        (0..self.pixels).into_par_iter().map(|pixel| nearest(self.metric, centres, self.field.at(pixel)).0).collect()
+    }
+
+    /// Means; a centre that lost all its pixels stays where it is.
+    fn update(&self, cluster_of: &Vec<usize>, centres: &mut Vec<Lanes>) {
+        let nodes = self.metric.nodes();
         let mut sums = vec![[0.0_f64; 4]; centres.len()];
         let mut members = vec![0_u32; centres.len() / nodes];
         for (pixel, &cluster) in cluster_of.iter().enumerate() {
             members[cluster] += 1;
-            for (sum, value) in sums[cluster * nodes..].iter_mut().zip(profiles.at(pixel)) {
+            for (sum, value) in sums[cluster * nodes..].iter_mut().zip(self.field.at(pixel)) {
                 *sum = lanes::sum(*sum, value.map(f64::from));
             }
         }
         for (k, (centre, sum)) in centres.iter_mut().zip(&sums).enumerate() {
             let members = f64::from(members[k / nodes]);
-            // A centre that lost all its pixels stays where it is.
             if members > 0.0 {
                 #[allow(clippy::cast_possible_truncation, reason = "a mean of f32 values")]
                 let mean = sum.map(|sum| (sum / members) as f32);
                 *centre = mean;
             }
         }
-        if settled || progress.stopped() {
-            progress.advance(ROUNDS - round);
-            break;
-        }
-        progress.advance(1);
     }
-    Clusters { centres, cluster_of }
 }
 
 /// Seeds far apart: each next one drawn with probability proportional to its squared distance from those before.

@@ -13,13 +13,13 @@ use crate::error::{Error, Result};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// A profile for every pixel (Song et al. 2009): large, and the lowest cost of eq. 5 that there is.
-    Lsp,
+    Song2009,
     /// k-means clusters of the per-pixel profiles, one per pixel: a baseline for K-BMPP.
     Clusters,
     /// K base materials per pixel by alternation of exact steps.
     Direct,
     /// K base materials per pixel as Yatagawa et al. 2020 fit them: a baseline.
-    Paper,
+    Yatagawa2020,
 }
 
 /// What to fit.
@@ -56,9 +56,9 @@ impl Options {
     /// K of the file; 0 for per-pixel profiles.
     pub(crate) fn model(&self) -> usize {
         match self.method {
-            Method::Lsp => 0,
+            Method::Song2009 => 0,
             Method::Clusters => 1,
-            Method::Direct | Method::Paper => self.per_pixel,
+            Method::Direct | Method::Yatagawa2020 => self.per_pixel,
         }
     }
 
@@ -71,7 +71,7 @@ impl Options {
     pub(crate) fn check(&self) -> Result<()> {
         let model = self.model();
         let refuse = |message: String| Err(Error::Request(message));
-        if matches!(self.method, Method::Direct | Method::Paper) && !MODELS_BMPP.map(usize::from).contains(&model) {
+        if matches!(self.method, Method::Direct | Method::Yatagawa2020) && !MODELS_BMPP.map(usize::from).contains(&model) {
             return refuse(format!("{model} base materials per pixel; there can be 1, 2, 3 or 5"));
         }
         if self.coding != Coding::Exact && (model != 2 || self.method != Method::Direct) {

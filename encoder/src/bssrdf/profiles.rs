@@ -1,22 +1,20 @@
-//! Per-pixel local scattering profiles (Song et al. 2009; Yatagawa et al. 2020, eq. 1-3): the baseline.
+//! Per-pixel local scattering profiles (Song et al. 2009; Yatagawa et al. 2020, eq. 1-3): where the direct method starts.
 
 use rayon::prelude::*;
 
-use crate::math::banded::{Banded, Factored};
+use crate::math::banded::Cholesky;
 use crate::bssrdf::field::Field;
 use crate::math::lanes::{self, Lanes, ZERO};
+use crate::bssrdf::normal::regulariser::regulariser;
 use crate::bssrdf::normal::{Matrix, Normal};
 use crate::progress::Progress;
 
-/// Weight of the C² regulariser, λ_reg (Yatagawa et al. 2020, section 3.3).
-pub(crate) const SMOOTHNESS: f32 = 1e-3;
-/// Keeps nodes that no measured pair touches at the mean profile.
-pub(crate) const RIDGE: f32 = 1e-5;
-/// Residual, relative to the right-hand side, at which the solution is taken.
+/// Largest residual of the solution, relative to the right-hand side.
 const TOLERANCE: f64 = 1e-4;
+/// Iterations of conjugate gradients, at most.
 const MAX_ITERATIONS: u64 = 200;
 
-/// Solves for a profile of every pixel, relative to the mean profile: conjugate gradients on the normal equations,
+/// Log-scale profile of every pixel, relative to the mean profile: conjugate gradients on the normal equations,
 /// preconditioned with each pixel's own matrix.
 pub(crate) fn fit(normal: &Normal, progress: &dyn Progress) -> Field {
     let nodes = normal.geometry.nodes;
@@ -24,15 +22,13 @@ pub(crate) fn fit(normal: &Normal, progress: &dyn Progress) -> Field {
     let mut x = Field::new(normal.geometry);
     let mut direction = Field::new(normal.geometry);
     let deltas = normal.deltas(&direction);
-    let mut regulariser = Banded::new(nodes);
-    regulariser.add_smoothness(SMOOTHNESS);
-    regulariser.add_ridge(RIDGE);
+    let regulariser = regulariser(nodes);
     let own_block = |matrix: &Matrix| {
         let mut block = matrix.curvature();
         block.add_scaled(1.0, &regulariser);
-        block.factor()
+        block.cholesky()
     };
-    let preconditioners: Vec<Factored> = normal.matrices.par_iter().map(own_block).collect();
+    let preconditioners: Vec<Cholesky> = normal.matrices.par_iter().map(own_block).collect();
     let precondition = |residual: &[Lanes]| {
         let mut out = residual.to_vec();
         out.par_chunks_mut(nodes).enumerate().for_each(|(pixel, profile)| {

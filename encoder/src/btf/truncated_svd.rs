@@ -5,15 +5,16 @@ use rayon::prelude::*;
 use subsurf_decoder::btf::Tone;
 
 use crate::capture::Images;
-use crate::error::{Error, Result};
+use crate::btf::materials::common_tone;
+use crate::error::Result;
 use crate::progress::Progress;
-use crate::math::svd::{Columns, Factors, PASSES};
+use crate::math::svd::{Columns, LowRank, PASSES};
 
 /// Luma Y and chroma C of all texels at all pairs of directions, in components.
 ///
 /// Y_x(d) = Σ_c u_xc b_cd / w_d, and C_x(d) = ρ_x Y_x(d) + Σ_c v_xc q_cd / w_d for both channels. The weights w_d make
 /// errors count as they do in structural similarity: little where an image has much contrast.
-pub struct Survey {
+pub struct TruncatedSvd {
     /// What the channels are.
     pub tone: Tone,
     /// Texels in x and in y of every material; their texels follow each other.
@@ -21,18 +22,18 @@ pub struct Survey {
     /// Weight w of each pair of directions.
     pub weights: Vec<f32>,
     /// u, and b · w.
-    pub luma: Factors,
+    pub luma: LowRank,
     /// ρ of both channels; zero for linear images, whose chroma u' v' does not grow with luma.
     pub ratios: Vec<[f32; 2]>,
     /// v, and q · w: both channels of a pair, then those of the next.
-    pub chroma: Factors,
+    pub chroma: LowRank,
     /// Bytes of the images.
     pub raw_bytes: u64,
 }
 
-/// How much a survey keeps.
+/// Numbers of components that a decomposition keeps.
 #[derive(Clone, Copy, Debug)]
-pub struct Detail {
+pub struct Ranks {
     /// Components of luma.
     pub luma: usize,
     /// Components of chroma.
@@ -46,33 +47,6 @@ const SQUARE: usize = 11;
 /// How far weights follow structural similarity, whose loss is err² / (2 σ² + C₂): 1 would be all the way, and gives
 /// away more dB than it gains.
 const FOLLOWING: f32 = 0.6;
-
-/// The tone that fits all materials, which were measured in the same directions.
-pub(crate) fn common_tone(materials: &[Images]) -> Result<Tone> {
-    let Some((first, others)) = materials.split_first() else {
-        return Err(Error::Request("no material".to_owned()));
-    };
-    let mut tone = first.tone();
-    for other in others {
-        tone = match (tone, other.tone()) {
-            _ if other.lights() != first.lights() || other.views() != first.views() => None,
-            (Tone::Display { white }, Tone::Display { white: same }) if white.to_bits() == same.to_bits() => Some(tone),
-            (Tone::LogLuv { toe, peak }, Tone::LogLuv { toe: other_toe, peak: other_peak }) => {
-                Some(Tone::LogLuv { toe: toe.min(other_toe), peak: peak.max(other_peak) })
-            }
-            _ => None,
-        }
-        .ok_or_else(|| {
-            Error::Request(format!(
-                "{} and {}: materials of one file have the same directions, and all display values of one exposure or \
-                 all linear ones",
-                first.label(),
-                other.label()
-            ))
-        })?;
-    }
-    Ok(tone)
-}
 
 /// All materials' images as luma and chroma.
 struct Channels<'a> {
@@ -155,7 +129,7 @@ fn local_variance(plane: &[f32], width: usize) -> f32 {
     (sum / count).max(0.0)
 }
 
-impl Survey {
+impl TruncatedSvd {
     /// q · w of one channel of chroma, `[pair × component]`.
     pub(crate) fn chroma_basis(&self, channel: usize) -> DMatrix<f32> {
         let rows: Vec<usize> = (0..self.weights.len()).map(|pair| 2 * pair + channel).collect();
@@ -166,7 +140,7 @@ impl Survey {
     ///
     /// # Errors
     /// [`Error::Request`] if the materials do not go into one file.
-    pub fn new(materials: &[Images], detail: Detail, seed: u64, progress: &impl Progress) -> Result<Self> {
+    pub fn new(materials: &[Images], detail: Ranks, seed: u64, progress: &dyn Progress) -> Result<Self> {
         let tone = common_tone(materials)?;
         let pairs = materials[0].pairs();
         let texels = materials.iter().map(Images::texels).sum();

@@ -7,94 +7,9 @@ use half::f16;
 use rayon::prelude::*;
 use subsurf_decoder::btf::Tone;
 
-use crate::capture::{Folder, Ubo};
+use crate::capture::source::Source;
 use crate::error::{Error, Result};
 use crate::progress::Progress;
-
-/// Where the images of a BTF come from.
-pub trait Source: Sync {
-    /// What errors call it.
-    fn label(&self) -> String;
-    /// Unit vectors towards the lights.
-    fn lights(&self) -> Vec<Vec3>;
-    /// Unit vectors towards the eyes.
-    fn views(&self) -> Vec<Vec3>;
-    /// Pixels in x and in y.
-    fn size(&self) -> [u32; 2];
-    /// The linear value of display white, where pixels are display values; `None` where they are linear.
-    fn white(&self) -> Option<f32>;
-    /// One image, row by row: π times the radiance under light of unit irradiance on a plane that faces it, as display
-    /// values or linear.
-    ///
-    /// # Errors
-    /// If it cannot be read.
-    fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>>;
-
-    /// Bytes of what was measured, if images are not it but are made from it.
-    fn raw_bytes(&self) -> Option<u64> {
-        None
-    }
-}
-
-impl Source for Folder {
-    fn label(&self) -> String {
-        self.path().display().to_string()
-    }
-
-    fn lights(&self) -> Vec<Vec3> {
-        self.lights().iter().map(|light| light.unit()).collect()
-    }
-
-    fn views(&self) -> Vec<Vec3> {
-        self.views().iter().map(|view| view.unit()).collect()
-    }
-
-    fn size(&self) -> [u32; 2] {
-        self.size()
-    }
-
-    fn white(&self) -> Option<f32> {
-        let exposure = self.facts().and_then(|facts| facts.pointer("/simulated/exposure")?.as_f64()).unwrap_or(1.0);
-        #[allow(clippy::cast_possible_truncation, reason = "an exposure")]
-        let white = (1.0 / exposure) as f32;
-        (!self.is_linear()).then_some(white)
-    }
-
-    fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>> {
-        self.read(self.lights()[light], self.views()[view])
-    }
-}
-
-impl Source for Ubo {
-    fn label(&self) -> String {
-        self.path().display().to_string()
-    }
-
-    fn lights(&self) -> Vec<Vec3> {
-        self.lights().to_vec()
-    }
-
-    fn views(&self) -> Vec<Vec3> {
-        self.views().to_vec()
-    }
-
-    fn size(&self) -> [u32; 2] {
-        self.size()
-    }
-
-    fn white(&self) -> Option<f32> {
-        None
-    }
-
-    fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>> {
-        let mut image = self.read(light, view)?;
-        if !self.has_cosine() {
-            let cosine = self.lights()[light].z;
-            image.iter_mut().flatten().for_each(|value| *value *= cosine);
-        }
-        Ok(image)
-    }
-}
 
 /// The images of one material: three bytes a pixel, or three half floats where they are linear.
 #[derive(Debug)]
@@ -123,7 +38,7 @@ impl Images {
     ///
     /// # Errors
     /// The first that cannot be read; [`Error::Request`] if they do not fit into memory's address space.
-    pub fn load(source: &impl Source, progress: &impl Progress) -> Result<Self> {
+    pub fn load(source: &dyn Source, progress: &dyn Progress) -> Result<Self> {
         let (lights, views, size) = (source.lights(), source.views(), source.size());
         let pairs = lights.len() * views.len();
         let image = 3 * size.iter().map(|side| *side as usize).product::<usize>();

@@ -73,8 +73,9 @@ impl Banded {
         }
     }
 
-    /// Factors L D Lᵀ, L of unit diagonal, in place of the matrix.
-    pub(crate) fn factor(mut self) -> Factored {
+    /// Factors L D Lᵀ, L of unit diagonal; they take the matrix's place. Rows of zeros, which no pair touches, have zero
+    /// solutions.
+    pub(crate) fn cholesky(mut self) -> Cholesky {
         let nodes = self.nodes();
         let [d0, d1, d2] = &mut self.diagonals;
         for h in 0..nodes {
@@ -92,16 +93,16 @@ impl Banded {
                 d2[h][c] = l2;
             }
         }
-        Factored(self)
+        Cholesky(self)
     }
 }
 
-/// A factored [`Banded`].
+/// Cholesky factors of a [`Banded`] matrix, L D Lᵀ with L of unit diagonal.
 #[derive(Clone, Debug)]
-pub(crate) struct Factored(Banded);
+pub(crate) struct Cholesky(Banded);
 
-impl Factored {
-    /// Solves in place.
+impl Cholesky {
+    /// Solution of L D Lᵀ x = v, in place of v.
     pub(crate) fn solve(&self, v: &mut [Lanes]) {
         let [d, l1, l2] = &self.0.diagonals;
         let nodes = v.len();
@@ -146,7 +147,7 @@ mod tests {
         let x: Vec<Lanes> = (0..nodes).map(|h| [h as f32, 1.0 - h as f32, 0.5, 0.0]).collect();
         let mut v = vec![ZERO; nodes];
         matrix.multiply_add(&x, &mut v);
-        matrix.factor().solve(&mut v);
+        matrix.cholesky().solve(&mut v);
         for (v, x) in v.iter().zip(&x) {
             for c in 0..4 {
                 assert!((v[c] - x[c]).abs() < 1e-3, "{v:?} is not {x:?}");

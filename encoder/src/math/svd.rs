@@ -6,11 +6,12 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
+use crate::math::eigen::Eigen;
 use crate::progress::Progress;
 
 /// A ≈ texelsᵀ · basisᵀ: U S in the rows of texels, V in the columns of the basis.
 #[derive(Clone, Debug)]
-pub struct Factors {
+pub struct LowRank {
     /// `[component × texel]`, the texels' coefficients U S; a texel's follow each other.
     pub texels: DMatrix<f32>,
     /// `[column of A × component]`, orthonormal columns V.
@@ -42,7 +43,7 @@ pub(crate) const PASSES: u64 = 2 + 2 * ROUNDS as u64;
 impl<F: Fn(usize, &mut [f32]) + Sync> Columns<F> {
     /// The leading `rank` components, by randomised subspace iteration (Halko, Martinsson and Tropp 2011, algorithms
     /// 4.4 and 5.1). Advances `progress` by [`PASSES`] · columns.
-    pub(crate) fn decompose(&self, rank: usize, seed: u64, progress: &dyn Progress) -> Factors {
+    pub(crate) fn decompose(&self, rank: usize, seed: u64, progress: &dyn Progress) -> LowRank {
         let width = (rank + OVERSAMPLING).min(self.rows).min(self.columns);
         let mut rng = Pcg64::seed_from_u64(seed);
         let mut test = DMatrix::from_fn(self.columns, width, |_, _| StandardNormal.sample(&mut rng));
@@ -53,15 +54,13 @@ impl<F: Fn(usize, &mut [f32]) + Sync> Columns<F> {
         let range = orthonormal(self.times(&test, progress));
         // Qᵀ A = Bᵀ, B = V S Wᵀ by the eigenvectors of BᵀB; then A ≈ (Q W S) Vᵀ.
         let b = self.transposed_times(&range, progress);
-        let eigen = (b.transpose() * &b).symmetric_eigen();
-        let mut order: Vec<usize> = (0..width).collect();
-        order.sort_by(|x, y| eigen.eigenvalues[*y].total_cmp(&eigen.eigenvalues[*x]));
-        order.truncate(rank);
-        let largest = order.first().map_or(0.0, |first| eigen.eigenvalues[*first]);
+        let eigen = Eigen::of(b.transpose() * &b);
+        let largest = eigen.values.first().copied().unwrap_or(0.0);
         // What is left of nothing has no direction.
-        order.retain(|k| eigen.eigenvalues[*k] > 1e-9 * largest && eigen.eigenvalues[*k] > 0.0);
-        let w = DMatrix::from_fn(width, order.len(), |row, column| eigen.eigenvectors[(row, order[column])]);
-        let singular: Vec<f32> = order.iter().map(|k| eigen.eigenvalues[*k].sqrt()).collect();
+        let has_direction = |value: &&f32| **value > 1e-9 * largest && **value > 0.0;
+        let singular: Vec<f32> =
+            eigen.values.iter().take(rank).take_while(has_direction).map(|value| value.sqrt()).collect();
+        let w = eigen.leading(singular.len());
         let mut basis = &b * &w;
         for (mut column, value) in basis.column_iter_mut().zip(&singular) {
             column /= *value;
@@ -70,7 +69,7 @@ impl<F: Fn(usize, &mut [f32]) + Sync> Columns<F> {
         for (mut row, value) in texels.row_iter_mut().zip(&singular) {
             row *= *value;
         }
-        Factors { texels, basis }
+        LowRank { texels, basis }
     }
 
     /// A · right.

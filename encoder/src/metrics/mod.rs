@@ -1,4 +1,6 @@
-//! How far a fitted material is from its capture.
+//! The one judge: errors of files against what was measured.
+//!
+//! Albedo error, PSNR and SSIM of BSSRDFs ([`bssrdf`]); PSNR and mean SSIM (MSSIM) of BTFs ([`btf`]).
 
 pub mod bssrdf;
 pub mod btf;

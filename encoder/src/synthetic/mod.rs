@@ -4,7 +4,7 @@ mod nested;
 
 use rayon::prelude::*;
 use subsurf_decoder::bssrdf::layout::{MODEL_2BMPP, MODEL_PER_PIXEL};
-use subsurf_decoder::bssrdf::{Addressing, Coding, Header, LocalProfile, Mixture};
+use subsurf_decoder::bssrdf::{Addressing, Coding, Header, Mixture};
 use subsurf_decoder::{Bssrdf, Section};
 
 use crate::bssrdf::{mixtures, profiles, write_file};
@@ -114,25 +114,6 @@ impl Shape {
         let values = values.flat_map(|(pixel, h, c)| self.log_profile(pixel, h, c).to_le_bytes()).collect();
         write_file(&header, &[(Section::LocalProfiles, values)])
     }
-}
-
-/// A file of per-pixel profiles with the profiles that a material's pixels have: as large as what Song et al. 2009 store.
-#[must_use]
-pub fn per_pixel_of(material: &Bssrdf<'_>) -> Vec<u8> {
-    let header = Header { model: MODEL_PER_PIXEL, coding: Coding::Exact, base_materials: 0, ..*material.header() };
-    let pixels = (0..header.height).flat_map(|y| (0..header.width).map(move |x| [x, y].map(u32::cast_signed)));
-    let profiles: Vec<_> = pixels.map(|pixel| material.profile(pixel)).collect();
-    let mut values = Vec::new();
-    for h in 0..header.samples {
-        // Nodes are at equal distances up to r_max.
-        let r_mm = header.r_max_mm * f32::from(h) / f32::from(header.samples - 1);
-        let knot = material.knot(r_mm.min(header.r_max_mm));
-        for c in 0..3 {
-            let node = |profile: &LocalProfile<'_>| knot.map_or(f32::MIN, |knot| profile.at(knot)[c]);
-            values.extend(profiles.iter().flat_map(|profile| node(profile).to_le_bytes()));
-        }
-    }
-    write_file(&header, &[(Section::LocalProfiles, values)])
 }
 
 /// The entries of one row of windows that a material stands for, `[x][dy][dx][rgb]` in mm⁻²; beyond the border of a patch

@@ -12,7 +12,7 @@ pub(super) type Scaled = (u32, f32);
 
 /// All of them. Entries of P2, P3 and P4 have a mean luma near 1, the largest value of an entry of P1 is 1.
 #[derive(Clone, Debug)]
-pub(super) struct Books {
+pub(super) struct Codebooks {
     pub(super) grid: Grid,
     /// `[entry][φ_v]`, of P3.
     pub(super) p4: Vec<Scaled>,
@@ -47,7 +47,7 @@ fn number(length: usize, row: usize) -> u32 {
     u32::try_from(length / row).expect("fewer than 2³² entries")
 }
 
-impl Books {
+impl Codebooks {
     pub(super) fn new(grid: Grid) -> Self {
         let rows = || Rows::new(grid.n_beta.into());
         let slices = || Slices::new([grid.n_alpha, grid.n_beta].map(usize::from));

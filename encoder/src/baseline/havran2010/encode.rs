@@ -12,8 +12,8 @@ use super::quantise::{Quantised, quantised};
 use super::similarity::{Allowed, Similarity};
 use crate::capture::Images;
 use crate::btf::mipmaps::Mipmaps;
-use crate::btf::nested::{self, Database};
-use crate::btf::truncated_svd::common_tone;
+use crate::btf::nested::Database;
+use crate::btf::{common_tone, materials as records};
 use crate::error::Result;
 use crate::progress::Progress;
 
@@ -69,10 +69,10 @@ const BLOCK: usize = 1024;
 ///
 /// # Errors
 /// [`Error::Request`](crate::Error::Request) if the materials do not go into one file.
-pub fn encode(materials: &[Images], options: &Options, progress: &impl Progress) -> Result<Database> {
+pub fn encode(materials: &[Images], options: &Options, progress: &dyn Progress) -> Result<Database> {
     let tone = common_tone(materials)?;
     let sizes: Vec<[u32; 2]> = materials.iter().map(Images::size).collect();
-    let (count, named) = nested::materials(&sizes, &options.names, options.has_mipmaps)?;
+    let (count, named) = records(&sizes, &options.names, options.has_mipmaps)?;
     let mipmaps = Mipmaps::new(&sizes, options.has_mipmaps);
     let functions = Functions::new(materials, tone, options.grid);
     let measure = Measure::new(&options.similarity, &options.grid, tone);
@@ -94,8 +94,8 @@ pub fn encode(materials: &[Images], options: &Options, progress: &impl Progress)
             });
         }
     }
-    let Quantised { books, mut chain, chroma } = Quantised::new(&pruning.books, tone);
-    let index = Index::new(&books, &measure);
+    let Quantised { codebooks, mut chain, chroma } = Quantised::new(&pruning.codebooks, tone);
+    let index = Index::new(&codebooks, &measure);
     let groups: Vec<&[u32]> = mipmaps.covered().iter().map(|texels| &texels[..]).collect();
     progress.begin("texels", groups.len() as u64);
     let mut texels = Vec::with_capacity(groups.len());

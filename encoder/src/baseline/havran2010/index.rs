@@ -1,32 +1,32 @@
 //! The third step: every texel by the nearest entry of finished codebooks, and its gain.
 
-use super::codebooks::{Books, Scaled};
+use super::codebooks::{Codebooks, Scaled};
 use super::functions::Function;
 use super::insert::gain;
 use super::measure::{Measure, Part, Piece, Tally};
 
 /// Mean luma and chroma of 2-D slices, `[entry][φ_v][θ_v]`, by which those entries are found that are worth a closer look.
 pub(super) struct Index<'a> {
-    books: &'a Books,
+    codebooks: &'a Codebooks,
     measure: &'a Measure,
     outlines: Vec<[f32; 3]>,
 }
 
 impl<'a> Index<'a> {
-    pub(super) fn new(books: &'a Books, measure: &'a Measure) -> Self {
+    pub(super) fn new(codebooks: &'a Codebooks, measure: &'a Measure) -> Self {
         let outline = |piece: &Piece| {
             let (p2, i2) = (piece.p2 as usize, piece.i2 as usize);
-            let [a, b] = [0, 1].map(|c: usize| books.decoded.chroma[c].mean(i2..i2 + 1));
-            [piece.gain * books.of_p2[p2], a, b]
+            let [a, b] = [0, 1].map(|c: usize| codebooks.decoded.chroma[c].mean(i2..i2 + 1));
+            [piece.gain * codebooks.of_p2[p2], a, b]
         };
-        let outlines = books.of_p4.0.iter().map(outline).collect();
-        Self { books, measure, outlines }
+        let outlines = codebooks.of_p4.0.iter().map(outline).collect();
+        Self { codebooks, measure, outlines }
     }
 
     /// The entry of P4 that is least far away, and its gain.
     pub(super) fn find(&self, function: &Function) -> Scaled {
-        let count = self.books.n_phi() * self.books.n_theta();
-        let (pieces, means) = &self.books.of_p4;
+        let count = self.codebooks.n_phi() * self.codebooks.n_theta();
+        let (pieces, means) = &self.codebooks.of_p4;
         let part = Part::new(function, 0, count);
         let mean = part.mean();
         let outline = |slice: usize| {
@@ -49,7 +49,7 @@ impl<'a> Index<'a> {
         for (_, entry) in order {
             let scale = gain(mean, means[entry]);
             let pieces = &pieces[entry * count..][..count];
-            let found = self.measure.whole(&part, pieces, &self.books.decoded, scale, best.0, &mut tally);
+            let found = self.measure.whole(&part, pieces, &self.codebooks.decoded, scale, best.0, &mut tally);
             if let Some(found) = found {
                 best = (found, entry);
             }

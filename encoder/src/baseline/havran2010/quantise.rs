@@ -3,7 +3,7 @@
 use subsurf_decoder::btf::Tone;
 use subsurf_decoder::btf::layout::Scales;
 
-use super::codebooks::{Books, Scaled};
+use super::codebooks::{Codebooks, Scaled};
 use super::functions::centre;
 use crate::btf::nested::scales::{self, Fineness};
 use crate::btf::nested::slices::to_bytes;
@@ -36,7 +36,7 @@ pub(super) fn quantised(items: &[Scaled], most_bits: u8) -> (Scales, Vec<Item>) 
 
 /// Codebooks as a file has them, all but P6, and what they decode to.
 pub(super) struct Quantised {
-    pub(super) books: Books,
+    pub(super) codebooks: Codebooks,
     pub(super) chain: Chain,
     pub(super) chroma: Chroma,
 }
@@ -46,34 +46,34 @@ fn scaled(scales: Scales, items: &[Item]) -> Vec<Scaled> {
 }
 
 impl Quantised {
-    pub(super) fn new(found: &Books, tone: Tone) -> Self {
+    pub(super) fn new(found: &Codebooks, tone: Tone) -> Self {
         let n_beta = found.n_beta();
-        let mut books = Books::new(found.grid);
+        let mut codebooks = Codebooks::new(found.grid);
         let p1 = to_bytes(found.p1.values(), n_beta, false);
         let mut row = vec![0.0; n_beta];
         for bytes in p1.chunks_exact(n_beta + 1) {
             row.iter_mut().zip(bytes).for_each(|(value, byte)| *value = f32::from(*byte) / 255.0);
-            books.push_p1(&row);
+            codebooks.push_p1(&row);
         }
         let bits = if matches!(tone, Tone::LogLuv { .. }) { 2 * BITS } else { BITS };
         let (scales2, p2) = quantised(&found.p2, bits);
         let (scales3, p3) = quantised(&found.p3, BITS);
         let (scales4, p4) = quantised(&found.p4, BITS);
-        scaled(scales2, &p2).chunks_exact(found.n_alpha()).for_each(|items| _ = books.push_p2(items));
+        scaled(scales2, &p2).chunks_exact(found.n_alpha()).for_each(|items| _ = codebooks.push_p2(items));
         let (first, step, colours) = codes(&found.colours);
         for colour in &colours {
-            books.push_colour([0, 1].map(|c: usize| first[c] + step[c] * f32::from(colour[c])));
+            codebooks.push_colour([0, 1].map(|c: usize| first[c] + step[c] * f32::from(colour[c])));
         }
-        found.i1.chunks_exact(n_beta).for_each(|row| _ = books.push_i1(row));
-        found.i2.chunks_exact(found.n_alpha()).for_each(|row| _ = books.push_i2(row));
-        found.merged.iter().for_each(|pair| _ = books.merge(*pair));
-        scaled(scales3, &p3).chunks_exact(found.n_theta()).for_each(|items| _ = books.push_p3(items));
-        scaled(scales4, &p4).chunks_exact(found.n_phi()).for_each(|items| _ = books.push_p4(items));
+        found.i1.chunks_exact(n_beta).for_each(|row| _ = codebooks.push_i1(row));
+        found.i2.chunks_exact(found.n_alpha()).for_each(|row| _ = codebooks.push_i2(row));
+        found.merged.iter().for_each(|pair| _ = codebooks.merge(*pair));
+        scaled(scales3, &p3).chunks_exact(found.n_theta()).for_each(|items| _ = codebooks.push_p3(items));
+        scaled(scales4, &p4).chunks_exact(found.n_phi()).for_each(|items| _ = codebooks.push_p4(items));
         let centre = centre(tone);
         let chroma = Chroma {
-            merged: books.merged.clone(),
-            i2: books.i2.clone(),
-            i1: books.i1.clone(),
+            merged: codebooks.merged.clone(),
+            i2: codebooks.i2.clone(),
+            i1: codebooks.i1.clone(),
             colours,
             tints: Vec::new(),
             texel_tints: Vec::new(),
@@ -83,7 +83,7 @@ impl Quantised {
         };
         let scales = [Scales::default(), scales4, scales3, scales2];
         let chain = Chain { texels: Vec::new(), p4, p3, p2, p1, scales, is_signed: false };
-        Self { books, chain, chroma }
+        Self { codebooks, chain, chroma }
     }
 }
 

@@ -1,7 +1,7 @@
 //! What simpler codecs make of the same materials at the same number of bytes: yardsticks, without a file of their own.
 //!
-//! All of them work on whole apparent BRDFs, the three channels of a texel at all measured pairs, in the survey's
-//! coordinates and with its weights. Only [`one_level`] is resampled to a grid; [`pca`] and [`local_pca`] are given the
+//! All of them work on whole apparent BRDFs, the three channels of a texel at all measured pairs, in the
+//! coordinates of a truncated SVD and with its weights. Only [`one_level`] is resampled to a grid; [`pca`] and [`local_pca`] are given the
 //! measured directions, which spares them the loss of resampling and takes fewer bytes than a grid.
 
 mod pca;
@@ -10,8 +10,7 @@ mod space;
 use nalgebra::DMatrix;
 use subsurf_decoder::btf::{Grid, Tone};
 
-use crate::btf::resample::{Measured, Resampler};
-use crate::btf::Survey;
+use crate::btf::{Measured, Resampler, TruncatedSvd};
 use crate::capture::Images;
 pub use pca::{local_pca, local_pca_bytes};
 use space::Whole;
@@ -63,8 +62,8 @@ fn bits(count: usize) -> usize {
 
 /// Vector quantisation of whole apparent BRDFs: `words` of them, 2 to 256, stored in 8 bits over a grid.
 #[must_use]
-pub fn one_level(images: &Images, survey: &Survey, grid: &Grid, words: usize, seed: u64) -> Baseline {
-    let whole = Whole::new(survey);
+pub fn one_level(images: &Images, svd: &TruncatedSvd, grid: &Grid, words: usize, seed: u64) -> Baseline {
+    let whole = Whole::new(svd);
     let (means, part_of) = pca::k_means(&whole.texels, words, seed);
     let resampler = Resampler::new(grid, images.lights(), images.views());
     let measured = Measured::new(grid, images.lights(), images.views());
@@ -84,7 +83,7 @@ pub fn one_level(images: &Images, survey: &Survey, grid: &Grid, words: usize, se
             Part { functions: read, coefficients: DMatrix::from_element(1, part_of.len(), 1.0) }
         })
         .collect();
-    Baseline { bytes: one_level_bytes(words, survey.texels(), grid), tone: survey.tone, parts, part_of }
+    Baseline { bytes: one_level_bytes(words, svd.texels(), grid), tone: svd.tone, parts, part_of }
 }
 
 /// Bytes of [`pca`] of `components`.
@@ -97,17 +96,17 @@ pub fn pca_bytes(components: usize, texels: usize, pairs: usize) -> u64 {
 /// Principal components of the matrix of texels and directions, all channels in one, functions and coefficients in
 /// 8 bits.
 #[must_use]
-pub fn pca(survey: &Survey, components: usize) -> Baseline {
-    let whole = Whole::new(survey);
+pub fn pca(svd: &TruncatedSvd, components: usize) -> Baseline {
+    let whole = Whole::new(svd);
     let axes = pca::principal(&whole.texels, components);
     let mut functions = whole.functions(&axes);
     let mut coefficients = axes.tr_mul(&whole.texels);
     signed_columns(&mut functions);
     signed_rows(&mut coefficients);
-    let (texels, pairs) = (survey.texels(), survey.weights.len());
+    let (texels, pairs) = (svd.texels(), svd.weights.len());
     Baseline {
         bytes: pca_bytes(components, texels, pairs),
-        tone: survey.tone,
+        tone: svd.tone,
         parts: vec![Part { functions, coefficients }],
         part_of: vec![0; texels],
     }

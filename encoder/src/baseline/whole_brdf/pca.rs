@@ -6,8 +6,10 @@ use rand_pcg::Pcg64;
 
 use super::space::Whole;
 use super::{Baseline, Part, bits, signed_columns, signed_rows};
-use crate::btf::Survey;
-use crate::math::k_means::euclidean::{means, nearest};
+use crate::btf::TruncatedSvd;
+use crate::math::eigen::Eigen;
+use crate::math::k_means::KMeans;
+use crate::math::k_means::euclidean::Euclidean;
 
 /// Rounds of k-means.
 const ROUNDS: usize = 20;
@@ -17,10 +19,11 @@ const LOCAL_ROUNDS: usize = 8;
 /// Means `[coordinate × cluster]`, and the cluster of every column.
 pub(super) fn k_means(columns: &DMatrix<f32>, clusters: usize, seed: u64) -> (DMatrix<f32>, Vec<u8>) {
     let mut rng = Pcg64::seed_from_u64(seed);
+    let vectors = Euclidean(columns);
     // The first means are columns far from each other (Arthur and Vassilvitskii 2007).
     let mut found = columns.columns(rng.random_range(0..columns.ncols()), 1).into_owned();
     while found.ncols() < clusters {
-        let distances: Vec<f32> = nearest(columns, &found).into_iter().map(|(_, distance)| distance.max(0.0)).collect();
+        let distances: Vec<f32> = vectors.assign(&found).into_iter().map(|(_, distance)| distance.max(0.0)).collect();
         let mut left = rng.random::<f32>() * distances.iter().sum::<f32>();
         let drawn = distances.iter().position(|distance| {
             left -= distance;
@@ -30,21 +33,14 @@ pub(super) fn k_means(columns: &DMatrix<f32>, clusters: usize, seed: u64) -> (DM
         found = found.insert_column(next, 0.0);
         found.column_mut(next).copy_from(&columns.column(drawn.unwrap_or(0)));
     }
-    for _ in 0..ROUNDS {
-        let chosen = nearest(columns, &found);
-        means(columns, &chosen, &mut found);
-    }
-    let chosen = nearest(columns, &found).into_iter().map(|(cluster, _)| cluster).collect();
+    let found = vectors.lloyd(found, ROUNDS, |_| true);
+    let chosen = vectors.assign(&found).into_iter().map(|(cluster, _)| cluster).collect();
     (found, chosen)
 }
 
 /// The leading eigenvectors of columns' second moments, `[coordinate × component]`.
 pub(super) fn principal(columns: &DMatrix<f32>, components: usize) -> DMatrix<f32> {
-    let eigen = (columns * columns.transpose()).symmetric_eigen();
-    let mut order: Vec<usize> = (0..columns.nrows()).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-    order.truncate(components);
-    DMatrix::from_fn(columns.nrows(), order.len(), |row, column| eigen.eigenvectors[(row, order[column])])
+    Eigen::of(columns * columns.transpose()).leading(components)
 }
 
 /// Bytes of [`local_pca`].
@@ -58,8 +54,8 @@ pub fn local_pca_bytes(clusters: usize, components: usize, texels: usize, pairs:
 /// Clusters of texels with a mean and principal components of their own (Müller, Meseth and Klein 2003), functions and
 /// coefficients in 8 bits.
 #[must_use]
-pub fn local_pca(survey: &Survey, clusters: usize, components: usize, seed: u64) -> Baseline {
-    let whole = Whole::new(survey);
+pub fn local_pca(svd: &TruncatedSvd, clusters: usize, components: usize, seed: u64) -> Baseline {
+    let whole = Whole::new(svd);
     let texels = &whole.texels;
     let (_, mut part_of) = k_means(texels, clusters, seed);
     let mut of_clusters = Vec::new();
@@ -81,8 +77,8 @@ pub fn local_pca(survey: &Survey, clusters: usize, components: usize, seed: u64)
         Part { functions, coefficients }
     };
     Baseline {
-        bytes: local_pca_bytes(clusters, components, survey.texels(), survey.weights.len()),
-        tone: survey.tone,
+        bytes: local_pca_bytes(clusters, components, svd.texels(), svd.weights.len()),
+        tone: svd.tone,
         parts: of_clusters.iter().map(part).collect(),
         part_of,
     }

@@ -12,17 +12,17 @@
 mod objective;
 mod patch_match;
 
-use basin::{CancellationToken, Executor, FirstOrderState, Lbfgs};
 use rand::seq::index::sample;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use subsurf_decoder::bssrdf::Mixture;
 
-use crate::bssrdf::direct::Model;
+use crate::bssrdf::model::Model;
 use crate::math::lanes::Lanes;
+use crate::math::lbfgs::{self, Limits};
 use crate::bssrdf::normal::Normal;
 use crate::progress::Progress;
-use objective::{Multipliers, Objective, parameters_of, with_parameters};
+use objective::{Energy, Multipliers, parameters_of, with_parameters};
 
 /// N_iter.
 const ROUNDS: u32 = 20;
@@ -85,18 +85,10 @@ fn random(normal: &Normal, per_pixel: usize, count: usize, rng: &mut Pcg64) -> M
 
 /// Step 1: profiles and ratios, indices fixed.
 fn minimise(normal: &Normal, model: &mut Model, multipliers: &mut Multipliers, progress: &dyn Progress) {
-    let start = FirstOrderState::new(parameters_of(model));
-    let stop = CancellationToken::new();
-    let watch = || {
-        if progress.stopped() {
-            stop.cancel();
-        }
-    };
-    let objective = Objective::new(normal, model, multipliers, &watch);
-    let solver = Lbfgs::new().with_relative_cost_reduction_tolerance(TOLERANCE);
-    let run = Executor::new(objective, solver, start).max_iter(STEPS).with_cancellation_token(stop.clone()).run();
-    // A line search that finds nothing better ends the run, too: it has found what single precision allows.
-    let found = run.expect("a start within its bounds and a cost that cannot fail").param().clone();
+    let energy = Energy::new(normal, model, multipliers);
+    let is_stopped = || progress.stopped();
+    let limits = Limits { relative_reduction: TOLERANCE, iterations: STEPS, is_stopped: &is_stopped };
+    let found = lbfgs::minimise(&energy, &energy.bounds(), parameters_of(model), &limits);
     *model = with_parameters(model, &found);
     multipliers.update(model);
 }

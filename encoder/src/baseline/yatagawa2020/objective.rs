@@ -1,15 +1,13 @@
 //! Eq. 6 with its gradient: E_LS + λ_reg E_reg + λ_barr E_barr, indices fixed.
 
-use std::convert::Infallible;
-
-use basin::{BoxBounds, ConstraintDescription, ConstraintSet, Constraints, CostFunction, Gradient};
 use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Mixture;
 
-use crate::bssrdf::direct::{Model, gather, image_of};
+use crate::bssrdf::model::Model;
 use crate::math::lanes::{self, ZERO};
-use crate::bssrdf::profiles::SMOOTHNESS;
+use crate::math::lbfgs::{Bounds, Objective};
 use crate::bssrdf::normal::Normal;
+use crate::bssrdf::normal::regulariser::SMOOTHNESS;
 use super::EDGE;
 
 /// λ_barr and γ.
@@ -41,37 +39,33 @@ impl Multipliers {
 
 /// Parameters are the profiles' coefficients `[M][S][rgb]`, relative to the mean profile, then the free ratios: none of
 /// K = 1, t of K = 2 (1 − t is the other), all of K ≥ 3, pixel by pixel.
-pub(super) struct Objective<'a> {
+pub(super) struct Energy<'a> {
     normal: &'a Normal,
     /// Gives the indices and K; profiles and ratios come from the parameters.
     indices: &'a Model,
     multipliers: &'a Multipliers,
-    /// Called with every evaluation.
-    watch: &'a (dyn Fn() + Sync),
-    lower: Vec<f64>,
-    upper: Vec<f64>,
 }
 
-impl<'a> Objective<'a> {
-    pub(super) fn new(
-        normal: &'a Normal,
-        model: &'a Model,
-        multipliers: &'a Multipliers,
-        watch: &'a (dyn Fn() + Sync),
-    ) -> Self {
-        let coefficients = model.bases.len() * 3;
-        let ratios = free_ratios(model.per_pixel) * model.mixtures.len();
+impl<'a> Energy<'a> {
+    pub(super) fn new(normal: &'a Normal, model: &'a Model, multipliers: &'a Multipliers) -> Self {
+        Self { normal, indices: model, multipliers }
+    }
+
+    /// Bounds of all parameters: ratios lie between 0 and 1, [`EDGE`] away from both.
+    pub(super) fn bounds(&self) -> Bounds {
+        let coefficients = self.indices.bases.len() * 3;
+        let ratios = free_ratios(self.indices.per_pixel) * self.indices.mixtures.len();
         let bounds = |of_ratio: f64, otherwise: f64| {
             let mut bounds = vec![otherwise; coefficients];
             bounds.resize(coefficients + ratios, of_ratio);
             bounds
         };
-        let (lower, upper) = (bounds(EDGE, f64::NEG_INFINITY), bounds(1.0 - EDGE, f64::INFINITY));
-        Self { normal, indices: model, multipliers, watch, lower, upper }
+        Bounds { lower: bounds(EDGE, f64::NEG_INFINITY), upper: bounds(1.0 - EDGE, f64::INFINITY) }
     }
+}
 
+impl Objective for Energy<'_> {
     fn evaluate(&self, parameters: &[f64]) -> (f64, Vec<f64>) {
-        (self.watch)();
         let model = with_parameters(self.indices, parameters);
         let normal = self.normal;
         let nodes = normal.geometry.nodes;
@@ -84,7 +78,7 @@ impl<'a> Objective<'a> {
             .par_chunks_mut(nodes)
             .enumerate()
             .map(|(pixel, slope)| {
-                image_of(normal, &field, &deltas, pixel, slope);
+                normal.image(&field, &deltas, pixel, slope);
                 for (slope, b) in slope.iter_mut().zip(normal.b(pixel)) {
                     for c in 0..4 {
                         slope[c] -= b[c];
@@ -99,7 +93,7 @@ impl<'a> Objective<'a> {
         let slope_of = |pixel: usize| &slopes[pixel * nodes..][..nodes];
 
         // ∂/∂P̂_b = Σ_x t_xb ∂/∂p_x.
-        let of_bases = gather(normal, &model, |pixel, out| out.copy_from_slice(slope_of(pixel)));
+        let of_bases = model.gather(normal, |pixel, out| out.copy_from_slice(slope_of(pixel)));
         let mut gradient: Vec<f64> = of_bases.iter().flat_map(|node| [0, 1, 2].map(|c| f64::from(node[c]))).collect();
         cost += self.regulariser(parameters, &mut gradient);
 
@@ -133,7 +127,9 @@ impl<'a> Objective<'a> {
         }
         (cost, gradient)
     }
+}
 
+impl Energy<'_> {
     /// λ_reg ½ Σ (P̂^h − 2 P̂^{h+1} + P̂^{h+2})², of the profiles themselves; adds its gradient.
     fn regulariser(&self, parameters: &[f64], gradient: &mut [f64]) -> f64 {
         let nodes = self.normal.geometry.nodes;
@@ -200,36 +196,6 @@ fn barrier(t: f64) -> (f64, f64) {
     (BARRIER * value, BARRIER * (GAMMA / (1.0 - GAMMA * t) - 1.0 / t))
 }
 
-impl CostFunction for Objective<'_> {
-    type Param = Vec<f64>;
-    type Output = f64;
-    type Error = Infallible;
-
-    fn cost(&self, parameters: &Vec<f64>) -> Result<f64, Infallible> {
-        Ok(self.evaluate(parameters).0)
-    }
-}
-
-impl Gradient for Objective<'_> {
-    type Gradient = Vec<f64>;
-
-    fn gradient(&self, parameters: &Vec<f64>) -> Result<Vec<f64>, Infallible> {
-        Ok(self.evaluate(parameters).1)
-    }
-
-    fn cost_and_gradient(&self, parameters: &Vec<f64>) -> Result<(f64, Vec<f64>), Infallible> {
-        Ok(self.evaluate(parameters))
-    }
-}
-
-impl Constraints for Objective<'_> {
-    type Set = ConstraintSet<BoxBounds<Vec<f64>>>;
-
-    fn constraints(&self) -> <Self::Set as ConstraintDescription>::Borrowed<'_> {
-        ConstraintSet::new().with_bounds(BoxBounds::new(Some(&self.lower), Some(&self.upper)))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use crate::bssrdf::options::geometry;
@@ -254,7 +220,7 @@ mod tests {
         for per_pixel in [1, 2, 3, 5] {
             let model = random(&normal, per_pixel, 6, &mut Pcg64::seed_from_u64(3));
             let multipliers = Multipliers { lambda: (0..30).map(|n| f64::from(unit(n))).collect(), rho: 3.0 };
-            let objective = Objective::new(&normal, &model, &multipliers, &|| ());
+            let objective = Energy::new(&normal, &model, &multipliers);
             let mut at = parameters_of(&model);
             for (n, parameter) in (0..).zip(&mut at) {
                 // Away from the start, where all ratios of a pixel are equal.

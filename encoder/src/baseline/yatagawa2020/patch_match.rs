@@ -3,7 +3,7 @@
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-use crate::bssrdf::direct::Model;
+use crate::bssrdf::model::Model;
 use crate::bssrdf::field::Field;
 use crate::math::lanes::{self, Lanes, ZERO};
 use crate::bssrdf::normal::Normal;

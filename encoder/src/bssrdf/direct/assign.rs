@@ -7,7 +7,7 @@ use subsurf_decoder::bssrdf::Mixture;
 
 use crate::bssrdf::field::Field;
 use crate::bssrdf::normal::Normal;
-use super::Model;
+use crate::bssrdf::model::Model;
 use super::albedo::Albedo;
 use super::mix::{Curvatures, Tilt, product};
 

@@ -5,7 +5,7 @@ use subsurf_decoder::bssrdf::layout::MAX_PER_PIXEL;
 
 use crate::math::banded::Banded;
 use crate::math::lanes::{Lanes, ZERO};
-use super::Model;
+use crate::bssrdf::model::Model;
 use super::albedo::Constraint;
 
 /// Σ_h Σ_c p q.

@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 
-use crate::math::banded::{Banded, Factored};
+use crate::math::banded::{Banded, Cholesky};
 use crate::bssrdf::field::Field;
 use crate::math::lanes::{self, Lanes, ZERO};
-use crate::bssrdf::profiles::{RIDGE, SMOOTHNESS};
-use crate::bssrdf::normal::{BLOCK_ROWS, BLOCKS_AT_ONCE, Normal};
-use super::Model;
+use crate::bssrdf::model::Model;
+use crate::bssrdf::normal::Normal;
+use crate::bssrdf::normal::regulariser::regulariser;
 
 /// Steps of conjugate gradients in one round; the next round goes on from there.
 const ITERATIONS: usize = 6;
@@ -27,9 +27,9 @@ pub(crate) fn solve(normal: &Normal, model: &mut Model, field: &mut Field) {
     };
 
     model.write_to(field);
-    let mut residual = gather(normal, model, |pixel, out| {
+    let mut residual = model.gather(normal, |pixel, out| {
         let mut image = vec![ZERO; nodes];
-        image_of(normal, field, &deltas, pixel, &mut image);
+        normal.image(field, &deltas, pixel, &mut image);
         for ((out, image), b) in out.iter_mut().zip(&image).zip(normal.b(pixel)) {
             for c in 0..4 {
                 out[c] = b[c] - image[c];
@@ -47,7 +47,7 @@ pub(crate) fn solve(normal: &Normal, model: &mut Model, field: &mut Field) {
     let mut direction = Model { bases: z.clone(), mixtures: model.mixtures.clone(), palette: None, ..*model };
     for _ in 0..ITERATIONS {
         direction.write_to(field);
-        let mut image = gather(normal, model, |pixel, out| image_of(normal, field, &deltas, pixel, out));
+        let mut image = model.gather(normal, |pixel, out| normal.image(field, &deltas, pixel, out));
         for (image, smooth) in image.iter_mut().zip(regularised(&direction.bases, nodes)) {
             lanes::add(image, &smooth);
         }
@@ -65,42 +65,6 @@ pub(crate) fn solve(normal: &Normal, model: &mut Model, field: &mut Field) {
     model.write_to(field);
 }
 
-/// out = A_i p_i + Σ_j φ n a aᵀ p_j.
-pub(crate) fn image_of(normal: &Normal, field: &Field, deltas: &[isize], pixel: usize, out: &mut [Lanes]) {
-    normal.cross(field, deltas, pixel, out);
-    normal.matrix(pixel).all.multiply_add(field.at(pixel), out);
-}
-
-/// Uᵀ v, with v of each pixel computed on the way. Sums are made by blocks of rows and then in order.
-pub(crate) fn gather(normal: &Normal, model: &Model, v: impl Fn(usize, &mut [Lanes]) + Sync) -> Vec<Lanes> {
-    let nodes = model.nodes;
-    let [width, height] = normal.geometry.size;
-    let block = |&first: &usize| {
-        let mut sums = vec![ZERO; model.bases.len()];
-        let mut image = vec![ZERO; nodes];
-        for pixel in first * width..(first + BLOCK_ROWS).min(height) * width {
-            v(pixel, &mut image);
-            for (base, t) in model.parts(pixel) {
-                for (sum, image) in sums[base * nodes..].iter_mut().zip(&image) {
-                    lanes::add_scaled(sum, t, image);
-                }
-            }
-        }
-        sums
-    };
-    let firsts: Vec<usize> = (0..height).step_by(BLOCK_ROWS).collect();
-    let mut total = vec![ZERO; model.bases.len()];
-    for firsts in firsts.chunks(BLOCKS_AT_ONCE) {
-        let blocks: Vec<Vec<Lanes>> = firsts.par_iter().map(block).collect();
-        for sums in &blocks {
-            for (total, sum) in total.iter_mut().zip(sums) {
-                lanes::add(total, sum);
-            }
-        }
-    }
-    total
-}
-
 /// λ_reg R X.
 fn regularised(bases: &[Lanes], nodes: usize) -> Vec<Lanes> {
     let regulariser = regulariser(nodes);
@@ -111,20 +75,13 @@ fn regularised(bases: &[Lanes], nodes: usize) -> Vec<Lanes> {
     out
 }
 
-fn regulariser(nodes: usize) -> Banded {
-    let mut regulariser = Banded::new(nodes);
-    regulariser.add_smoothness(SMOOTHNESS);
-    regulariser.add_ridge(RIDGE);
-    regulariser
-}
-
 /// Every base's own block of the matrix, pairs of pixels left out: Σ_i u_ib² A_i + λ_reg R.
-fn preconditioners(normal: &Normal, model: &Model) -> Vec<Factored> {
+fn preconditioners(normal: &Normal, model: &Model) -> Vec<Cholesky> {
     let mut blocks = vec![regulariser(model.nodes); model.count()];
     for pixel in 0..model.mixtures.len() {
         for (base, t) in model.parts(pixel) {
             blocks[base].add_scaled(t * t, &normal.matrix(pixel).all);
         }
     }
-    blocks.into_iter().map(Banded::factor).collect()
+    blocks.into_iter().map(Banded::cholesky).collect()
 }

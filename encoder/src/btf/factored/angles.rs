@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use subsurf_decoder::btf::factored::model::MAX_NUMBER;
 
 use super::write;
+use crate::math::eigen::Eigen;
 
 /// Tables of all columns, smaller.
 pub(super) struct Tucker {
@@ -32,7 +33,8 @@ pub(super) struct Fineness {
 /// How fine the core is to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CoreSize {
-    /// Its step for a column whose coefficients have a mean square of 1, in units of the survey.
+    /// Its step for a column whose coefficients have a mean square of 1, in units of the decomposition's
+    /// coefficients.
     Step(f32),
     /// The finest step at which it takes no more than these bytes in a file.
     Bytes(usize),
@@ -70,12 +72,9 @@ impl Weights {
 
 /// The leading eigenvectors, `[node × axis]`, over weights and in 8 bits.
 fn axes(gram: DMatrix<f32>, count: usize, weights: &[f32]) -> (Vec<i8>, Vec<f32>) {
-    let eigen = gram.symmetric_eigen();
-    let mut order: Vec<usize> = (0..weights.len()).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let eigen = Eigen::of(gram);
     let (mut bytes, mut scales) = (Vec::new(), Vec::new());
-    for number in order.into_iter().take(count) {
-        let vector = eigen.eigenvectors.column(number);
+    for vector in eigen.vectors.column_iter().take(count) {
         let plain: Vec<f32> = vector.iter().zip(weights).map(|(value, weight)| value / weight).collect();
         let scale = plain.iter().fold(1e-12_f32, |largest, value| largest.max(value.abs())) / 127.0;
         #[allow(clippy::cast_possible_truncation, reason = "at most 127")]

@@ -1,6 +1,6 @@
 //! Factors of texels and of directions, small enough for a file: `subsurf_decoder::btf::factored` reads them.
 //!
-//! The survey's components are fitted to the grid (`space`), their tables become axes and a sparse core
+//! The components of a truncated SVD are fitted to the grid (`space`), their tables become axes and a sparse core
 //! (`angles`), and texels become sums of codewords (`texels`), chosen for the tables as they will be decoded.
 
 mod angles;

@@ -21,7 +21,7 @@ pub struct Sizes {
     pub axes: [usize; 2],
     /// Of the core between the axes.
     pub core: CoreSize,
-    /// Step of codewords, in units of the survey.
+    /// Step of codewords, in units of the decomposition's coefficients.
     pub word_step: f32,
 }
 
@@ -33,7 +33,7 @@ const OF_CORE: f64 = 0.23;
 const OF_AXES: f64 = 0.07;
 /// Bytes that a number of a codeword takes, about.
 const OF_WORD: f64 = 0.3;
-/// Step of codewords in units of the survey: finer ones would cost more than they gain.
+/// Step of codewords, in units of the decomposition's coefficients: finer ones would cost more than they gain.
 const WORD_STEP: f32 = 0.1;
 /// Bytes of a file that may be left over.
 const SLACK: f64 = 0.01;
@@ -91,7 +91,7 @@ impl Prepared<'_> {
     /// # Errors
     /// As [`Self::encode`]; [`Error::Request`] if no file is that small.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of a number of bytes")]
-    pub fn encode_to(&self, bytes: usize, progress: &impl Progress) -> Result<(Vec<u8>, Sizes)> {
+    pub fn encode_to(&self, bytes: usize, progress: &dyn Progress) -> Result<(Vec<u8>, Sizes)> {
         let mut sizes = Sizes::for_bytes(bytes, self.texels(), self.nodes());
         let mut best: Option<(Vec<u8>, Sizes)> = None;
         let mut least = usize::MAX;

@@ -5,7 +5,8 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
-use crate::math::k_means::euclidean::{Choice, means, nearest};
+use crate::math::k_means::KMeans;
+use crate::math::k_means::euclidean::{Choice, Euclidean};
 use crate::progress::Progress;
 
 /// What one stage may take.
@@ -47,7 +48,7 @@ fn add(columns: &mut DMatrix<f32>, chosen: &[Choice], words: &DMatrix<f32>, sign
 }
 
 /// Finds codewords, in steps, for columns of coefficients, in steps.
-pub(super) fn quantise(columns: &DMatrix<f32>, sizes: &[StageSize], seed: u64, progress: &impl Progress) -> Quantised {
+pub(super) fn quantise(columns: &DMatrix<f32>, sizes: &[StageSize], seed: u64, progress: &dyn Progress) -> Quantised {
     let mut rng = Pcg64::seed_from_u64(seed);
     let mut left = columns.clone();
     let (mut words, mut chosen): (Vec<DMatrix<f32>>, Vec<Vec<Choice>>) = (Vec::new(), Vec::new());
@@ -58,12 +59,12 @@ pub(super) fn quantise(columns: &DMatrix<f32>, sizes: &[StageSize], seed: u64, p
         for mut word in of_stage.column_iter_mut() {
             word.copy_from(&left.column(rng.random_range(0..left.ncols())).rows(0, count));
         }
-        for _ in 0..FIRST_ROUNDS {
-            let of_texels = nearest(&left, &of_stage);
-            means(&left, &of_texels, &mut of_stage);
+        let vectors = Euclidean(&left);
+        let of_stage = vectors.lloyd(of_stage, FIRST_ROUNDS, |_| {
             progress.advance(1);
-        }
-        let of_texels = nearest(&left, &of_stage);
+            true
+        });
+        let of_texels = vectors.assign(&of_stage);
         add(&mut left, &of_texels, &of_stage, -1.0);
         words.push(of_stage);
         chosen.push(of_texels);
@@ -73,9 +74,10 @@ pub(super) fn quantise(columns: &DMatrix<f32>, sizes: &[StageSize], seed: u64, p
         let (is_whole, is_last) = (sweep + WHOLE_SWEEPS >= SWEEPS, sweep + 1 == SWEEPS);
         for (of_stage, of_texels) in words.iter_mut().zip(&mut chosen) {
             add(&mut left, of_texels, of_stage, 1.0);
-            *of_texels = nearest(&left, of_stage);
+            let vectors = Euclidean(&left);
+            *of_texels = vectors.assign(of_stage);
             if !is_last {
-                means(&left, of_texels, of_stage);
+                vectors.update(of_texels, of_stage);
             }
             if is_whole {
                 of_stage.apply(|value| *value = value.round().clamp(-32_767.0, 32_767.0));

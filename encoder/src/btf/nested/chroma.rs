@@ -4,11 +4,11 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use subsurf_decoder::btf::Grid;
 
-use crate::math::k_means::shape_gain::product;
+use crate::math::matrix::product;
 use super::luma::Built;
 use crate::math::k_means::weighted::Weighted;
 use super::scales::gain;
-use super::write::{Chroma, Item};
+use super::database::{Chroma, Item};
 
 /// Most entries of the codebooks of chroma.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

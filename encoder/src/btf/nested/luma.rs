@@ -5,11 +5,12 @@ use rayon::prelude::*;
 use subsurf_decoder::btf::Grid;
 use subsurf_decoder::btf::layout::Scales;
 
-use crate::math::k_means::shape_gain::{Match, Samples, product};
+use crate::math::k_means::shape_gain::{Match, Samples};
+use crate::math::matrix::product;
 use super::scales::{Fineness, code, gain, scales};
 use super::sizes::Sizes;
 use super::slices::{Slices, from_bytes, to_bytes};
-use super::write::{Chain, Item};
+use super::database::{Chain, Item};
 use crate::btf::resample::Measured;
 use crate::progress::Progress;
 

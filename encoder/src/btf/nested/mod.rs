@@ -1,6 +1,7 @@
 //! Nested codebooks of luma and chroma (Havran, Filip and Myszkowski 2010, sections 4.2-4.5).
 
 mod chroma;
+mod database;
 mod encode;
 mod luma;
 pub(crate) mod scales;
@@ -10,7 +11,6 @@ pub(crate) mod slices;
 mod write;
 
 pub use chroma::ChromaSizes;
-pub(crate) use encode::materials;
 pub use encode::{Options, Prepared};
 pub use sizes::{Extent, Sizes};
-pub use write::{Chain, Chroma, Database, Item, slice_mean};
+pub use database::{Chain, Chroma, Database, Item, slice_mean};

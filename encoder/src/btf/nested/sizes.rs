@@ -1,6 +1,6 @@
 //! How large codebooks are.
 
-use crate::rate::btf::Rung;
+use crate::rate::Candidate;
 
 /// Most entries of the codebooks of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,11 +56,7 @@ impl Extent {
     }
 }
 
-impl Rung for Extent {
-    fn name(&self) -> String {
-        format!("P4 = {} × {}", self.p4, self.stages)
-    }
-
+impl Candidate for Extent {
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_precision_loss,

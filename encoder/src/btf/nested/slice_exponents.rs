@@ -1,32 +1,33 @@
-//! Slices as files have them: P2 has their means, and every slice says how much higher than that it is.
+//! Exponents of slices: in a file P2 has the means of slices, and an exponent beside every slice says how much higher its
+//! values are.
 //!
 //! So a sampler knows the integral of luma over a slice without looking at it.
 
 use subsurf_decoder::bits::index_bits;
 use subsurf_decoder::btf::layout::{HEIGHTS_PER_OCTAVE, MAX_OCTAVES, STEPS_PER_OCTAVE, Scales};
 
-use super::write::{Chain, Item};
+use super::database::{Chain, Item};
 
-/// The same chain with scales of means in P2, and heights after the rows of P1. Not one value changes: heights are whole
+/// The same chain with scales of means in P2, and exponents after the rows of P1. Not one value changes: exponents are whole
 /// steps of the scales of P2. They end where codes would take more than a byte, or more than they took before. Signed
-/// stages are not sampled from; their heights are 0.
+/// stages are not sampled from; their exponents are 0.
 pub(super) fn by_means(chain: &Chain, n_beta: usize) -> Chain {
     let mut of_file = chain.clone();
     let rows = || chain.p1.chunks_exact(n_beta + 1);
-    // All in 1/64 octaves; heights are multiples of `unit`.
+    // All in 1/64 octaves; exponents are multiples of `unit`.
     let step = 1_i32 << chain.scales[3].step;
-    let height_step = STEPS_PER_OCTAVE / HEIGHTS_PER_OCTAVE;
-    let unit = step.max(height_step);
-    let depth = |row: &[u8]| i32::from(u8::MAX - row[n_beta]) * height_step;
+    let exponent_step = STEPS_PER_OCTAVE / HEIGHTS_PER_OCTAVE;
+    let unit = step.max(exponent_step);
+    let depth = |row: &[u8]| i32::from(u8::MAX - row[n_beta]) * exponent_step;
     let depths = rows().map(|row| if chain.is_signed { 0 } else { (depth(row) + unit / 2) / unit });
-    let depths: Vec<i32> = depths.map(|depth| depth.min(i32::from(u8::MAX) * height_step / unit)).collect();
+    let depths: Vec<i32> = depths.map(|depth| depth.min(i32::from(u8::MAX) * exponent_step / unit)).collect();
     let deepest = depths.iter().copied().max().unwrap_or(0);
     for most in (0..=deepest).rev() {
-        let heights: Vec<i32> = depths.iter().map(|depth| depth.min(&most) * unit).collect();
-        if let Some((p2, scales)) = lowered(chain, &heights) {
+        let exponents: Vec<i32> = depths.iter().map(|depth| depth.min(&most) * unit).collect();
+        if let Some((p2, scales)) = lowered(chain, &exponents) {
             (of_file.p2, of_file.scales[3]) = (p2, scales);
-            for (row, height) in of_file.p1.chunks_exact_mut(n_beta + 1).zip(heights) {
-                row[n_beta] = u8::try_from(height / height_step).expect("at most 255");
+            for (row, exponent) in of_file.p1.chunks_exact_mut(n_beta + 1).zip(exponents) {
+                row[n_beta] = u8::try_from(exponent / exponent_step).expect("at most 255");
             }
             break;
         }
@@ -34,14 +35,14 @@ pub(super) fn by_means(chain: &Chain, n_beta: usize) -> Chain {
     of_file
 }
 
-/// P2 and its scales, less the heights of slices; `None` if the codes become too many, or scales too small or large.
-fn lowered(chain: &Chain, heights: &[i32]) -> Option<(Vec<Item>, Scales)> {
+/// P2 and its scales, less the exponents of slices; `None` if the codes become too many, or scales too small or large.
+fn lowered(chain: &Chain, exponents: &[i32]) -> Option<(Vec<Item>, Scales)> {
     let scales = chain.scales[3];
-    if heights.iter().all(|height| *height == 0) {
+    if exponents.iter().all(|exponent| *exponent == 0) {
         return Some((chain.p2.clone(), scales));
     }
     let step = 1_i64 << scales.step;
-    let lower = |item: &Item| i64::from(item.code) - i64::from(heights[item.index as usize]) / step;
+    let lower = |item: &Item| i64::from(item.code) - i64::from(exponents[item.index as usize]) / step;
     let codes = || chain.p2.iter().map(lower);
     let (lowest, highest) = (codes().min()?, codes().max()?);
     let bits = u8::try_from(index_bits(u32::try_from(highest - lowest + 1).ok()?)).ok()?;
@@ -77,21 +78,21 @@ mod tests {
             for (before, after) in chain.p2.iter().zip(&of_file.p2) {
                 let exponent =
                     |scales: Scales, item: &Item| i32::from(scales.offset) + (item.code.cast_signed() << scales.step);
-                let height = i32::from(of_file.p1[4 * after.index as usize + 3]);
-                assert_eq!(exponent(found, after) + 2 * height, exponent(scales, before), "step {step}: {before:?}");
+                let of_slice = i32::from(of_file.p1[4 * after.index as usize + 3]);
+                assert_eq!(exponent(found, after) + 2 * of_slice, exponent(scales, before), "step {step}: {before:?}");
                 assert!(after.code < 1 << found.bits && before.index == after.index, "{after:?}");
             }
-            let heights: Vec<u8> = of_file.p1.chunks(4).map(|row| row[3]).collect();
-            assert_eq!(heights.iter().max(), Some(&deepest), "step {step}: {found:?}");
+            let exponents: Vec<u8> = of_file.p1.chunks(4).map(|row| row[3]).collect();
+            assert_eq!(exponents.iter().max(), Some(&deepest), "step {step}: {found:?}");
             if step == 1 {
                 // Means of 1, 1/2, 64.5/255 and 4.5/255.
-                assert_eq!(heights, [0, 32, 63, 186]);
+                assert_eq!(exponents, [0, 32, 63, 186]);
             }
         }
     }
 
     #[test]
-    fn signs_have_no_heights() {
+    fn signs_have_no_exponents() {
         let chain = Chain { p1: vec![1, 2, 3, 4, 5, 6], is_signed: true, ..Chain::default() };
         assert_eq!(by_means(&chain, 2).p1, [1, 2, 0, 4, 5, 0]);
     }

@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
+use crate::math::k_means::KMeans;
 use crate::math::k_means::shape_gain::Match;
-use super::write::slice_mean;
+use super::database::slice_mean;
 
 /// Slices of `nodes` values, each with weights of its own for all of them.
 pub(super) struct Slices<'a> {
@@ -111,10 +112,21 @@ impl Slices<'_> {
             self.normalise(&mut row);
             rows.extend(row);
         }
-        for _ in 0..rounds {
-            rows = self.centroids(&self.search(&rows), count);
-        }
-        rows
+        self.lloyd(rows, rounds, |_| true)
+    }
+}
+
+impl KMeans for Slices<'_> {
+    /// Rows `[row][node]`.
+    type Codebook = Vec<f32>;
+    type Assignment = Vec<Match>;
+
+    fn assign(&self, rows: &Vec<f32>) -> Vec<Match> {
+        self.search(rows)
+    }
+
+    fn update(&self, matches: &Vec<Match>, rows: &mut Vec<f32>) {
+        *rows = self.centroids(matches, rows.len() / self.nodes);
     }
 }
 

@@ -1,6 +1,7 @@
 //! A BTF as a folder of images, one for each pair of directions.
 
 mod read;
+mod source;
 mod write;
 
 pub use read::Folder;

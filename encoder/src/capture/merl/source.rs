@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use glam::Vec3;
 
 use super::{FILE_BYTES, Merl};
-use crate::capture::Source;
+use crate::capture::source::Source;
 use crate::error::Result;
 
 /// Views from the normal down, all at azimuth 0.
@@ -72,7 +72,7 @@ mod tests {
     use subsurf_decoder::btf::Grid;
 
     use crate::btf::nested::{ChromaSizes, Options, Prepared, Sizes};
-    use crate::btf::{Detail, Survey};
+    use crate::btf::{Ranks, TruncatedSvd};
     use crate::capture::Images;
 
     #[test]
@@ -87,7 +87,7 @@ mod tests {
         Merl::write(&blue, swapped).unwrap();
         let materials = [red, blue].map(|path| Images::load(&Merl::open(&path).unwrap(), &()).unwrap());
         assert_eq!(materials[0].bytes(), 34_992_012, "what was measured");
-        let survey = Survey::new(&materials, Detail { luma: 2, chroma: 2 }, 1, &()).unwrap();
+        let svd = TruncatedSvd::new(&materials, Ranks { luma: 2, chroma: 2 }, 1, &()).unwrap();
         let reach = REACH_DEG.to_radians();
         let grid = Grid {
             n_alpha: 33,
@@ -107,7 +107,7 @@ mod tests {
             seed: 1,
         };
         let stages = [Sizes { p4: 2, p3: 2, p2: 36, p1: 1024 }];
-        let bytes = Prepared::new(&materials, &survey, options).encode(&stages, &()).unwrap().to_bytes();
+        let bytes = Prepared::new(&materials, &svd, options).encode(&stages, &()).unwrap().to_bytes();
         let file = Btf::parse(&bytes).unwrap();
         for (number, brdf) in [plastic as fn(Vec3, Vec3) -> [f32; 3], swapped].into_iter().enumerate() {
             let texel = file.texel(number, 0, [0, 0]).unwrap();

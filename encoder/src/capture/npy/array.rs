@@ -6,7 +6,6 @@ use half::f16;
 use npyz::{DType, NpyHeader, Order};
 use subsurf_decoder::bssrdf::layout;
 
-use super::check_side;
 use crate::error::{Error, Result};
 
 /// Element type of a capture.
@@ -76,6 +75,15 @@ fn check_header_text(file: &[u8]) -> std::result::Result<(), String> {
         return Err(format!("shape {}", String::from_utf8_lossy(shape).trim_start_matches('(')));
     }
     Ok(())
+}
+
+/// A side of a patch in pixels, if a file could hold it.
+fn check_side(path: &Path, what: &str, pixels: u64) -> Result<usize> {
+    let limit = u64::from(layout::MAX_SIDE);
+    match usize::try_from(pixels) {
+        Ok(side) if (1..=limit).contains(&pixels) => Ok(side),
+        _ => Err(Error::input(path, format!("{what} {pixels}"), format!("{what} from 1 to {limit} pixels"))),
+    }
 }
 
 pub(super) fn parse(path: &Path, file: &[u8]) -> Result<Array> {

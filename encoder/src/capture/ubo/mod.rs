@@ -34,6 +34,7 @@ mod bytes;
 mod colour;
 mod factors;
 mod header;
+mod source;
 
 use std::fs::File;
 use std::path::{Path, PathBuf};

@@ -5,6 +5,10 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
+use super::KMeans;
+use crate::math::eigen::Eigen;
+use crate::math::matrix::product;
+
 /// Vectors that are multiplied at a time.
 const BLOCK: usize = 512;
 /// Dimensions that are left where searches are in fewer than all.
@@ -131,12 +135,7 @@ impl Samples {
     /// `count` codewords by `rounds` of Lloyd's iteration; fewer if there are not as many vectors.
     pub(crate) fn cluster(&self, count: usize, rounds: usize, seed: u64) -> DMatrix<f32> {
         let count = count.min(self.len()).max(1);
-        let mut shapes = self.first(count, seed);
-        for _ in 0..rounds {
-            let matches = self.search(&shapes);
-            shapes = self.centroids(&matches, count);
-        }
-        shapes
+        self.lloyd(self.first(count, seed), rounds, |_| true)
     }
 
     /// Vectors drawn by w |x|², each once.
@@ -160,22 +159,26 @@ impl Samples {
     }
 }
 
+impl KMeans for Samples {
+    /// Codewords in the columns.
+    type Codebook = DMatrix<f32>;
+    type Assignment = Vec<Match>;
+
+    fn assign(&self, codewords: &DMatrix<f32>) -> Vec<Match> {
+        self.search(codewords)
+    }
+
+    fn update(&self, matches: &Vec<Match>, codewords: &mut DMatrix<f32>) {
+        *codewords = self.centroids(matches, codewords.ncols());
+    }
+}
+
+/// Makes a vector's length 1, unless it is 0.
 fn normalise(vector: &mut [f32]) {
     let length = vector.iter().map(|value| value * value).sum::<f32>().sqrt();
     if length > 0.0 {
         vector.iter_mut().for_each(|value| *value /= length);
     }
-}
-
-/// left · right on all cores.
-pub(crate) fn product(left: &DMatrix<f32>, right: &DMatrix<f32>) -> DMatrix<f32> {
-    let mut out = DMatrix::zeros(left.nrows(), right.ncols());
-    out.as_mut_slice().par_chunks_mut(left.nrows().max(1) * BLOCK).enumerate().for_each(|(block, out)| {
-        let columns = right.columns(block * BLOCK, out.len() / left.nrows());
-        let part = left * columns;
-        out.copy_from_slice(part.as_slice());
-    });
-    out
 }
 
 /// The leading axes of Σ w x xᵀ.
@@ -194,10 +197,7 @@ fn leading_axes(vectors: &DMatrix<f32>, weights: &[f32]) -> DMatrix<f32> {
         .map(|starts| starts.iter().map(gram).reduce(|a, b| a + b).expect("no share is empty"))
         .collect();
     let gram = shares.into_iter().reduce(|a, b| a + b).expect("there are vectors");
-    let eigen = gram.symmetric_eigen();
-    let mut order: Vec<usize> = (0..vectors.nrows()).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-    DMatrix::from_fn(vectors.nrows(), REDUCED, |row, column| eigen.eigenvectors[(row, order[column])])
+    Eigen::of(gram).leading(REDUCED)
 }
 
 #[cfg(test)]

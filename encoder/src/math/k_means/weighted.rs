@@ -2,6 +2,8 @@
 
 use rayon::prelude::*;
 
+use super::KMeans;
+
 /// Vectors of some dimensions, one after the other, with a weight for each value.
 pub(crate) struct Weighted<'a> {
     pub(crate) dimensions: usize,
@@ -45,27 +47,9 @@ impl Weighted<'_> {
     /// At most `count` centres and the sums of weights behind them, by `rounds` of Lloyd's iteration from vectors that
     /// are far from each other (Gonzalez 1985).
     pub(crate) fn cluster(&self, count: usize, rounds: usize) -> (Vec<f32>, Vec<f32>) {
-        let mut centres = self.scattered(count);
-        let mut sums = Vec::new();
-        for _ in 0..rounds {
-            let nearest = self.nearest(&centres);
-            sums = vec![0.0; centres.len()];
-            let mut means = vec![0.0; centres.len()];
-            for (number, centre) in nearest.iter().enumerate() {
-                let start = *centre as usize * self.dimensions;
-                for (k, (value, weight)) in self.at(number).enumerate() {
-                    sums[start + k] += weight;
-                    means[start + k] += weight * value;
-                }
-            }
-            for ((centre, mean), sum) in centres.iter_mut().zip(means).zip(&sums) {
-                // What nothing weighs stays as it is.
-                if *sum > 0.0 {
-                    *centre = mean / sum;
-                }
-            }
-        }
-        (centres, sums)
+        let start = Centres { values: self.scattered(count), weights: Vec::new() };
+        let Centres { values, weights } = self.lloyd(start, rounds, |_| true);
+        (values, weights)
     }
 
     fn scattered(&self, count: usize) -> Vec<f32> {
@@ -88,6 +72,40 @@ impl Weighted<'_> {
             centres.extend_from_slice(vector(farthest));
         }
         centres
+    }
+}
+
+/// Centres, and for each of their values the sum of the weights behind it.
+pub(crate) struct Centres {
+    values: Vec<f32>,
+    weights: Vec<f32>,
+}
+
+impl KMeans for Weighted<'_> {
+    type Codebook = Centres;
+    type Assignment = Vec<u32>;
+
+    fn assign(&self, centres: &Centres) -> Vec<u32> {
+        self.nearest(&centres.values)
+    }
+
+    fn update(&self, nearest: &Vec<u32>, centres: &mut Centres) {
+        let mut sums = vec![0.0; centres.values.len()];
+        let mut means = vec![0.0; centres.values.len()];
+        for (number, centre) in nearest.iter().enumerate() {
+            let start = *centre as usize * self.dimensions;
+            for (k, (value, weight)) in self.at(number).enumerate() {
+                sums[start + k] += weight;
+                means[start + k] += weight * value;
+            }
+        }
+        for ((centre, mean), sum) in centres.values.iter_mut().zip(means).zip(&sums) {
+            // What nothing weighs stays as it is.
+            if *sum > 0.0 {
+                *centre = mean / sum;
+            }
+        }
+        centres.weights = sums;
     }
 }
 

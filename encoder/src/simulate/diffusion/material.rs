@@ -1,14 +1,14 @@
-//! Built-in materials by name, and the coordinates of their patterns.
+//! Built-in materials by name.
 
 use subsurf_decoder::bssrdf::Addressing;
 
 use crate::simulate::noise::Noise;
-use super::patterns::{blue_wax, chessboard, jade, marble, onyx, stone, yellow_wax};
+use super::patterns::{Pattern, blue_wax, chessboard, jade, marble, onyx, stone, yellow_wax};
 use super::slab::MediumMap;
 
 /// A built-in, synthetic material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scene {
+pub enum BuiltinMaterial {
     /// Folded layers, each a mixture of its own.
     Onyx,
     /// Squares of two stones with a fine grain.
@@ -25,7 +25,7 @@ pub enum Scene {
     YellowWax,
 }
 
-impl Scene {
+impl BuiltinMaterial {
     /// All of them.
     pub const ALL: [Self; 7] =
         [Self::Onyx, Self::Chessboard, Self::Jade, Self::Marble, Self::Stone, Self::BlueWax, Self::YellowWax];
@@ -75,40 +75,5 @@ impl Scene {
         let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
         let media = pixels.map(|(x, y)| recipe(&noise, &pattern, pattern.uv(x, y))).collect();
         MediumMap { size, media }
-    }
-}
-
-/// Pixels to pattern coordinates.
-pub(super) struct Pattern {
-    /// Pixels after which the pattern repeats.
-    pub(super) period: [f64; 2],
-    /// Pixels to a side of a noise cell of frequency 1.
-    noise_period: f64,
-}
-
-impl Pattern {
-    fn new(size: [usize; 2], addressing: Addressing) -> Self {
-        #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
-        let [width, height] = size.map(|n| n as f64);
-        // A patch that does not repeat is cut from a larger pattern.
-        let period = match addressing {
-            Addressing::Repeat => [width, height],
-            Addressing::Clamp | Addressing::Mirror => [width.max(height).max(64.0); 2],
-        };
-        Self { period, noise_period: period[0].max(period[1]) }
-    }
-
-    /// Pixel centre in periods.
-    fn uv(&self, x: usize, y: usize) -> [f64; 2] {
-        #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
-        let [x, y] = [x, y].map(|n| n as f64 + 0.5);
-        [x / self.period[0], y / self.period[1]]
-    }
-
-    /// Lattice cells per period for features of about `pixels`.
-    pub(super) fn frequency(&self, pixels: f64) -> i64 {
-        #[allow(clippy::cast_possible_truncation, reason = "saturates, and sides are below 65,536")]
-        let cells = (self.noise_period / pixels).round() as i64;
-        cells.max(1)
     }
 }

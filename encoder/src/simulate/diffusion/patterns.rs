@@ -1,15 +1,51 @@
-//! What built-in materials are made of: mixtures of measured media, and of an invented pigment, in patterns made from a
-//! seed.
+//! Patterns of built-in materials: mixtures of measured media, and of an invented pigment, made from a seed.
 
 use std::f64::consts::TAU;
 
+use subsurf_decoder::bssrdf::Addressing;
+
 use super::medium::Medium;
 use crate::simulate::noise::Noise;
-use super::material::Pattern;
 
-/// Mixes measured media.
+/// Coordinates of patterns: from pixels to periods.
+pub(super) struct Pattern {
+    /// Pixels after which the pattern repeats.
+    pub(super) period: [f64; 2],
+    /// Pixels to a side of a noise cell of frequency 1.
+    noise_period: f64,
+}
+
+impl Pattern {
+    /// Coordinates for a patch of `size` pixels.
+    pub(super) fn new(size: [usize; 2], addressing: Addressing) -> Self {
+        #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
+        let [width, height] = size.map(|n| n as f64);
+        // A patch that does not repeat is cut from a larger pattern.
+        let period = match addressing {
+            Addressing::Repeat => [width, height],
+            Addressing::Clamp | Addressing::Mirror => [width.max(height).max(64.0); 2],
+        };
+        Self { period, noise_period: period[0].max(period[1]) }
+    }
+
+    /// Centre of a pixel in periods.
+    pub(super) fn uv(&self, x: usize, y: usize) -> [f64; 2] {
+        #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
+        let [x, y] = [x, y].map(|n| n as f64 + 0.5);
+        [x / self.period[0], y / self.period[1]]
+    }
+
+    /// Lattice cells per period for features of about `pixels`.
+    pub(super) fn frequency(&self, pixels: f64) -> i64 {
+        #[allow(clippy::cast_possible_truncation, reason = "saturates, and sides are below 65,536")]
+        let cells = (self.noise_period / pixels).round() as i64;
+        cells.max(1)
+    }
+}
+
+/// Mixture of measured media, given by name.
 fn mix<const N: usize>(parts: [(f64, &str); N]) -> Medium {
-    let measured = |name| Medium::measured(name).expect("scenes name measured media only");
+    let measured = |name| Medium::measured(name).expect("built-in materials name measured media only");
     Medium::mix(parts.map(|(weight, name)| (weight, measured(name))))
 }
 

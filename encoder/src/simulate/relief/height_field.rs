@@ -5,8 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
-use super::light::LightOn;
-use super::reflectance::{Finish, Shading};
+use super::reflectance::Finish;
 
 /// A relief and what it is made of.
 pub(super) struct Relief {
@@ -158,13 +157,5 @@ impl Relief {
             })
         };
         (0..self.len()).into_par_iter().map(look).collect()
-    }
-
-    /// π times the radiance that leaves a texel towards the eye.
-    pub(super) fn radiance(&self, texel: u32, light: &LightOn, towards_eye: Vec3) -> Vec3 {
-        let finish = self.finish(texel);
-        let shading = Shading { normal: self.normal(texel), light: light.towards, eye: towards_eye };
-        let direct = finish.reflect(&shading) * (std::f32::consts::PI * light.direct[texel as usize]);
-        direct + finish.diffuse * light.indirect[texel as usize]
     }
 }

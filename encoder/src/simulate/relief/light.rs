@@ -1,10 +1,11 @@
-//! What a light does to a relief, whoever looks at it.
+//! Light on a relief: from a direction, and from texel to texel.
 
 use glam::Vec3;
 
 use super::height_field::{DIRECTIONS, Exchange, Relief, SKY};
+use super::reflectance::Shading;
 
-/// One light on all texels.
+/// Irradiance of all texels under one light.
 pub(super) struct LightOn {
     /// Unit vector.
     pub(super) towards: Vec3,
@@ -38,5 +39,13 @@ impl LightOn {
             indirect = texels.clone().map(gathered).collect();
         }
         Self { towards, direct, indirect }
+    }
+
+    /// π times the radiance that leaves a texel towards the eye, linear Rec. 709.
+    pub(super) fn radiance(&self, relief: &Relief, texel: u32, towards_eye: Vec3) -> Vec3 {
+        let finish = relief.finish(texel);
+        let shading = Shading { normal: relief.normal(texel), light: self.towards, eye: towards_eye };
+        let direct = finish.reflect(&shading) * (std::f32::consts::PI * self.direct[texel as usize]);
+        direct + finish.diffuse * self.indirect[texel as usize]
     }
 }

@@ -14,9 +14,9 @@ pub(super) struct Finish {
     /// Unit vector along the fibre.
     pub(super) fibre: Vec3,
     /// Colour of the lobe of fibres below a clear coat.
-    pub(super) sheen: Vec3,
+    pub(super) fibre_colour: Vec3,
     /// Width of that lobe in radians.
-    pub(super) sheen_width: f32,
+    pub(super) fibre_width_rad: f32,
 }
 
 /// Unit vectors at a texel.
@@ -32,7 +32,7 @@ const ETA: f32 = 1.5;
 impl Finish {
     /// A diffuse one.
     pub(super) fn matte(diffuse: Vec3) -> Self {
-        Self { diffuse, specular: Vec3::ZERO, roughness: [0.5; 2], fibre: Vec3::X, sheen: Vec3::ZERO, sheen_width: 1.0 }
+        Self { diffuse, specular: Vec3::ZERO, roughness: [0.5; 2], fibre: Vec3::X, fibre_colour: Vec3::ZERO, fibre_width_rad: 1.0 }
     }
 
     /// f_r in sr⁻¹.
@@ -67,7 +67,7 @@ impl Finish {
     /// Fibres under a clear coat: a cone around their direction (Marschner et al. 2005, *Measuring and modeling the appearance of
     /// finished wood*, eq. 5).
     fn fibres(&self, shading: &Shading) -> Vec3 {
-        if self.sheen == Vec3::ZERO {
+        if self.fibre_colour == Vec3::ZERO {
             return Vec3::ZERO;
         }
         let n = shading.normal;
@@ -80,11 +80,11 @@ impl Finish {
         let angle = |w: Vec3| self.fibre.dot(w).clamp(-1.0, 1.0).asin();
         let (psi_l, psi_v) = (angle(l), angle(v));
         let (psi_h, psi_d) = (psi_l + psi_v, psi_l - psi_v);
-        let gaussian = (-0.5 * (psi_h / self.sheen_width).powi(2)).exp()
-            / (self.sheen_width * (2.0 * std::f32::consts::PI).sqrt());
+        let gaussian = (-0.5 * (psi_h / self.fibre_width_rad).powi(2)).exp()
+            / (self.fibre_width_rad * (2.0 * std::f32::consts::PI).sqrt());
         let transmitted = |w: Vec3| 1.0 - (0.04 + 0.96 * (1.0 - n.dot(w).clamp(0.0, 1.0)).powi(5));
         let through = transmitted(shading.light) * transmitted(shading.eye) / (ETA * ETA);
-        self.sheen * (gaussian * through / (0.5 * psi_d).cos().powi(2))
+        self.fibre_colour * (gaussian * through / (0.5 * psi_d).cos().powi(2))
     }
 }
 
@@ -98,7 +98,7 @@ mod tests {
         let finishes = [
             Finish::matte(Vec3::splat(0.8)),
             Finish { specular: Vec3::new(1.0, 0.8, 0.4), roughness: [0.3, 0.7], ..Finish::matte(Vec3::ZERO) },
-            Finish { sheen: Vec3::splat(0.15), sheen_width: 0.3, ..Finish::matte(Vec3::splat(0.2)) },
+            Finish { fibre_colour: Vec3::splat(0.15), fibre_width_rad: 0.3, ..Finish::matte(Vec3::splat(0.2)) },
         ];
         let direction = |u: f32, v: f32| {
             let phi = std::f32::consts::TAU * v;

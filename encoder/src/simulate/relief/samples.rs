@@ -122,8 +122,8 @@ fn corduroy(noise: &Noise, at: Vec2) -> Point {
     // The ends of the hairs lean down the ribs and are brightest against the light.
     let lean = Vec3::new(0.15 * tuft, 0.55 + 0.2 * wear, 0.8).normalize();
     let finish = Finish {
-        sheen: Vec3::new(0.16, 0.12, 0.06) * profile,
-        sheen_width: 0.45,
+        fibre_colour: Vec3::new(0.16, 0.12, 0.06) * profile,
+        fibre_width_rad: 0.45,
         fibre: lean.cross(Vec3::X).normalize(),
         ..Finish::matte(diffuse)
     };
@@ -184,8 +184,8 @@ fn wood(noise: &Noise, at: Vec2) -> Point {
         specular: Vec3::splat(0.04),
         roughness: [0.45, 0.45],
         fibre,
-        sheen: Vec3::new(0.30, 0.19, 0.09) * (1.0 - 0.6 * late),
-        sheen_width: 10.0 * PI / 180.0,
+        fibre_colour: Vec3::new(0.30, 0.19, 0.09) * (1.0 - 0.6 * late),
+        fibre_width_rad: 10.0 * PI / 180.0,
         ..Finish::matte(0.55 * colour)
     };
     Point { height: -0.002 * pores.min(1.0), finish }

@@ -1,111 +1,14 @@
-//! Diffuse albedo and the patch under three lights, from the capture and from a file (Yatagawa et al. 2020, section 4).
+//! Capture and file evaluated side by side, on every measured pair.
 
 use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
 
-use super::image::{psnr_db, ssim};
+use super::light::Light;
+use super::relit::Relit;
 use crate::capture::Capture;
 use crate::error::{Error, Result};
+use crate::metrics::image::{psnr_db, ssim};
 use crate::progress::Progress;
-
-/// Irradiance patterns on a patch of W pixels width.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Light {
-    /// 1 everywhere.
-    Uniform,
-    /// 1 in a disc of radius W/6 around the centre.
-    Disc,
-    /// 1 on a vertical line, 4 pixels wide, through the centre.
-    Line,
-}
-
-impl Light {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Uniform, Self::Disc, Self::Line];
-
-    /// Its name on the command line and in reports.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Uniform => "uniform",
-            Self::Disc => "disc",
-            Self::Line => "line",
-        }
-    }
-
-    /// Irradiance at the centre of pixel (x, y) of a patch of `size`.
-    #[must_use]
-    pub fn irradiance(self, [x, y]: [usize; 2], size: [usize; 2]) -> f32 {
-        #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
-        let from_centre = |k: usize, n: usize| k as f32 + 0.5 - n as f32 / 2.0;
-        let (dx, dy) = (from_centre(x, size[0]), from_centre(y, size[1]));
-        #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
-        let lit = match self {
-            Self::Uniform => true,
-            Self::Disc => dx.hypot(dy) <= size[0] as f32 / 6.0,
-            Self::Line => dx.abs() <= 2.0,
-        };
-        f32::from(u8::from(lit))
-    }
-}
-
-/// A patch as it looks from the capture and from a file, linear Rec. 709, row by row.
-#[derive(Clone, Debug)]
-pub struct Relit {
-    /// From the capture.
-    pub reference: Vec<[f64; 3]>,
-    /// From the file.
-    pub image: Vec<[f64; 3]>,
-}
-
-impl Relit {
-    fn new(pixels: usize) -> Self {
-        Self { reference: vec![[0.0; 3]; pixels], image: vec![[0.0; 3]; pixels] }
-    }
-
-    fn add(&mut self, other: &Self) {
-        let sums = self.reference.iter_mut().chain(&mut self.image);
-        for (sum, value) in sums.zip(other.reference.iter().chain(&other.image)) {
-            for c in 0..3 {
-                sum[c] += value[c];
-            }
-        }
-    }
-
-    /// Both images divided by the largest value of the reference; `None` if the reference is black.
-    #[must_use]
-    pub fn normalised(&self) -> Option<Self> {
-        let peak = self.reference.iter().flatten().fold(0.0_f64, |peak, &value| peak.max(value));
-        if peak <= 0.0 {
-            return None;
-        }
-        let scale = |image: &[[f64; 3]]| image.iter().map(|rgb| rgb.map(|value| value / peak)).collect();
-        Some(Self { reference: scale(&self.reference), image: scale(&self.image) })
-    }
-
-    /// Mean of [`Relit::relative_errors`] over the pixels that have one.
-    #[must_use]
-    pub fn mean_relative_error(&self) -> f64 {
-        let errors: Vec<f64> = self.relative_errors().into_iter().flatten().collect();
-        #[allow(clippy::cast_precision_loss, reason = "pixels fit in 2⁵³")]
-        let count = errors.len().max(1) as f64;
-        errors.iter().sum::<f64>() / count
-    }
-
-    /// Relative error ‖ρ − ρ'‖/‖ρ‖ of every pixel, over the three channels; `None` where the reference is black, for
-    /// nothing was measured there.
-    #[must_use]
-    pub fn relative_errors(&self) -> Vec<Option<f64>> {
-        let norm = |rgb: [f64; 3]| rgb.iter().map(|value| value * value).sum::<f64>().sqrt();
-        let pairs = self.reference.iter().zip(&self.image);
-        pairs
-            .map(|(reference, image)| {
-                let difference = [0, 1, 2].map(|c| reference[c] - image[c]);
-                (norm(*reference) > 0.0).then(|| norm(difference) / norm(*reference))
-            })
-            .collect()
-    }
-}
 
 /// Diffuse albedo ρ_d(x) = Σ_y Rd(x, y) pitch² of light that enters at x, and the patch under each of [`Light::ALL`].
 ///
@@ -117,7 +20,22 @@ pub struct Comparison {
     pub lit: [Relit; 3],
 }
 
+/// Error of a file against its capture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BssrdfError {
+    /// Mean relative error of the diffuse albedo, see [`Relit::mean_relative_error`].
+    pub relative_error: f64,
+    /// PSNR in dB under each of [`Light::ALL`], see [`Comparison::psnr_db`].
+    pub psnr_db: [Option<f64>; 3],
+}
+
 impl Comparison {
+    /// The numbers that say how far the file is from the capture.
+    #[must_use]
+    pub fn error(&self) -> BssrdfError {
+        BssrdfError { relative_error: self.albedo.mean_relative_error(), psnr_db: self.psnr_db() }
+    }
+
     /// PSNR in dB under each of [`Light::ALL`], peak 1 the reference's largest value; `None` where the light meets
     /// nothing that was measured.
     #[must_use]
@@ -136,7 +54,7 @@ impl Comparison {
 const BLOCK_ROWS: usize = 16;
 const BLOCKS_AT_ONCE: usize = 4;
 
-/// Evaluates capture and file on every measured pair.
+/// Comparison of a capture with a file on every measured pair.
 ///
 /// # Errors
 /// [`Error::Request`] if the file is of another size or window than the capture.
