@@ -8,7 +8,7 @@ use subsurf_encoder::capture::Overrides;
 
 /// What lies beyond the border of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum AddressingArg {
+pub enum AddressingArg {
     /// The material ends there; a renderer draws the border pixel out.
     Clamp,
     /// The patch repeats: tileable.
@@ -29,7 +29,7 @@ impl From<AddressingArg> for Addressing {
 
 /// Facts about a capture that its sidecar, NAME.json, usually states.
 #[derive(clap::Args, Clone, Copy, Debug)]
-pub(crate) struct CaptureArgs {
+pub struct CaptureArgs {
     /// Distance of neighbouring pixels in mm; wins over the sidecar
     #[arg(long, value_name = "MM")]
     pitch: Option<f32>,
@@ -42,14 +42,18 @@ pub(crate) struct CaptureArgs {
 }
 
 impl CaptureArgs {
-    pub(crate) fn overrides(&self) -> Overrides {
+    /// What wins over the sidecar.
+    pub fn overrides(&self) -> Overrides {
         Overrides { pitch_mm: self.pitch, addressing: self.addressing.map(Into::into), eta: self.eta }
     }
 }
 
 /// WIDTHxHEIGHT, or one number for both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Size(pub(crate) [u32; 2]);
+pub struct Size(
+    /// Width and height.
+    pub [u32; 2],
+);
 
 impl FromStr for Size {
     type Err = String;
@@ -72,7 +76,10 @@ impl std::fmt::Display for Size {
 
 /// A number of bytes: 40000, 40kB, 1.5GB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct ByteCount(pub(crate) u64);
+pub struct ByteCount(
+    /// Bytes.
+    pub u64,
+);
 
 impl FromStr for ByteCount {
     type Err = String;

@@ -14,19 +14,19 @@ pub enum Error {
     /// An input file is not what it should be.
     #[error("{}: {found}; expected {expected}", path.display())]
     Input {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What is there.
+        /// What was found.
         found: String,
-        /// What should be there.
+        /// What was expected.
         expected: String,
     },
     /// A `.subsurf` file was refused by the decoder.
     #[error("{}: {source}", path.display())]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The decoder's reason.
+        /// Reason of the decoder.
         source: subsurf_decoder::ReadError,
     },
     /// A request that makes no sense, or that nothing can meet; the text says what to ask for instead.
@@ -35,15 +35,15 @@ pub enum Error {
     /// The decoder refuses a file that was just made: a bug of this library, whatever it was given.
     #[error("the file that was just made cannot be read: {source}; this is a bug of subsurf, please report it")]
     OwnOutput {
-        /// The decoder's reason.
+        /// Reason of the decoder.
         source: subsurf_decoder::ReadError,
     },
-    /// Writing failed.
+    /// A file that could not be written.
     #[error("{}: cannot write: {source}", path.display())]
     Output {
         /// The file that should have come to be.
         path: PathBuf,
-        /// The system's reason.
+        /// Reason of the system.
         source: io::Error,
     },
 }

@@ -6,13 +6,13 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::bssrdf::{Options, encode};
 use subsurf_encoder::metrics::psnr_db;
-use subsurf_encoder::simulate::diffusion::{Finish, Scene as Recipe};
+use subsurf_encoder::simulate::diffusion::{Finish, BuiltinMaterial};
 use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, SkyShare, Surface, View};
 use subsurf_runtime::{
     BACKGROUND, Backend, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions,
     SeparableMaterial, SplatMaterial,
 };
-use subsurf_shaders::separable::{Detail, Factors};
+use subsurf_shaders::separable::{Ranks, Factors};
 
 use crate::simulated;
 
@@ -92,7 +92,7 @@ impl Loaded {
     pub fn under(gpu: &Gpu, way: Way, file: &[u8], mesh: &Mesh, mapping: Mapping, scene: &Scene) -> Self {
         let material = Bssrdf::parse(file).unwrap();
         let outline = Outline::new(mesh, mapping, material.header());
-        let factors = || Factors::of(&material, Detail::default());
+        let factors = || Factors::of(&material, Ranks::default());
         let lit = || {
             let shares = SkyShare::of(mesh, &material).unwrap();
             GpuMesh::upload(gpu, mesh, &outline, Known::Sky(&shares)).unwrap()
@@ -186,7 +186,7 @@ fn is_hit([a, b, c]: &[Vec3; 3], from: Vec3, towards: Vec3) -> bool {
 /// # Panics
 /// If it cannot be.
 #[must_use]
-pub fn material_of(recipe: Recipe) -> Vec<u8> {
+pub fn material_of(recipe: BuiltinMaterial) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let capture = simulated(folder.path(), recipe, 32, 8, 0.8, Addressing::Repeat, &Finish::default());
     encode(&capture, None, &Options { base_materials: 32, ..Options::default() }, &()).unwrap().bytes

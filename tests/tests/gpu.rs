@@ -14,7 +14,7 @@ use subsurf_runtime::{
     Renderer, RuntimeOptions, SeparableMaterial, SeparableRenderer, Storage, storage_of,
 };
 use subsurf_shaders::cpu;
-use subsurf_shaders::separable::{Detail, Factors};
+use subsurf_shaders::separable::{Ranks, Factors};
 use subsurf_tests::shape;
 
 /// Targets are half floats: software drivers truncate to 11 bits, so that every target on the way costs up to 2⁻¹⁰.
@@ -126,7 +126,7 @@ fn separable(backend: Backend) {
         for (radius, terms, gaussians) in [(4, 2, 4), (20, 2, 2), (4, 1, 6)] {
             let file = shape(size, radius, addressing).bmpp();
             let material = Bssrdf::parse(&file).unwrap();
-            let factors = Factors::of(&material, Detail { terms, gaussians });
+            let factors = Factors::of(&material, Ranks { terms, gaussians });
             let uploaded = SeparableMaterial::upload(&gpu, &factors).unwrap();
             let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
             let renderer = SeparableRenderer::new(&gpu, terms).unwrap();

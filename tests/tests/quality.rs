@@ -9,9 +9,9 @@ use subsurf_encoder::bssrdf::{Method, Options, encode};
 use subsurf_encoder::capture::Capture;
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_encoder::metrics::bssrdf::{Light, compare};
-use subsurf_encoder::simulate::diffusion::{Finish, Scene};
+use subsurf_encoder::simulate::diffusion::{Finish, BuiltinMaterial};
 use subsurf_shaders::cpu;
-use subsurf_shaders::separable::{Detail, Factors};
+use subsurf_shaders::separable::{Ranks, Factors};
 use subsurf_tests::simulated;
 
 struct Quality {
@@ -54,7 +54,7 @@ fn separable_db(material: &Bssrdf<'_>, factors: &Factors) -> [(Light, f64); 3] {
 
 /// Simulates a scene and asserts that 2-BMPP reaches 46 dB under uniform light, and at most `share` of the relative
 /// albedo error that clusters of per-pixel profiles have at the same size.
-fn judge(scene: Scene, share: f64) {
+fn judge(scene: BuiltinMaterial, share: f64) {
     let folder = tempfile::tempdir().unwrap();
     let finish = Finish { one_way: true, sensor: None };
     let capture = simulated(folder.path(), scene, 80, 12, 0.5, Addressing::Clamp, &finish);
@@ -81,7 +81,7 @@ fn judge(scene: Scene, share: f64) {
     let material = Bssrdf::parse(&direct.file).unwrap();
     // The usual factors, and the cheapest that are close enough on some columns: the whole patch may be a little further.
     for (factors, least_db) in
-        [(Factors::of(&material, Detail::default()), 44.0), (Factors::within(&material, 40.0), 38.0)]
+        [(Factors::of(&material, Ranks::default()), 44.0), (Factors::within(&material, 40.0), 38.0)]
     {
         for (light, db) in separable_db(&material, &factors) {
             println!("  separable path, {:?}, against the gather: {db:.1} dB, {}", factors.detail, light.name());
@@ -94,15 +94,15 @@ fn judge(scene: Scene, share: f64) {
 
 #[test]
 fn onyx() {
-    judge(Scene::Onyx, 0.6);
+    judge(BuiltinMaterial::Onyx, 0.6);
 }
 
 #[test]
 fn jade() {
-    judge(Scene::Jade, 0.6);
+    judge(BuiltinMaterial::Jade, 0.6);
 }
 
 #[test]
 fn chessboard() {
-    judge(Scene::Chessboard, 0.85);
+    judge(BuiltinMaterial::Chessboard, 0.85);
 }

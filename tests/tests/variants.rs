@@ -4,7 +4,7 @@
 use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
-use subsurf_encoder::simulate::diffusion::Scene as Recipe;
+use subsurf_encoder::simulate::diffusion::BuiltinMaterial;
 use subsurf_runtime::scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
 use subsurf_runtime::wgpu::TextureFormat;
 use subsurf_runtime::{
@@ -27,7 +27,7 @@ fn close_light(mesh: &Mesh, shape: impl Fn(Vec3) -> LightShape) -> Scene {
 /// Points and cones of light, on a patch that lies on the mesh as on a box.
 #[test]
 fn lights_close_by_and_boxes_come_close_to_the_gather() {
-    let file = material_of(Recipe::Jade);
+    let file = material_of(BuiltinMaterial::Jade);
     let gpus = Backend::ALL.map(device);
     let point = |position_mm| LightShape::Point { position_mm };
     let spot = |position_mm| LightShape::Spot { position_mm, target_mm: Vec3::ZERO, half_angle: 0.3 };
@@ -80,7 +80,7 @@ fn targets_of_srgb_and_of_several_samples_show_the_same() {
 /// Shifted taps are grain, and no other light; on thin folds too.
 #[test]
 fn jitter_keeps_the_light() {
-    let file = material_of(Recipe::Jade);
+    let file = material_of(BuiltinMaterial::Jade);
     for mesh in [torus(9.0, 4.0, 32), drapery(14.0, 1.0, 5, 40)] {
         let scene = scene(&mesh);
         let [a, b] = Backend::ALL.map(|backend| {

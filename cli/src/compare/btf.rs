@@ -4,17 +4,16 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 use subsurf_decoder::btf::{Catalog, Evaluate};
-use subsurf_encoder::capture::Images;
+use subsurf_encoder::capture::{Images, load_btf};
 use subsurf_encoder::metrics::btf::{BtfError, compare, decode, with_file};
+use subsurf_viewer::{human, material_number, read};
 
 use super::Args;
-use crate::encode::btf::load;
-use crate::failure::bad_request;
-use crate::info::{Parts, material_number, read_error, read_file};
-use crate::memory::human;
+use crate::info::{Parts, read_error};
+use crate::outln;
 use crate::picture::{display, montage, write_png};
-use crate::progress::Bars;
-use crate::say::say;
+use crate::program::failure::bad_request;
+use crate::program::progress::Bars;
 
 /// Pairs of directions that pictures are made of: shares of all of them.
 const PICTURED: [f64; 6] = [0.003, 0.12, 0.31, 0.52, 0.73, 0.96];
@@ -22,14 +21,14 @@ const PICTURED: [f64; 6] = [0.003, 0.12, 0.31, 0.52, 0.73, 0.96];
 const MAGNIFIED: f32 = 5.0;
 
 pub(super) fn run(args: &Args) -> anyhow::Result<()> {
-    let bytes = read_file(&args.file)?;
+    let bytes = read(&args.file)?;
     let parts = Parts::of(&args.file, &bytes)?;
     with_file(&bytes, |file| compare_with(args, file, &parts, bytes.len()))
         .map_err(|error| read_error(&args.file, error))?
 }
 
 fn compare_with(args: &Args, file: &(dyn Evaluate + Sync), parts: &Parts, bytes: usize) -> anyhow::Result<()> {
-    let images = load(&args.capture)?;
+    let images = load_btf(&args.capture, &Bars::new())?;
     let material = material_of(args, file.catalog())?;
     let of_file = file.catalog().materials().nth(material).map(|material| material.size(0));
     if of_file != Some(images.size()) {
@@ -42,14 +41,14 @@ fn compare_with(args: &Args, file: &(dyn Evaluate + Sync), parts: &Parts, bytes:
     let pairs: Vec<usize> = (0..images.pairs()).step_by(args.every.max(1)).collect();
     let error = compare(&images, file, material, &pairs, &Bars::new());
     if args.json {
-        say!("{:#}", to_json(&error, parts, &images, bytes));
+        outln!("{:#}", to_json(&error, parts, &images, bytes));
     } else {
         print(args, &error, parts, &images, bytes);
     }
     if let Some(folder) = &args.images {
         pictures(folder, &images, file, material)?;
         if !args.json {
-            say!("pictures (original, file, {MAGNIFIED} × difference) in {}", folder.display());
+            outln!("pictures (original, file, {MAGNIFIED} × difference) in {}", folder.display());
         }
     }
     Ok(())
@@ -75,7 +74,7 @@ pub(crate) fn mssim_json(error: &BtfError) -> Value {
     error.mssim.map_or(Value::Null, of)
 }
 
-/// The same for people.
+/// Structural similarities for people.
 pub(crate) fn mssim(error: &BtfError) -> String {
     match (error.mssim, error.mean_mssim()) {
         (Some([luma, cr, cb]), Some(mean)) => format!("MSSIM {mean:.4} (Y {luma:.4}, Cr {cr:.4}, Cb {cb:.4})"),
@@ -91,24 +90,13 @@ fn to_json(error: &BtfError, parts: &Parts, images: &Images, bytes: usize) -> Va
 }
 
 fn print(args: &Args, error: &BtfError, parts: &Parts, images: &Images, bytes: usize) {
-    say!("{} against {}", args.file.display(), args.capture.display());
+    outln!("{} against {}", args.file.display(), args.capture.display());
     #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
     let ratio = images.bytes() as f64 / bytes as f64;
-    say!("  {} of {}: 1:{ratio:.0}", human(bytes as u64), human(images.bytes()));
-    say!("  {} over {} pairs", mssim(error), error.pairs);
-    say!("  PSNR  {:.1} dB", error.psnr_db);
+    outln!("  {} of {}: 1:{ratio:.0}", human(bytes as u64), human(images.bytes()));
+    outln!("  {} over {} pairs", mssim(error), error.pairs);
+    outln!("  PSNR  {:.1} dB", error.psnr_db);
     parts.print();
-}
-
-/// The pair of directions at a share of all of them, 0 to below 1.
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    clippy::cast_precision_loss,
-    reason = "a pair of some thousands"
-)]
-pub(crate) fn pair_at(images: &Images, share: f64) -> usize {
-    (share * images.pairs() as f64) as usize
 }
 
 fn pictures(folder: &Path, images: &Images, file: &(dyn Evaluate + Sync), material: usize) -> anyhow::Result<()> {
@@ -123,7 +111,7 @@ fn pictures(folder: &Path, images: &Images, file: &(dyn Evaluate + Sync), materi
     };
     let mut rows = Vec::new();
     for share in PICTURED {
-        let pair = pair_at(images, share);
+        let pair = images.pair_at(share);
         let original = images.image(pair);
         let decoded = decode(images, file, material, pair);
         let difference: Vec<[f32; 3]> =

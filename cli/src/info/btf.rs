@@ -10,8 +10,8 @@ use subsurf_decoder::container::{Container, Crc};
 use subsurf_decoder::{Btf, Factored, ReadError};
 
 use super::{Args, read_error};
-use crate::memory::human;
-use crate::say::say;
+use subsurf_viewer::human;
+use crate::outln;
 
 pub(super) fn info(args: &Args, bytes: &[u8], container: &Container<'_>) -> anyhow::Result<()> {
     let parts = Parts::of(&args.file, bytes)?;
@@ -27,43 +27,37 @@ pub(super) fn info(args: &Args, bytes: &[u8], container: &Container<'_>) -> anyh
             "model": parts.model(), "tone": format!("{:?}", header.tone), "nodes": nodes, "materials": materials,
             "parts": parts.to_json(), "bytes": bytes.len(),
         });
-        say!("{value:#}");
+        outln!("{value:#}");
         return Ok(());
     }
-    say!("{}: BTF in {}, {}", args.file.display(), parts.model(), human(bytes.len() as u64));
+    outln!("{}: BTF in {}, {}", args.file.display(), parts.model(), human(bytes.len() as u64));
     for of in catalog.materials() {
         let name = if of.name().is_empty() { "unnamed" } else { of.name() };
-        say!("  {name}: {} × {} texels, mipmap levels: {}", of.width, of.height, of.levels);
+        outln!("  {name}: {} × {} texels, mipmap levels: {}", of.width, of.height, of.levels);
     }
-    say!(
+    outln!(
         "  nodes of α, sin β, θ, φ: {nodes:?}, lights measured to {:.0}°, views to {:.0}°",
         grid.cos_light_min.acos().to_degrees(),
         grid.theta_max.to_degrees(),
     );
-    say!("  {:?}", header.tone);
+    outln!("  {:?}", header.tone);
     parts.print();
     for entry in container.entries() {
-        say!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
+        outln!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
     }
     Ok(())
 }
 
-/// The material that is asked for by its name, or else by its number from 0.
-pub(crate) fn material_number(names: &[String], asked: &str) -> Option<usize> {
-    let by_number = || asked.parse().ok().filter(|number| *number < names.len());
-    names.iter().position(|name| name == asked).or_else(by_number)
-}
-
 /// What a file is made of.
-pub(crate) enum Parts {
+pub enum Parts {
     /// Nested codebooks.
-    Books(Vec<BookSize>),
+    Codebooks(Vec<CodebookSize>),
     /// Factors.
     Factors(FactorSizes),
 }
 
 /// Numbers of everything in a file of factors.
-pub(crate) struct FactorSizes {
+pub struct FactorSizes {
     luma: u8,
     chroma: u8,
     /// Codewords of every stage.
@@ -76,10 +70,10 @@ pub(crate) struct FactorSizes {
 
 impl Parts {
     /// Checks all of a file.
-    pub(crate) fn of(path: &Path, bytes: &[u8]) -> anyhow::Result<Self> {
+    pub fn of(path: &Path, bytes: &[u8]) -> anyhow::Result<Self> {
         let parts = || -> Result<Self, ReadError> {
             match Catalog::parse(bytes, Crc::Check)?.header().model {
-                Model::Nested => Ok(Self::Books(books(&Btf::parse(bytes)?))),
+                Model::Nested => Ok(Self::Codebooks(books(&Btf::parse(bytes)?))),
                 Model::Factored => {
                     let file = Factored::parse(bytes)?;
                     let shape = file.shape();
@@ -99,27 +93,27 @@ impl Parts {
 
     pub(crate) fn model(&self) -> &'static str {
         match self {
-            Self::Books(_) => "nested codebooks",
+            Self::Codebooks(_) => "nested codebooks",
             Self::Factors(_) => "factors",
         }
     }
 
     pub(crate) fn print(&self) {
         match self {
-            Self::Books(books) => books.iter().for_each(|book| say!("  {book}")),
+            Self::Codebooks(books) => books.iter().for_each(|book| outln!("  {book}")),
             Self::Factors(FactorSizes { luma, chroma, words, view_axes, light_axes, expanded }) => {
-                say!("  components: {luma} of luma, {chroma} of chroma");
-                say!("  codewords of {} stages: {words:?}", words.len());
-                say!("  axes: {view_axes} of views, {light_axes} of lights");
-                say!("  expanded when loaded: {}", human(*expanded as u64));
+                outln!("  components: {luma} of luma, {chroma} of chroma");
+                outln!("  codewords of {} stages: {words:?}", words.len());
+                outln!("  axes: {view_axes} of views, {light_axes} of lights");
+                outln!("  expanded when loaded: {}", human(*expanded as u64));
             }
         }
     }
 
     pub(crate) fn to_json(&self) -> Value {
         match self {
-            Self::Books(books) => {
-                let book = |book: &BookSize| json!({ "name": book.name, "entries": book.entries, "items": book.items, "bits": book.bits });
+            Self::Codebooks(books) => {
+                let book = |book: &CodebookSize| json!({ "name": book.name, "entries": book.entries, "items": book.items, "bits": book.bits });
                 books.iter().map(book).collect()
             }
             Self::Factors(FactorSizes { luma, chroma, words, view_axes, light_axes, expanded }) => json!({
@@ -131,17 +125,20 @@ impl Parts {
 }
 
 /// A codebook of a BTF, and how many vectors it stands for.
-pub(crate) struct BookSize {
-    pub(crate) name: String,
-    pub(crate) entries: u32,
-    /// Items of an entry, and bits of an item.
+pub struct CodebookSize {
+    /// P1 to P6 of the paper and the stage, or of chroma M, I2, I1, C and tints.
+    pub name: String,
+    /// Number of its entries.
+    pub entries: u32,
+    /// Items of an entry.
     pub(crate) items: u32,
+    /// Bits of an item.
     pub(crate) bits: u32,
     /// Vectors of its kind in the resampled data.
-    pub(crate) stands_for: u64,
+    pub stands_for: u64,
 }
 
-impl std::fmt::Display for BookSize {
+impl std::fmt::Display for CodebookSize {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let bytes = u64::from(self.entries) * u64::from(self.items) * u64::from(self.bits) / 8;
         write!(
@@ -161,7 +158,7 @@ impl std::fmt::Display for BookSize {
 }
 
 /// The codebooks of a file, from texels to colours.
-fn books(file: &Btf<'_>) -> Vec<BookSize> {
+fn books(file: &Btf<'_>) -> Vec<CodebookSize> {
     let (books, grid) = (file.nested().books(), file.grid());
     let chroma = &books.chroma;
     let texels: u64 = file.materials().map(|of| u64::from(of.texels(u8::MAX))).sum();
@@ -172,7 +169,7 @@ fn books(file: &Btf<'_>) -> Vec<BookSize> {
         let suffix = if books.count > 1 { format!(", stage {}", number + 1) } else { String::new() };
         let mut stands_for = texels;
         for (k, (name, items)) in [("P6", 1), ("P4", n_phi), ("P3", n_theta), ("P2", n_alpha)].iter().enumerate() {
-            sizes.push(BookSize {
+            sizes.push(CodebookSize {
                 name: format!("{name}{suffix}"),
                 entries: stage.books[k].entries,
                 items: *items,
@@ -182,7 +179,7 @@ fn books(file: &Btf<'_>) -> Vec<BookSize> {
             });
             stands_for *= u64::from(if k == 0 { 1 } else { *items });
         }
-        sizes.push(BookSize {
+        sizes.push(CodebookSize {
             name: format!("P1{suffix}"),
             entries: stage.slices,
             items: n_beta + 1,
@@ -199,7 +196,7 @@ fn books(file: &Btf<'_>) -> Vec<BookSize> {
         ("C", chroma.colours, 2, 8, slices * u64::from(n_alpha * n_beta)),
         ("tints", chroma.tints, 2, 8, texels),
     ];
-    let size = |(name, entries, items, bits, stands_for): (&str, u32, u32, u32, u64)| BookSize {
+    let size = |(name, entries, items, bits, stands_for): (&str, u32, u32, u32, u64)| CodebookSize {
         name: name.to_owned(),
         entries,
         items,

@@ -8,7 +8,7 @@ use std::path::Path;
 use glam::{Vec2, Vec3};
 use subsurf_runtime::scene::{Mesh, bowl, drapery, knot, relief, sphere, torus};
 
-use crate::failure::bad_request;
+use crate::program::failure::bad_request;
 pub(crate) use shadow::visibility;
 
 /// A mesh as files have it.

@@ -10,7 +10,8 @@ use crate::bssrdf::field::Field;
 use crate::bssrdf::normal::Normal;
 use crate::bssrdf::write::{logs, write_file};
 
-/// Section `LSPP` of profiles that are relative to the mean profile: planes `[node][channel][pixel]`, natural log of mm⁻².
+/// Section `LSPP` of profiles that are relative to the mean profile: planes `[node][channel][pixel]`, natural log of
+/// mm⁻².
 pub(crate) fn section(normal: &Normal, profiles: &Field) -> (Section, Vec<u8>) {
     let planes = (0..normal.geometry.nodes).flat_map(|h| (0..3).map(move |c| (h, c)));
     let values = planes.flat_map(|(h, c)| {

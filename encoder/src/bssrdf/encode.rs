@@ -15,7 +15,7 @@ use crate::error::Result;
 use crate::file::reread::reread;
 use crate::progress::Progress;
 
-/// A fitted material.
+/// A fitted material as a file, with figures of the fit.
 #[derive(Clone, Debug)]
 pub struct Encoded {
     /// The `.subsurf` file.
@@ -27,11 +27,11 @@ pub struct Encoded {
     /// ½ Σ φ (P̂_i + P̂_j − 2 ln Rd)² over all of these (Yatagawa et al. 2020, eq. 5), before profiles are rounded to
     /// half floats.
     pub cost: f64,
-    /// K of the file; 0 for per-pixel profiles.
+    /// Base materials per pixel, K; 0 for per-pixel profiles.
     pub per_pixel: usize,
     /// Base materials in the file, those that no pixel has left out; 0 for per-pixel profiles.
     pub base_materials: usize,
-    /// S.
+    /// Nodes of a profile, S.
     pub samples: usize,
     /// Whether [`Progress::stopped`] cut the fit short.
     pub stopped: bool,
@@ -53,7 +53,7 @@ pub struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// Reads a capture, for profiles of S nodes; `None` takes R + 1.
+    /// A capture, read for profiles of `samples` nodes, S; `None` takes R + 1.
     ///
     /// # Errors
     /// [`Error::Request`](crate::Error::Request) for S out of range, [`Error::Input`](crate::Error::Input) if nothing was
@@ -113,7 +113,7 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Fits a capture once.
+/// A fit of a capture, once.
 ///
 /// # Errors
 /// As [`Problem::new`] and [`Problem::fit`].

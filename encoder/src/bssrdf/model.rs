@@ -14,19 +14,19 @@ use crate::math::lanes::{self, Lanes, ZERO};
 /// A K-BMPP model relative to the mean profile.
 pub(crate) struct Model {
     pub(crate) nodes: usize,
-    /// K.
+    /// Base materials per pixel, K.
     pub(crate) per_pixel: usize,
     /// Ratios are whole multiples of 1/levels, if they are to be stored so.
     pub(crate) levels: Option<f32>,
     /// The only pairs there may be, sorted.
     pub(crate) palette: Option<Vec<[usize; 2]>>,
-    /// `[base][node]`.
+    /// Log-scale base profiles `[base][node]`, relative to the mean profile.
     pub(crate) bases: Vec<Lanes>,
     pub(crate) mixtures: Vec<Mixture>,
 }
 
 impl Model {
-    /// Every pixel is its cluster.
+    /// Model of one base material per pixel: every pixel is its cluster.
     pub(crate) fn of_clusters(clusters: Clusters, nodes: usize) -> Self {
         let mixture = |&cluster: &usize| {
             let cluster = u16::try_from(cluster).expect("at most 65,536 clusters");
@@ -56,7 +56,7 @@ impl Model {
         self.bases = bases.flat_map(|(base, _)| base).copied().collect();
     }
 
-    /// M.
+    /// Number of base materials, M.
     pub(crate) fn count(&self) -> usize {
         self.bases.len() / self.nodes
     }
@@ -106,7 +106,7 @@ impl Model {
         profile
     }
 
-    /// All pixels' profiles.
+    /// Log-scale profiles of all pixels, relative to the mean profile.
     pub(crate) fn field(&self, normal: &Normal) -> Field {
         let mut field = Field::new(normal.geometry);
         self.write_to(&mut field);

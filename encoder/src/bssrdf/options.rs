@@ -1,4 +1,4 @@
-//! What to fit, and whether a file can hold it.
+//! Options of a fit, and whether a file can hold what they ask for.
 
 use subsurf_decoder::bssrdf::layout::{
     LENGTHS_MM, MAX_BASE_MATERIALS, MAX_SAMPLES, MAX_SINGLE_BASE_MATERIALS, MODELS_BMPP,
@@ -9,7 +9,7 @@ use crate::bssrdf::window::Geometry;
 use crate::capture::Capture;
 use crate::error::{Error, Result};
 
-/// How to fit.
+/// Method of a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// A profile for every pixel (Song et al. 2009): large, and the lowest cost of eq. 5 that there is.
@@ -22,18 +22,18 @@ pub enum Method {
     Yatagawa2020,
 }
 
-/// What to fit.
+/// Options of a fit.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// How.
+    /// Method.
     pub method: Method,
-    /// K, 1, 2, 3 or 5; clusters have 1 in any case.
+    /// Base materials per pixel, K: 1, 2, 3 or 5; clusters have 1 in any case.
     pub per_pixel: usize,
-    /// M, 1 to 256; to 65,536 where K = 1.
+    /// Base materials, M: 1 to 256; to 65,536 where K = 1.
     pub base_materials: usize,
     /// Seed of the first cluster centres.
     pub seed: u64,
-    /// How mixtures are stored: [`Coding::Exact`] but for K = 2.
+    /// Coding of mixtures: [`Coding::Exact`] but for K = 2.
     pub coding: Coding,
     /// Whether base profiles are stored as half floats.
     pub half_profiles: bool,

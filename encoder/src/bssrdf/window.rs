@@ -9,9 +9,9 @@ use crate::capture::{neighbour, way_back};
 pub(crate) struct Geometry {
     /// Pixels in x and y.
     pub(crate) size: [usize; 2],
-    /// R.
+    /// Radius of the window in pixels, R.
     pub(crate) radius: usize,
-    /// S.
+    /// Nodes of a profile, S.
     pub(crate) nodes: usize,
     /// Radius of the last node in pixels.
     pub(crate) r_max_px: f64,
@@ -56,7 +56,7 @@ pub(crate) struct Offset {
 /// All offsets of one length r.
 #[derive(Clone, Debug)]
 pub(crate) struct Ring {
-    /// Node h below r.
+    /// Number h of the node below r.
     pub(crate) h: usize,
     /// Weight w of node h + 1.
     pub(crate) w: f32,
@@ -66,7 +66,7 @@ pub(crate) struct Ring {
 }
 
 impl Ring {
-    /// Whether this is r = 0.
+    /// Whether this ring is the pixel itself, r = 0.
     pub(crate) fn is_self(&self) -> bool {
         self.h == 0 && self.w == 0.0
     }

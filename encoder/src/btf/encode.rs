@@ -27,7 +27,7 @@ pub enum Goal {
 /// What a BTF file is to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// Method.
+    /// Method that makes it.
     pub method: Method,
     /// Nodes of α, sin β, θ_v and φ_v; [`presets::nodes`] if not given.
     pub nodes: Option<[u8; 4]>,
@@ -35,7 +35,7 @@ pub struct Options {
     pub has_mipmaps: bool,
     /// Seed of the first codewords.
     pub seed: u64,
-    /// Size.
+    /// How large it is to be.
     pub goal: Goal,
 }
 

@@ -1,4 +1,4 @@
-//! Coarser levels of what is known of texels.
+//! Mipmaps: coarser levels of coefficients of texels.
 
 use nalgebra::DMatrix;
 
@@ -26,12 +26,12 @@ impl Mipmaps {
         Self(covered)
     }
 
-    /// Them.
+    /// For every texel of every level, the texels of full size that it covers.
     pub(crate) fn covered(&self) -> &[Vec<u32>] {
         &self.0
     }
 
-    /// Means of columns.
+    /// Means of columns over the texels that each texel of a level covers.
     pub(crate) fn of(&self, texels: &DMatrix<f32>) -> DMatrix<f32> {
         let mut all = DMatrix::zeros(texels.nrows(), self.0.len());
         for (mut mean, covered) in all.column_iter_mut().zip(&self.0) {

@@ -1,4 +1,5 @@
-//! What the encoders know of materials: luma and chroma as few components, texel by texel and direction by direction.
+//! Truncated singular value decomposition of materials: luma and chroma as few components, texel by texel and direction by
+//! direction. All encoders but the baselines begin with it.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -15,17 +16,18 @@ use crate::math::svd::{Columns, LowRank, PASSES};
 /// Y_x(d) = Σ_c u_xc b_cd / w_d, and C_x(d) = ρ_x Y_x(d) + Σ_c v_xc q_cd / w_d for both channels. The weights w_d make
 /// errors count as they do in structural similarity: little where an image has much contrast.
 pub struct TruncatedSvd {
-    /// What the channels are.
+    /// Encoding of the channels.
     pub tone: Tone,
     /// Texels in x and in y of every material; their texels follow each other.
     pub sizes: Vec<[u32; 2]>,
     /// Weight w of each pair of directions.
     pub weights: Vec<f32>,
-    /// u, and b · w.
+    /// Luma: coefficients u of texels, and functions b · w of pairs.
     pub luma: LowRank,
-    /// ρ of both channels; zero for linear images, whose chroma u' v' does not grow with luma.
+    /// Ratio ρ of chroma to luma of every texel, both channels; zero for linear images, whose chroma u' v' does not grow
+    /// with luma.
     pub ratios: Vec<[f32; 2]>,
-    /// v, and q · w: both channels of a pair, then those of the next.
+    /// Chroma beyond ρ Y: coefficients v of texels, and functions q · w of both channels of a pair, then of the next.
     pub chroma: LowRank,
     /// Bytes of the images.
     pub raw_bytes: u64,
@@ -130,13 +132,13 @@ fn local_variance(plane: &[f32], width: usize) -> f32 {
 }
 
 impl TruncatedSvd {
-    /// q · w of one channel of chroma, `[pair × component]`.
+    /// Functions q · w of one channel of chroma, `[pair × component]`.
     pub(crate) fn chroma_basis(&self, channel: usize) -> DMatrix<f32> {
         let rows: Vec<usize> = (0..self.weights.len()).map(|pair| 2 * pair + channel).collect();
         self.chroma.basis.select_rows(&rows)
     }
 
-    /// Looks at all images of all materials a few times.
+    /// Decomposition of all images of some materials, by a few passes over them.
     ///
     /// # Errors
     /// [`Error::Request`] if the materials do not go into one file.

@@ -1,4 +1,4 @@
-//! All images of BTFs in memory, as luma and chroma.
+//! All images of a BTF in memory: display values, or half floats of linear ones.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -34,7 +34,7 @@ enum Store {
 const TOE_OF_MEAN: f32 = 0.05;
 
 impl Images {
-    /// Reads all of them.
+    /// All images of a source.
     ///
     /// # Errors
     /// The first that cannot be read; [`Error::Request`] if they do not fit into memory's address space.
@@ -91,7 +91,7 @@ impl Images {
         Ok(Self { label: source.label(), lights, views, size, tone, raw_bytes: source.raw_bytes(), pixels })
     }
 
-    /// What errors call them.
+    /// Name in errors.
     #[must_use]
     pub fn label(&self) -> &str {
         &self.label
@@ -121,7 +121,7 @@ impl Images {
         self.size.iter().map(|side| *side as usize).product()
     }
 
-    /// How their channels are to be read.
+    /// Encoding of their channels.
     #[must_use]
     pub fn tone(&self) -> Tone {
         self.tone
@@ -131,6 +131,13 @@ impl Images {
     #[must_use]
     pub fn pairs(&self) -> usize {
         self.lights.len() * self.views.len()
+    }
+
+    /// The pair at a share of all pairs, 0 to below 1.
+    #[must_use]
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a pair of some thousands")]
+    pub fn pair_at(&self, share: f64) -> usize {
+        (share * self.pairs() as f64) as usize
     }
 
     /// Bytes of all images, as they are kept, or of what they were made from.

@@ -4,9 +4,9 @@ use glam::Vec3;
 
 use crate::error::Result;
 
-/// Where the images of a BTF come from.
+/// Source of the images of a BTF, an image for every pair of a light and a view.
 pub trait Source: Sync {
-    /// What errors call it.
+    /// Name in errors: a path, for example.
     fn label(&self) -> String;
     /// Unit vectors towards the lights.
     fn lights(&self) -> Vec<Vec3>;

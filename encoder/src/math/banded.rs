@@ -58,7 +58,7 @@ impl Banded {
         }
     }
 
-    /// out += matrix · v.
+    /// Adds matrix · v to `out`.
     pub(crate) fn multiply_add(&self, v: &[Lanes], out: &mut [Lanes]) {
         let nodes = self.nodes();
         for (k, diagonal) in self.diagonals.iter().enumerate() {

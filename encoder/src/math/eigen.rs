@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 /// Eigenvalues and eigenvectors of a symmetric matrix.
 pub(crate) struct Eigen {
-    /// Eigenvalues, falling.
+    /// Eigenvalues, the largest first.
     pub(crate) values: Vec<f32>,
     /// Eigenvectors of unit length in the columns, in the order of [`Self::values`].
     pub(crate) vectors: DMatrix<f32>,

@@ -5,7 +5,7 @@ pub(crate) type Lanes = [f32; 4];
 
 pub(crate) const ZERO: Lanes = [0.0; 4];
 
-/// a + s b.
+/// Adds s b to a, lane by lane.
 #[inline]
 pub(crate) fn add_scaled(a: &mut Lanes, s: f32, b: &Lanes) {
     for c in 0..4 {
@@ -13,7 +13,7 @@ pub(crate) fn add_scaled(a: &mut Lanes, s: f32, b: &Lanes) {
     }
 }
 
-/// a + b · d, lane by lane.
+/// Adds b · d to a, lane by lane.
 #[inline]
 pub(crate) fn add_product(a: &mut Lanes, b: &Lanes, d: &Lanes) {
     for c in 0..4 {
@@ -21,7 +21,7 @@ pub(crate) fn add_product(a: &mut Lanes, b: &Lanes, d: &Lanes) {
     }
 }
 
-/// a + b.
+/// Adds b to a, lane by lane.
 #[inline]
 pub(crate) fn add(a: &mut Lanes, b: &Lanes) {
     for c in 0..4 {
@@ -40,12 +40,12 @@ pub(crate) fn dot(a: &[Lanes], b: &[Lanes]) -> [f64; 4] {
     sum
 }
 
-/// a + b of sums.
+/// Sum of two sums, lane by lane.
 pub(crate) fn sum(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
     [0, 1, 2, 3].map(|c| a[c] + b[c])
 }
 
-/// r − α A p, the residual after a conjugate-gradient step.
+/// Subtracts α A p from a residual, lane by lane: a step of conjugate gradients.
 pub(crate) fn subtract_image(residual: &mut [Lanes], alpha: &Lanes, image: &[Lanes]) {
     for (residual, image) in residual.iter_mut().zip(image) {
         for c in 0..4 {
@@ -54,7 +54,7 @@ pub(crate) fn subtract_image(residual: &mut [Lanes], alpha: &Lanes, image: &[Lan
     }
 }
 
-/// z + β p, the next conjugate direction.
+/// Replaces a direction p by z + β p, the next conjugate one, lane by lane.
 pub(crate) fn turn(direction: &mut [Lanes], beta: &Lanes, z: &[Lanes]) {
     for (direction, z) in direction.iter_mut().zip(z) {
         for c in 0..4 {
@@ -63,7 +63,7 @@ pub(crate) fn turn(direction: &mut [Lanes], beta: &Lanes, z: &[Lanes]) {
     }
 }
 
-/// a / b rounded to f32, or 0 where b is not positive.
+/// Quotient a / b of each lane, rounded to f32; 0 where b is not positive.
 pub(crate) fn ratio(a: [f64; 4], b: [f64; 4]) -> Lanes {
     #[allow(clippy::cast_possible_truncation, reason = "step lengths need no more than f32")]
     [0, 1, 2, 3].map(|c| if b[c] > 0.0 { (a[c] / b[c]) as f32 } else { 0.0 })

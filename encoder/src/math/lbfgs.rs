@@ -19,7 +19,7 @@ pub(crate) struct Bounds {
     pub(crate) upper: Vec<f64>,
 }
 
-/// When the search ends.
+/// Conditions that end the search.
 pub(crate) struct Limits<'a> {
     /// An iteration that lowers the cost by less than this share of it is the last.
     pub(crate) relative_reduction: f64,

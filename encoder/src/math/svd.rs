@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use crate::math::eigen::Eigen;
 use crate::progress::Progress;
 
-/// A ≈ texelsᵀ · basisᵀ: U S in the rows of texels, V in the columns of the basis.
+/// Approximation of low rank A ≈ texelsᵀ · basisᵀ: U S in the rows of texels, V in the columns of the basis.
 #[derive(Clone, Debug)]
 pub struct LowRank {
     /// `[component × texel]`, the texels' coefficients U S; a texel's follow each other.
@@ -72,7 +72,7 @@ impl<F: Fn(usize, &mut [f32]) + Sync> Columns<F> {
         LowRank { texels, basis }
     }
 
-    /// A · right.
+    /// Product A · right.
     fn times(&self, right: &DMatrix<f32>, progress: &dyn Progress) -> DMatrix<f32> {
         let mut parts: Vec<DMatrix<f32>> =
             (0..self.rows).step_by(ROWS).map(|row| DMatrix::zeros(ROWS.min(self.rows - row), right.ncols())).collect();
@@ -89,7 +89,7 @@ impl<F: Fn(usize, &mut [f32]) + Sync> Columns<F> {
         product
     }
 
-    /// Aᵀ · right.
+    /// Product Aᵀ · right.
     fn transposed_times(&self, right: &DMatrix<f32>, progress: &dyn Progress) -> DMatrix<f32> {
         const SHARE: usize = BLOCK / 4;
         let mut product = DMatrix::zeros(self.columns, right.ncols());
@@ -104,7 +104,7 @@ impl<F: Fn(usize, &mut [f32]) + Sync> Columns<F> {
         product
     }
 
-    /// Hands over all columns, a block at a time, with the number of the first.
+    /// Shows all columns to `work`, a block at a time, with the number of the first.
     fn blocks(&self, progress: &dyn Progress, mut work: impl FnMut(usize, &DMatrix<f32>)) {
         for first in (0..self.columns).step_by(BLOCK) {
             let count = BLOCK.min(self.columns - first);
@@ -120,7 +120,7 @@ impl<F: Fn(usize, &mut [f32]) + Sync> Columns<F> {
     }
 }
 
-/// Orthonormal columns that span the same.
+/// Orthonormal columns that span the same space, by Cholesky QR, twice.
 fn orthonormal(matrix: DMatrix<f32>) -> DMatrix<f32> {
     // Twice: what Cholesky's factor leaves over in single precision, its second use removes.
     cholesky_qr(&cholesky_qr(&matrix))

@@ -61,7 +61,7 @@ impl<C, F: AsRef<[u8]>, D: Distortion> RdPoint<C, F, D> {
 /// Files that were tried, and the one to take.
 #[derive(Clone, Debug)]
 pub struct RdCurve<C, F, D> {
-    /// All of them.
+    /// Files that were tried; in which order says each family's search.
     pub points: Vec<RdPoint<C, F, D>>,
     /// Number of the best one in [`Self::points`].
     pub best: usize,

@@ -6,11 +6,11 @@ use crate::progress::Progress;
 
 /// An encoder of one family with what its files are judged by.
 pub(super) trait Codec {
-    /// What the encoder is asked for.
+    /// Type of requests to the encoder.
     type Candidate: Clone;
-    /// What it makes.
+    /// Type of its files.
     type File: AsRef<[u8]>;
-    /// How that is judged.
+    /// Type of their errors.
     type Distortion: Distortion;
 
     /// A file, read back by the decoder.
@@ -20,12 +20,12 @@ pub(super) trait Codec {
     fn judge(&self, file: &Self::File) -> Result<Self::Distortion>;
 }
 
-/// A point of a codec's curve.
+/// Point of a codec's curve.
 pub(super) type Point<K> = RdPoint<<K as Codec>::Candidate, <K as Codec>::File, <K as Codec>::Distortion>;
-/// A codec's curve.
+/// Curve of a codec.
 pub(super) type Curve<K> = RdCurve<<K as Codec>::Candidate, <K as Codec>::File, <K as Codec>::Distortion>;
 
-/// What came of a candidate.
+/// Outcome of a candidate.
 pub(super) struct Trial {
     /// Bytes of its file.
     pub(super) bytes: usize,
@@ -33,7 +33,7 @@ pub(super) struct Trial {
     pub(super) quality: Option<f64>,
 }
 
-/// A search under way.
+/// Search under way.
 pub(super) struct Search<'a, K: Codec> {
     pub(super) codec: K,
     pub(super) target: Target,

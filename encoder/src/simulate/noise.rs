@@ -10,11 +10,11 @@ pub(crate) struct Noise {
 
 /// Where a position lies among scattered points; distances in lattice cells.
 pub(crate) struct Cell {
-    /// From the nearest point.
+    /// Distance from the nearest point.
     pub(crate) distance: f64,
     /// How much farther the second nearest is; 0 on a border.
     pub(crate) border: f64,
-    /// The nearest point's.
+    /// Number of the nearest point.
     pub(crate) number: i64,
 }
 

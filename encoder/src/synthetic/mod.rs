@@ -15,11 +15,11 @@ pub use nested::NestedShape;
 pub struct Shape {
     /// Pixels in x and y.
     pub size: [u32; 2],
-    /// R.
+    /// Radius of the window in pixels, R.
     pub radius: u16,
-    /// S.
+    /// Nodes of a profile, S.
     pub samples: u16,
-    /// M.
+    /// Base materials, M.
     pub base_materials: u32,
     /// What lies beyond the border.
     pub addressing: Addressing,
@@ -71,7 +71,8 @@ impl Shape {
         self.k_bmpp(MODEL_2BMPP, Coding::Exact, false)
     }
 
-    /// Likewise with `k` base materials per pixel and another coding, and perhaps profiles in half precision.
+    /// A K-BMPP file of `k` base materials per pixel, with a coding of its own, and with profiles in half precision if
+    /// asked for.
     #[must_use]
     pub fn k_bmpp(&self, k: u8, coding: Coding, half_profiles: bool) -> Vec<u8> {
         let header = Header { model: k, coding, ..self.header() };

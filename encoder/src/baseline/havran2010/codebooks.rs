@@ -10,30 +10,30 @@ use super::rows::{Rows, Slices};
 /// An entry of the codebook below, and a gain.
 pub(super) type Scaled = (u32, f32);
 
-/// All of them. Entries of P2, P3 and P4 have a mean luma near 1, the largest value of an entry of P1 is 1.
+/// All codebooks. Entries of P2, P3 and P4 have a mean luma near 1, the largest value of an entry of P1 is 1.
 #[derive(Clone, Debug)]
 pub(super) struct Codebooks {
     pub(super) grid: Grid,
-    /// `[entry][φ_v]`, of P3.
+    /// P4: entries of P3, `[entry][φ_v]`.
     pub(super) p4: Vec<Scaled>,
-    /// `[entry][θ_v]`, of M.
+    /// P3: entries of M, `[entry][θ_v]`.
     pub(super) p3: Vec<Scaled>,
-    /// Entries of P2 and I2.
+    /// M: pairs of entries of P2 and I2.
     pub(super) merged: Vec<[u32; 2]>,
     pub(super) number_of_merged: BTreeMap<[u32; 2], u32>,
-    /// `[entry][α]`, of P1.
+    /// P2: entries of P1, `[entry][α]`.
     pub(super) p2: Vec<Scaled>,
-    /// `[entry][β]`.
+    /// P1: values, `[entry][β]`.
     pub(super) p1: Rows,
-    /// `[entry][α]`, of I1.
+    /// I2: entries of I1, `[entry][α]`.
     pub(super) i2: Vec<u32>,
-    /// `[entry][β]`, of C.
+    /// I1: entries of C, `[entry][β]`.
     pub(super) i1: Vec<u32>,
-    /// C.
+    /// C: colours, two channels of chroma each.
     pub(super) colours: Vec<[f32; 2]>,
-    /// I1, decoded.
+    /// Entries of I1, decoded, by channel.
     pub(super) of_i1: [Rows; 2],
-    /// P2 and I2, decoded.
+    /// Entries of P2 and I2, decoded.
     pub(super) decoded: Decoded,
     /// Mean luma of the entries of P2.
     pub(super) of_p2: Vec<f32>,

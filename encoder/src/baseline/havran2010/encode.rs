@@ -17,7 +17,7 @@ use crate::btf::{common_tone, materials as records};
 use crate::error::Result;
 use crate::progress::Progress;
 
-/// What the paper's encoder is told.
+/// Options of the encoder of Havran et al. 2010.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Nodes of directions.

@@ -15,9 +15,9 @@ const CHUNK: usize = 32;
 /// One apparent BRDF, all channels `[φ_v][θ_v][α][β]`.
 #[derive(Clone, Debug)]
 pub(super) struct Function {
-    /// Not negative.
+    /// Luma, not negative.
     pub(super) luma: Slices,
-    /// From 0 to 1, see [`centre`].
+    /// Chroma from 0 to 1, see [`centre`].
     pub(super) chroma: [Slices; 2],
 }
 

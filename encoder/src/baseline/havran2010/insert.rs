@@ -40,7 +40,7 @@ fn entry(number: usize) -> u32 {
     u32::try_from(number).expect("fewer than 2³² entries")
 }
 
-/// Codebooks that grow.
+/// Codebooks that grow by pruning.
 pub(super) struct Pruning<'a> {
     pub(super) codebooks: Codebooks,
     measure: &'a Measure,

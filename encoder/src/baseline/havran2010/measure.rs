@@ -27,9 +27,9 @@ pub(super) struct Tally {
     is_mean: bool,
     bound: f32,
     count: usize,
-    /// Of means.
+    /// Sum of differences, for means.
     sum: f32,
-    /// Of percentiles.
+    /// Differences that may exceed the bound, for percentiles.
     outliers: usize,
     bad: usize,
     seen: Vec<Vec4>,
@@ -105,7 +105,7 @@ impl<'a> Part<'a> {
         Self { function, first, order }
     }
 
-    /// Mean luma.
+    /// Mean luma of all slices.
     pub(super) fn mean(&self) -> f32 {
         self.function.luma.mean(self.first..self.first + self.order.len())
     }

@@ -5,7 +5,7 @@ use glam::Vec4;
 /// Rows that are compared at a time, a number of each in a [`Vec4`].
 pub(super) const LANES: usize = 4;
 
-/// Mean and variance.
+/// Mean and variance of a row.
 fn moments(row: &[f32]) -> [f32; 2] {
     let count = row.len() as f32;
     let mean = row.iter().sum::<f32>() / count;
@@ -14,7 +14,7 @@ fn moments(row: &[f32]) -> [f32; 2] {
     [mean, variance]
 }
 
-/// 1-D slices.
+/// Set of 1-D slices with their moments.
 #[derive(Clone, Debug)]
 pub(super) struct Rows {
     nodes: usize,
@@ -58,7 +58,7 @@ impl Rows {
         Row { values: &self.values[number * self.nodes..][..self.nodes], mean, variance }
     }
 
-    /// All samples.
+    /// Samples of all rows, `[row][β]`.
     pub(super) fn values(&self) -> &[f32] {
         &self.values
     }
@@ -79,7 +79,7 @@ pub(super) struct Slices {
 /// Some rows of a 2-D slice.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Group<'a> {
-    /// For each β.
+    /// Samples at each β, a row in each lane.
     pub(super) values: &'a [Vec4],
     pub(super) means: Vec4,
     pub(super) variances: Vec4,
@@ -108,7 +108,7 @@ impl Slices {
         }
     }
 
-    /// Rows of a slice.
+    /// Number of rows of a slice.
     pub(super) fn n_alpha(&self) -> usize {
         self.n_alpha
     }

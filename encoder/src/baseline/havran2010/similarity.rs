@@ -10,9 +10,9 @@ pub enum Similarity {
     /// I2, I1 and C allow 0.5, 0.2 and 0.1, which we read as squares of the steps of 8-bit images: read as fractions of
     /// the whole range they would allow any colour, and the paper reports tens of colours.
     Mse {
-        /// What whole apparent BRDFs may differ, 1 being the square of white.
+        /// Threshold of whole apparent BRDFs, 1 being the square of white.
         threshold: f32,
-        /// The paper's is 0.4.
+        /// Factor from one codebook to the next; 0.4 in the paper.
         factor: f32,
     },
     /// By the 98th percentile of structural similarity, over slices along β in three channels (P4, P3 and M), in luma (P2
@@ -28,26 +28,26 @@ pub enum Similarity {
 /// How far vectors may be from those of each codebook: mean squared errors, or 1 − structural similarity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Allowed {
-    /// Whole apparent BRDFs.
+    /// Threshold of whole apparent BRDFs.
     pub p4: f32,
-    /// 3-D slices.
+    /// Threshold of 3-D slices.
     pub p3: f32,
-    /// 2-D slices with their colours.
+    /// Threshold of 2-D slices with their colours.
     pub merged: f32,
-    /// Luma of 2-D slices.
+    /// Threshold of luma of 2-D slices.
     pub p2: f32,
-    /// Luma of 1-D slices.
+    /// Threshold of luma of 1-D slices.
     pub p1: f32,
-    /// Chroma of 2-D slices.
+    /// Threshold of chroma of 2-D slices.
     pub i2: f32,
-    /// Chroma of 1-D slices.
+    /// Threshold of chroma of 1-D slices.
     pub i1: f32,
-    /// Single colours.
+    /// Threshold of single colours.
     pub colours: f32,
 }
 
 impl Allowed {
-    /// All of them so many times as large.
+    /// All thresholds so many times as large.
     pub(super) fn times(self, factor: f32) -> Self {
         let Self { p4, p3, merged, p2, p1, i2, i1, colours } = self;
         Self {

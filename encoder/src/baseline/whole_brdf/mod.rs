@@ -1,7 +1,7 @@
 //! What simpler codecs make of the same materials at the same number of bytes: yardsticks, without a file of their own.
 //!
-//! All of them work on whole apparent BRDFs, the three channels of a texel at all measured pairs, in the
-//! coordinates of a truncated SVD and with its weights. Only [`one_level`] is resampled to a grid; [`pca`] and [`local_pca`] are given the
+//! All of them work on whole apparent BRDFs, the three channels of a texel at all measured pairs, in the coordinates of a
+//! truncated SVD and with its weights. Only [`one_level`] is resampled to a grid; [`pca`] and [`local_pca`] are given the
 //! measured directions, which spares them the loss of resampling and takes fewer bytes than a grid.
 
 mod pca;
@@ -21,7 +21,7 @@ pub struct Baseline {
     pub bytes: u64,
     tone: Tone,
     parts: Vec<Part>,
-    /// Part of every texel.
+    /// Number of the part that every texel belongs to.
     part_of: Vec<u8>,
 }
 

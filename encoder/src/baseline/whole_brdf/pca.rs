@@ -114,7 +114,7 @@ impl Local {
         texels.column_iter().zip(kept).map(|(texel, kept)| (texel - &self.mean).norm_squared() - kept).collect()
     }
 
-    /// Mean, then axes.
+    /// Functions of the mean and of the axes, in columns.
     fn functions(&self) -> DMatrix<f32> {
         let mut all = DMatrix::zeros(self.mean.len(), self.axes.ncols() + 1);
         all.column_mut(0).copy_from(&self.mean);

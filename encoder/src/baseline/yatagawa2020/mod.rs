@@ -24,15 +24,15 @@ use crate::bssrdf::normal::Normal;
 use crate::progress::Progress;
 use objective::{Energy, Multipliers, parameters_of, with_parameters};
 
-/// N_iter.
+/// Rounds of both steps, N_iter.
 const ROUNDS: u32 = 20;
-/// a₀.
+/// Acceptance of the first round, a₀.
 const FIRST_ACCEPTANCE: f64 = 0.1;
 /// Iterations of L-BFGS-B in one round, at most.
 const STEPS: u64 = 500;
 /// Costs are sums of single-precision terms; smaller differences than this are not seen.
 const TOLERANCE: f64 = 1e-7;
-/// Smallest ratio.
+/// Smallest ratio of a base material.
 const EDGE: f64 = 1e-6;
 
 /// Fits `count` base materials, `per_pixel` for every pixel (Algorithm 1).

@@ -22,9 +22,9 @@ pub(super) struct Albedo {
 
 /// Albedo error of one pixel as a function of its profile p relative to the mean: ε = k·p − τ per channel.
 pub(super) struct Constraint {
-    /// w.
+    /// Weight w of the squared error against the cost of eq. 5.
     pub(super) weight: f32,
-    /// ∂ε/∂p.
+    /// Derivative ∂ε/∂p, `[node]`.
     pub(super) k: Vec<Lanes>,
     pub(super) tau: Lanes,
 }

@@ -65,7 +65,7 @@ pub(crate) fn solve(normal: &Normal, model: &mut Model, field: &mut Field) {
     model.write_to(field);
 }
 
-/// λ_reg R X.
+/// Product λ_reg R X with all base profiles X.
 fn regularised(bases: &[Lanes], nodes: usize) -> Vec<Lanes> {
     let regulariser = regulariser(nodes);
     let mut out = vec![ZERO; bases.len()];

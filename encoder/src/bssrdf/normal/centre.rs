@@ -7,7 +7,7 @@ use super::regulariser::regularise;
 use crate::math::lanes::{Lanes, ZERO};
 
 impl Normal {
-    /// Finds p̄ and makes b and y relative to it.
+    /// Solves for the mean profile p̄, and makes b and y relative to it.
     pub(super) fn centre(&mut self, b: &[[f64; 3]]) {
         let nodes = self.geometry.nodes;
         // One profile for all: 2 Σ A_i p̄ = Σ b_i.

@@ -13,7 +13,7 @@ use crate::math::lanes::{self, ZERO};
 /// A_i, and the part of it that comes from pairs of a pixel with itself.
 #[derive(Clone, Debug)]
 pub(crate) struct Matrix {
-    /// Σ_j φ n a aᵀ.
+    /// Matrix A_i = Σ_j φ n a aᵀ.
     pub(crate) all: Banded,
     /// The same sum over the offsets that lead back to the pixel: r = 0, and more where a small patch repeats.
     pub(crate) own: Banded,

@@ -40,9 +40,9 @@ pub(crate) struct Normal {
     pub(crate) matrix_of: Vec<u32>,
     /// Measured directions n of every pixel and offset in ring order, two bits per channel; `None` if all are 2.
     counts: Option<Vec<u8>>,
-    /// b relative to the mean profile, `[pixel][node]`.
+    /// Right-hand sides b relative to the mean profile, `[pixel][node]`.
     b: Vec<Lanes>,
-    /// p̄, natural log of mm⁻².
+    /// Mean profile p̄ `[node]`, natural log of mm⁻².
     pub(crate) mean: Vec<Lanes>,
     /// Σ_e φ y_e² relative to the mean profile.
     pub(crate) y2: f64,
@@ -54,7 +54,7 @@ pub(crate) struct Normal {
 }
 
 impl Normal {
-    /// Reads a capture once.
+    /// Normal equations of a capture, which is read once.
     pub(crate) fn of(capture: &Capture, geometry: Geometry, progress: &dyn Progress) -> Result<Self> {
         let rings = rings(&geometry);
         let mut b = vec![[0.0; 3]; geometry.pixels() * geometry.nodes];
@@ -125,7 +125,7 @@ impl Normal {
         mean
     }
 
-    /// b_i.
+    /// Right-hand side b_i of a pixel, `[node]`, relative to the mean profile.
     pub(crate) fn b(&self, pixel: usize) -> &[Lanes] {
         &self.b[pixel * self.geometry.nodes..][..self.geometry.nodes]
     }

@@ -20,7 +20,7 @@ pub(super) struct Block {
     b: Vec<[f64; 3]>,
     /// Half the light that a pixel sends out or gets, Σ ½ Rd in mm⁻²; as many pixels.
     exchange: Vec<[f64; 3]>,
-    /// Σ φ y².
+    /// Sum Σ φ y² over the block's entries.
     pub(super) y2: f64,
     /// Channels that were measured, three bits per pixel of the block and place in the window; `None` if all inside the
     /// material were.

@@ -4,14 +4,14 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use subsurf_decoder::btf::factored::model::MAX_NUMBER;
 
-use super::write;
+use super::streams;
 use crate::math::eigen::Eigen;
 
-/// Tables of all columns, smaller.
+/// Tables of all columns as a Tucker decomposition, in whole steps.
 pub(super) struct Tucker {
     /// `[axis][view node]` and `[axis][light node]`.
     pub(super) axes: [Vec<i8>; 2],
-    /// One step of each axis.
+    /// Value of a step of each axis.
     pub(super) scales: [Vec<f32>; 2],
     /// For every column `[view axis][light axis]`, in steps.
     pub(super) core: Vec<Vec<i32>>,
@@ -21,16 +21,16 @@ pub(super) struct Tucker {
     pub(super) steps: Vec<f32>,
 }
 
-/// How fine it is to be.
+/// Fineness of axes and core.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fineness {
     /// Axes of views and of lights.
     pub(super) axes: [usize; 2],
-    /// Of the core.
+    /// Fineness of the core.
     pub(super) core: CoreSize,
 }
 
-/// How fine the core is to be.
+/// Fineness of the core, by its step or by its bytes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CoreSize {
     /// Its step for a column whose coefficients have a mean square of 1, in units of the decomposition's
@@ -174,7 +174,7 @@ impl Tucker {
         let least = largest / (MAX_NUMBER as f32 - 1.0);
         let step = match fineness.core {
             CoreSize::Step(step) => step,
-            CoreSize::Bytes(most) => finest(|step| write::core(&quantised(step), fineness.axes[1]).len() <= most),
+            CoreSize::Bytes(most) => finest(|step| streams::core(&quantised(step), fineness.axes[1]).len() <= most),
         }
         .max(least);
         let core = quantised(step);

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use subsurf_decoder::btf::{Grid, Header, Model};
 
 use super::angles::{Fineness, Tucker};
-use super::sizes::Sizes;
+use super::sizes::{Sizes, positive};
 use super::space::{Components, Space};
 use super::texels::{quantise, steps};
 use super::write::Contents;
@@ -13,10 +13,10 @@ use crate::btf::materials::materials;
 use crate::btf::resample::{Measured, Resampler};
 use crate::btf::TruncatedSvd;
 use crate::capture::Images;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::progress::Progress;
 
-/// What files of factors are made from, whatever their size.
+/// What a file of factors is to be, whatever its size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Nodes of directions.
@@ -43,7 +43,7 @@ pub struct Prepared<'a> {
     ratios: Vec<[f32; 2]>,
     /// All components of luma and of chroma as the grid shows them.
     components: [Components; 2],
-    /// How much nodes count.
+    /// Weight of every node of the grid.
     node_weights: Vec<f32>,
 }
 
@@ -51,7 +51,7 @@ impl<'a> Prepared<'a> {
     /// Materials whose components are fitted to the nodes of the grid.
     ///
     /// # Errors
-    /// [`Error::Request`] for a weight of chroma that is not above 0.
+    /// [`Error::Request`](crate::Error::Request) for a weight of chroma that is not above 0.
     pub fn new(materials: &[Images], svd: &'a TruncatedSvd, options: Options) -> Result<Self> {
         positive("weight of chroma", options.chroma_weight)?;
         let (lights, views) = (materials[0].lights(), materials[0].views());
@@ -79,10 +79,10 @@ impl<'a> Prepared<'a> {
         [self.options.grid.view_nodes(), self.options.grid.light_nodes()]
     }
 
-    /// Builds a file.
+    /// A file of some sizes.
     ///
     /// # Errors
-    /// [`Error::Request`] for sizes out of range, or too many materials.
+    /// [`Error::Request`](crate::Error::Request) for sizes out of range, or too many materials.
     pub fn encode(&self, sizes: &Sizes, progress: &dyn Progress) -> Result<Vec<u8>> {
         sizes.check()?;
         let (svd, options) = (self.svd, &self.options);
@@ -145,11 +145,4 @@ impl<'a> Prepared<'a> {
         };
         Tucker::new(&tables, &energies, &self.node_weights, grid.light_nodes(), fineness)
     }
-}
-
-pub(super) fn positive(what: &str, number: f32) -> Result<()> {
-    if number.is_finite() && number > 0.0 {
-        return Ok(());
-    }
-    Err(Error::Request(format!("a {what} of {number}; it is above 0")))
 }

@@ -4,11 +4,13 @@
 //! (`angles`), and texels become sums of codewords (`texels`), chosen for the tables as they will be decoded.
 
 mod angles;
+mod budget;
 mod coder;
 mod encode;
 mod memory;
 mod sizes;
 mod space;
+mod streams;
 mod texels;
 mod write;
 

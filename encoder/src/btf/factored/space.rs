@@ -9,10 +9,10 @@ use crate::math::eigen::Eigen;
 /// Share of the largest eigenvalue that is added to all, where a few components cannot be told apart on the grid.
 const RIDGE: f32 = 1e-4;
 
-/// What connects values at nodes with what was measured at pairs.
+/// Interpolation from nodes to measured pairs, and the weights of these.
 pub(super) struct Space<'a> {
     pub(super) measured: &'a Measured,
-    /// w of every pair.
+    /// Weight w of every pair of directions.
     pub(super) weights: &'a [f32],
 }
 

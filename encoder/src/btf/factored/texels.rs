@@ -9,16 +9,16 @@ use crate::math::k_means::KMeans;
 use crate::math::k_means::euclidean::{Choice, Euclidean};
 use crate::progress::Progress;
 
-/// What one stage may take.
+/// Size of one stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StageSize {
-    /// Codewords, 1 to 256.
+    /// Number of codewords, 1 to 256.
     pub words: usize,
     /// Coefficients they add to, from the first; fewer than there are leave out the least of luma.
     pub count: usize,
 }
 
-/// Sums of codewords.
+/// Coefficients of texels as sums of codewords.
 pub(super) struct Quantised {
     /// For every stage `[coefficient × codeword]`, in steps.
     pub(super) words: Vec<DMatrix<f32>>,
@@ -47,7 +47,7 @@ fn add(columns: &mut DMatrix<f32>, chosen: &[Choice], words: &DMatrix<f32>, sign
     });
 }
 
-/// Finds codewords, in steps, for columns of coefficients, in steps.
+/// Codewords, in steps, for columns of coefficients, in steps.
 pub(super) fn quantise(columns: &DMatrix<f32>, sizes: &[StageSize], seed: u64, progress: &dyn Progress) -> Quantised {
     let mut rng = Pcg64::seed_from_u64(seed);
     let mut left = columns.clone();

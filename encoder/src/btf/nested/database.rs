@@ -38,7 +38,7 @@ pub struct Chain {
     pub p2: Vec<Item>,
     /// P1, rows of n_β values, 255 standing for 1, or 127 where signed, and the code of their mean ([`slice_mean`]).
     pub p1: Vec<u8>,
-    /// Of P6, P4, P3 and P2.
+    /// Scales of P6, P4, P3 and P2.
     pub scales: [Scales; 4],
     /// Whether values of P1 and scales have signs; not in the first stage.
     pub is_signed: bool,
@@ -53,21 +53,21 @@ pub struct Chroma {
     pub i2: Vec<u32>,
     /// I1, rows of n_β entries of C.
     pub i1: Vec<u32>,
-    /// C, two codes each.
+    /// C: colours, two codes each.
     pub colours: Vec<[u8; 2]>,
-    /// What is added to the chroma of whole texels, two codes around 128 each; empty for none.
+    /// Tints: what is added to the chroma of whole texels, two codes around 128 each; empty for none.
     pub tints: Vec<[u8; 2]>,
     /// The tint of every texel; empty where there are none.
     pub texel_tints: Vec<u32>,
-    /// Chroma of code 0.
+    /// Chroma that code 0 stands for, in both channels.
     pub first: [f32; 2],
-    /// Chroma of one step of a code.
+    /// Chroma of one step of a code, in both channels.
     pub step: [f32; 2],
     /// Whether chroma is divided by luma.
     pub is_relative: bool,
 }
 
-/// What stands after a row of P1: μ, where 2^((μ − 255)/32) is the mean of its piecewise linear function between the
+/// Code of the mean of a row of P1, which stands after it: μ, where 2^((μ − 255)/32) is the mean of its piecewise linear function between the
 /// outermost nodes, 255 counting as 1. Of signed rows it is not used.
 #[must_use]
 pub fn slice_mean(values: &[u8]) -> u8 {

@@ -1,8 +1,8 @@
-//! Logarithmic scales of codebooks.
+//! Logarithmic scales of codebooks: gains as codes of a few bits.
 
 use subsurf_decoder::btf::layout::{MAX_OCTAVES, STEPS_PER_OCTAVE, Scales};
 
-/// How finely gains are stored.
+/// Fineness with which gains are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Fineness {
     /// Bits of a code, the sign not counted.
@@ -13,7 +13,7 @@ pub(crate) struct Fineness {
 
 const STEPS: f32 = STEPS_PER_OCTAVE as f32;
 
-/// The scales of a codebook whose largest code stands for the largest gain.
+/// Scales of a codebook whose largest code stands for the largest gain.
 #[allow(clippy::cast_possible_truncation, reason = "octaves of finite gains")]
 pub(crate) fn scales(gains: impl Iterator<Item = f32>, fineness: Fineness, is_signed: bool) -> Scales {
     let largest = gains.map(f32::abs).fold(0.0, f32::max).max(f32::MIN_POSITIVE);
@@ -26,7 +26,7 @@ pub(crate) fn scales(gains: impl Iterator<Item = f32>, fineness: Fineness, is_si
     Scales { bits: fineness.bits + u8::from(is_signed), step: fineness.step, offset }
 }
 
-/// The code of the nearest scale.
+/// Code of the nearest gain.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
 pub(crate) fn code(scales: Scales, gain: f32, is_signed: bool) -> u32 {
     let bits = u32::from(scales.bits) - u32::from(is_signed);
@@ -36,7 +36,7 @@ pub(crate) fn code(scales: Scales, gain: f32, is_signed: bool) -> u32 {
     magnitude | if is_signed && gain < 0.0 { 1 << bits } else { 0 }
 }
 
-/// The scale of a code.
+/// Gain that a code stands for.
 pub(crate) fn gain(scales: Scales, code: u32, is_signed: bool) -> f32 {
     let bits = u32::from(scales.bits) - u32::from(is_signed);
     let steps = (code & ((1 << bits) - 1)) << scales.step;

@@ -11,7 +11,7 @@ pub(super) struct Slices<'a> {
     pub(super) nodes: usize,
     /// `[slice][node]`.
     pub(super) values: &'a [f32],
-    /// What a slice counts.
+    /// Weight of every slice.
     pub(super) weights: Vec<f32>,
     /// Rows of weights of nodes; slice k has row k mod their number.
     pub(super) node_weights: &'a [f32],
@@ -130,7 +130,7 @@ impl KMeans for Slices<'_> {
     }
 }
 
-/// Rows as the file has them: bytes, and their mean.
+/// Rows as the file has them: bytes, and the code of their mean.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "values from −1 to 1")]
 pub(crate) fn to_bytes(rows: &[f32], nodes: usize, is_signed: bool) -> Vec<u8> {
     let byte = |value: &f32| {
@@ -144,7 +144,7 @@ pub(crate) fn to_bytes(rows: &[f32], nodes: usize, is_signed: bool) -> Vec<u8> {
     rows.chunks_exact(nodes).flat_map(with_mean).collect()
 }
 
-/// What the decoder makes of them, without the means.
+/// Rows as the decoder has them, without the means.
 pub(super) fn from_bytes(bytes: &[u8], nodes: usize, is_signed: bool) -> Vec<f32> {
     let value = |byte: &u8| if is_signed { f32::from(byte.cast_signed()) / 127.0 } else { f32::from(*byte) / 255.0 };
     bytes.chunks_exact(nodes + 1).flat_map(|row| row[..nodes].iter().map(value)).collect()

@@ -10,7 +10,7 @@ use super::slice_exponents::by_means;
 use crate::file::container;
 
 impl Database {
-    /// What `BOOK` says of stages as files have them.
+    /// Sizes of codebooks as the section `BOOK` has them.
     fn books(&self, chains: &[Chain]) -> Books {
         let grid = &self.header.grid;
         let entries = |length: usize, row: usize| u32::try_from(length / row).expect("fewer than 2³² entries");
@@ -39,7 +39,7 @@ impl Database {
         Books { chroma, stages, count: chains.len() }
     }
 
-    /// The file.
+    /// Bytes of the file.
     ///
     /// # Panics
     /// If an index or a code needs more bits than there are entries or bits of scales, if the header counts other

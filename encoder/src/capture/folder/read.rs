@@ -14,7 +14,7 @@ pub struct Folder {
     views: Vec<Direction>,
     size: [u32; 2],
     extension: String,
-    /// By light and view.
+    /// Files by light and view.
     images: BTreeMap<[Direction; 2], PathBuf>,
 }
 

@@ -14,7 +14,7 @@ use crate::file::output::{Unfinished, write_bytes};
 pub enum Pixels {
     /// 8-bit sRGB in PNG, of the values times an exposure; what is brighter than 1 is cut off.
     Display {
-        /// Multiplies values.
+        /// Factor of all values.
         exposure: f32,
     },
     /// 32-bit linear floats in OpenEXR.

@@ -13,7 +13,7 @@ use crate::error::Result;
 const VIEWS: u16 = 18;
 /// Lights along either axis of the grid: twice the nodes that highlights need.
 const LIGHTS: u16 = 91;
-/// The lowest of both.
+/// Angle from the normal of the lowest lights and views, in degrees.
 const REACH_DEG: f32 = 85.0;
 
 /// Lights of all images: uniform in α and in sin β.

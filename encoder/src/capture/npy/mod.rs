@@ -1,4 +1,4 @@
-//! Captures: measured or simulated diffuse reflectance between pixels of a flat patch.
+//! Captures as NumPy arrays: measured or simulated diffuse reflectance between pixels of a flat patch.
 
 mod array;
 mod neighbour;
@@ -69,13 +69,13 @@ impl Capture {
         self.array.height
     }
 
-    /// N.
+    /// Number of pixels, N.
     #[must_use]
     pub fn pixels(&self) -> usize {
         self.array.width * self.array.height
     }
 
-    /// R: windows reach this many pixels to every side.
+    /// Radius of the window, R: pixels to every side.
     #[must_use]
     pub fn radius(&self) -> usize {
         self.array.radius

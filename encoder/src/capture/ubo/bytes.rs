@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 
-/// How far a file has been read.
+/// A file and how far it has been read.
 pub(super) struct Bytes<'a> {
     path: &'a Path,
     file: &'a [u8],
@@ -16,7 +16,7 @@ impl<'a> Bytes<'a> {
         Self { path, file, at: 0 }
     }
 
-    /// The next byte.
+    /// Offset of the next byte.
     pub(super) fn at(&self) -> usize {
         self.at
     }

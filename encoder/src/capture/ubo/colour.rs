@@ -8,19 +8,19 @@ const EPSILON: f32 = 1e-5;
 /// RGB from luma and two differences, columns Y, U and V (BT.470).
 const RGB_FROM_YUV: Mat3 =
     Mat3::from_cols(Vec3::ONE, Vec3::new(0.0, -0.394_65, 2.032_11), Vec3::new(1.139_83, -0.580_6, 0.0));
-/// Columns Y, Co and Cg.
+/// RGB from Y, Co and Cg, in columns.
 const RGB_FROM_YCOCG: Mat3 = Mat3::from_cols(Vec3::ONE, Vec3::new(1.0, 0.0, -1.0), Vec3::new(-1.0, 1.0, -1.0));
 
-/// Colour model.
+/// Colour model of a file, by its number there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Colour {
-    /// 0.
+    /// 0: linear RGB.
     Rgb,
-    /// 1.
+    /// 1: Y, U, V.
     Yuv,
     /// 3: principal axes of the material's own colours, and their mean.
     Axes(Mat3, Vec3),
-    /// 4.
+    /// 4: Y, Co, Cg.
     YCoCg,
     /// 9: log Y, U, V.
     LogLuma,
@@ -52,7 +52,7 @@ impl Colour {
         }
     }
 
-    /// Linear RGB.
+    /// Linear RGB of three channels.
     pub(super) fn decode(self, channels: [f32; 3]) -> Vec3 {
         let [a, b, c] = channels;
         match self {

@@ -78,9 +78,9 @@ fn dot<const N: usize>(values: &[[u8; N]], weights: &[f32], read: impl Fn([u8; N
 /// Rows of a factor that belong to one channel.
 #[derive(Clone, Copy, Debug)]
 struct Rows {
-    /// First byte.
+    /// Offset of the first row in bytes.
     start: usize,
-    /// From one to the next.
+    /// Bytes from one row to the next.
     step_bytes: usize,
 }
 

@@ -10,7 +10,7 @@ pub(crate) mod weighted;
 
 /// Vectors that can be clustered.
 pub(crate) trait KMeans {
-    /// All codewords.
+    /// Set of codewords.
     type Codebook;
     /// For every vector its codeword, and what comes with it: a gain or a distance.
     type Assignment;

@@ -35,7 +35,7 @@ impl Weighted<'_> {
         (0..self.len()).into_par_iter().map(find).collect()
     }
 
-    /// Σ w (x − c)² / Σ w.
+    /// Mean weighted squared error, Σ w (x − c)² / Σ w.
     pub(crate) fn error(&self, centres: &[f32], nearest: &[u32]) -> f32 {
         let of = |(number, centre): (usize, &u32)| {
             self.distance(number, &centres[*centre as usize * self.dimensions..][..self.dimensions])

@@ -14,7 +14,7 @@ use crate::progress::Progress;
 ///
 /// Only pairs that the capture measured count, on both sides.
 pub struct Comparison {
-    /// Albedo of every pixel.
+    /// Diffuse albedo of every pixel, from the capture and from the file.
     pub albedo: Relit,
     /// Exitance under uniform, disc and line light.
     pub lit: [Relit; 3],

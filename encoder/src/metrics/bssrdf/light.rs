@@ -3,11 +3,11 @@
 /// Irradiance patterns on a patch of W pixels width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Light {
-    /// 1 everywhere.
+    /// Irradiance 1 everywhere.
     Uniform,
-    /// 1 in a disc of radius W/6 around the centre.
+    /// Irradiance 1 in a disc of radius W/6 around the centre.
     Disc,
-    /// 1 on a vertical line, 4 pixels wide, through the centre.
+    /// Irradiance 1 on a vertical line, 4 pixels wide, through the centre.
     Line,
 }
 

@@ -3,9 +3,9 @@
 /// A patch as it looks from the capture and from a file, linear Rec. 709, row by row.
 #[derive(Clone, Debug)]
 pub struct Relit {
-    /// From the capture.
+    /// Image from the capture.
     pub reference: Vec<[f64; 3]>,
-    /// From the file.
+    /// Image from the file.
     pub image: Vec<[f64; 3]>,
 }
 

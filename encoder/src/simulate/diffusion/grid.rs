@@ -22,9 +22,9 @@ impl Axis {
 /// Voxels for one source pixel; the same for all pixels and channels of a capture.
 #[derive(Clone, Debug)]
 pub(super) struct Grid {
-    /// x and y alike.
+    /// Cells along x, and along y alike.
     pub(super) lateral: Axis,
-    /// Depth.
+    /// Cells along the depth.
     pub(super) depth: Axis,
 }
 

@@ -15,9 +15,9 @@ use crate::error::{Error, Result};
 pub enum Weight {
     /// The grey value of an image, 0 to 1, as it is stored (no gamma).
     Image(PathBuf),
-    /// The same everywhere.
+    /// The same weight everywhere.
     Constant(f64),
-    /// What the other weights leave of 1.
+    /// Rest that the other weights leave of 1.
     Rest,
 }
 
@@ -141,7 +141,7 @@ fn load(path: &Path, size: [usize; 2], meaning: Meaning) -> Result<Rgb32FImage> 
     Ok(resize(&image, width, height, FilterType::Triangle))
 }
 
-/// IEC 61966-2-1.
+/// Linear value of an sRGB one (IEC 61966-2-1), 0 to 1.
 fn from_srgb(encoded: f32) -> f32 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }

@@ -26,11 +26,11 @@ pub enum BuiltinMaterial {
 }
 
 impl BuiltinMaterial {
-    /// All of them.
+    /// All materials, in the order of the command's help.
     pub const ALL: [Self; 7] =
         [Self::Onyx, Self::Chessboard, Self::Jade, Self::Marble, Self::Stone, Self::BlueWax, Self::YellowWax];
 
-    /// Its name on the command line.
+    /// Name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -44,7 +44,7 @@ impl BuiltinMaterial {
         }
     }
 
-    /// What it looks like, in a few words.
+    /// Appearance in a few words.
     #[must_use]
     pub fn description(self) -> &'static str {
         match self {

@@ -27,7 +27,7 @@ const MAX_VOXELS: usize = 8_000_000;
 /// A capture to be simulated and written.
 #[derive(Clone, Debug)]
 pub struct Request<'a> {
-    /// Media of the patch.
+    /// Media of all pixels.
     pub map: &'a MediumMap,
     /// What the media are made from, for the sidecar.
     pub source: Value,

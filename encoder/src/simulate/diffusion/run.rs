@@ -13,7 +13,7 @@ use crate::capture::{Capture, CaptureWriter, neighbour, way_back};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 
-/// What becomes of the solutions.
+/// Processing of the solutions.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Finish {
     /// Leave every entry as its own solution gives it. Otherwise the two directions of a pair get their mean.
@@ -27,7 +27,7 @@ pub struct Finish {
     pub sensor: Option<Sensor>,
 }
 
-/// What a simulation found out about itself.
+/// Figures of a simulation about itself.
 #[derive(Clone, Copy, Debug)]
 pub struct Summary {
     /// Share of the light leaving the upper face that leaves within the window, mean over pixels and channels.
@@ -102,7 +102,7 @@ fn scratch(path: &Path) -> io::Result<File> {
     }
 }
 
-/// A mean in the making.
+/// Sum and count of what a mean is taken over.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mean {
     sum: f64,

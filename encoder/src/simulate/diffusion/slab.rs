@@ -14,7 +14,7 @@ use crate::progress::Progress;
 pub struct MediumMap {
     /// Pixels in x and y.
     pub size: [usize; 2],
-    /// Row by row.
+    /// Medium of every pixel, row by row.
     pub media: Vec<Medium>,
 }
 
@@ -25,7 +25,7 @@ pub struct MediumMap {
 /// condition φ = 2 A D ∂φ/∂n, and is measured as Rd = φ/(2 A), averaged over each pixel of the window.
 #[derive(Clone, Copy, Debug)]
 pub struct Slab<'a> {
-    /// What it is made of.
+    /// Media below all pixels.
     pub map: &'a MediumMap,
     /// What lies beyond the border of the map.
     pub addressing: Addressing,

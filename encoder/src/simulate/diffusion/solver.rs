@@ -34,9 +34,9 @@ pub(super) struct System {
     pub(super) q: Vec<Rgb>,
     /// Solution, and the guess it starts from.
     pub(super) phi: Vec<Rgb>,
-    /// E^½.
+    /// Scale of every cell, E^½.
     scale: Vec<Rgb>,
-    /// D − 2 I.
+    /// Diagonal of the scaled system less that of both triangles, D − 2 I.
     excess: Vec<Rgb>,
     direction: Vec<Rgb>,
     upper: Vec<Rgb>,

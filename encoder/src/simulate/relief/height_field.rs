@@ -22,7 +22,7 @@ pub(super) type Exchange = Vec<[u32; DIRECTIONS]>;
 
 /// Directions in which a texel looks for light from others.
 pub(super) const DIRECTIONS: usize = 24;
-/// A texel that is none.
+/// Number that stands for the sky instead of a texel.
 pub(super) const SKY: u32 = u32::MAX;
 
 /// Longest step along a ray over the plane; heights are linear in between.

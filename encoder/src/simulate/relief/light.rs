@@ -7,7 +7,7 @@ use super::reflectance::Shading;
 
 /// Irradiance of all texels under one light.
 pub(super) struct LightOn {
-    /// Unit vector.
+    /// Unit vector towards the light.
     pub(super) towards: Vec3,
     /// Irradiance that comes straight from the light: its cosine where it is seen.
     pub(super) direct: Vec<f32>,

@@ -1,4 +1,4 @@
-//! What a smooth piece of a material reflects.
+//! Reflectance of smooth pieces of materials.
 
 use glam::Vec3;
 
@@ -30,12 +30,12 @@ pub(super) struct Shading {
 const ETA: f32 = 1.5;
 
 impl Finish {
-    /// A diffuse one.
+    /// Diffuse finish of some albedo.
     pub(super) fn matte(diffuse: Vec3) -> Self {
         Self { diffuse, specular: Vec3::ZERO, roughness: [0.5; 2], fibre: Vec3::X, fibre_colour: Vec3::ZERO, fibre_width_rad: 1.0 }
     }
 
-    /// f_r in sr⁻¹.
+    /// BRDF f_r in sr⁻¹, linear Rec. 709.
     pub(super) fn reflect(&self, shading: &Shading) -> Vec3 {
         let (cos_light, cos_eye) = (shading.normal.dot(shading.light), shading.normal.dot(shading.eye));
         if cos_light <= 0.0 || cos_eye <= 0.0 {

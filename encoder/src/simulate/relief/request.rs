@@ -13,7 +13,7 @@ use crate::progress::Progress;
 /// A folder of images to be simulated and written.
 #[derive(Clone, Copy, Debug)]
 pub struct Request {
-    /// Material.
+    /// Built-in material.
     pub sample: Sample,
     /// Pixels in x and in y, 8 to 1,024.
     pub size: u32,

@@ -30,10 +30,10 @@ struct Point {
 }
 
 impl Sample {
-    /// All of them.
+    /// All materials.
     pub const ALL: [Self; 5] = [Self::Foil, Self::Leather, Self::Corduroy, Self::Knit, Self::Wood];
 
-    /// Its name on the command line.
+    /// Name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -45,7 +45,7 @@ impl Sample {
         }
     }
 
-    /// What it looks like, in a few words.
+    /// Appearance in a few words.
     #[must_use]
     pub fn description(self) -> &'static str {
         match self {
@@ -57,7 +57,7 @@ impl Sample {
         }
     }
 
-    /// Its relief of `side` texels, repeating.
+    /// Relief of `side` × `side` texels, which repeats.
     pub(super) fn relief(self, side: usize, seed: u64) -> Relief {
         let noise = Noise::new(seed);
         let points: Vec<Point> = (0..side * side)

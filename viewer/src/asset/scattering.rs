@@ -1,0 +1,138 @@
+//! What a technique needs of a translucent material and a mesh, computed without a device.
+
+use std::sync::Arc;
+
+use subsurf_decoder::Bssrdf;
+use subsurf_runtime::{Gpu, GpuMesh, GpuPoints, Known, Material, SeparableMaterial, SplatMaterial};
+use subsurf_scene::{Light, Mapping, Mesh, Outline, Scene, SkyShare, Surface, visibility};
+use subsurf_shaders::separable::{Detail, Factors};
+use subsurf_shaders::uniform::MAX_LIGHTS;
+
+use super::gpu::GpuAsset;
+use crate::error::Result;
+
+/// Longest edge of the mesh between whose vertices light is gathered, in pixels of the material.
+const LONGEST_EDGE: f32 = 1.5;
+/// How close to the gather the separable path has to come on a flat patch, in dB.
+const LEAST_DB: f32 = 40.0;
+
+/// Technique by which a translucent material is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scattering {
+    /// Every point gathers light from all others within reach: the reference.
+    Gather,
+    /// Every place that the light reaches is spread over what lies around it.
+    Splat,
+    /// Weighted irradiance maps and shared Gaussians: many times faster, and an approximation.
+    Separable,
+    /// The same with one mean profile everywhere, as if the material were not heterogeneous; for comparison.
+    Homogeneous,
+}
+
+/// Translucent material and mesh as a technique needs them: what takes long to compute, and needs no device.
+pub struct Asset {
+    mapping: Mapping,
+    parts: Parts,
+}
+
+enum Parts {
+    Gather { fine: Mesh, surface: Surface },
+    Splat { sky: Arc<Vec<SkyShare>>, factors: Factors },
+    Separable { sky: Arc<Vec<SkyShare>>, factors: Factors },
+}
+
+impl Asset {
+    /// Computes what `technique` needs; the lights of the scene count for gathers only.
+    ///
+    /// `sky`, where it is known already for this mesh and material, is not computed again.
+    ///
+    /// # Errors
+    /// The mesh is broken, or too fine a one would be needed.
+    pub fn compute(
+        material: &Bssrdf<'_>,
+        mesh: &Mesh,
+        mapping: Mapping,
+        scene: &Scene,
+        technique: Scattering,
+        sky: Option<Arc<Vec<SkyShare>>>,
+    ) -> Result<Self> {
+        let sky = || match sky {
+            Some(sky) => Ok(sky),
+            None => SkyShare::of(mesh, material).map(Arc::new),
+        };
+        let parts = match technique {
+            Scattering::Gather => {
+                let (fine, surface) = points(mesh, mapping, material, scene)?;
+                Parts::Gather { fine, surface }
+            }
+            Scattering::Splat => Parts::Splat { sky: sky()?, factors: Factors::of(material, Detail::default()) },
+            Scattering::Separable | Scattering::Homogeneous => {
+                Parts::Separable { sky: sky()?, factors: factors(material, technique) }
+            }
+        };
+        Ok(Self { mapping, parts })
+    }
+
+    /// Light from all around at every vertex, the same for all techniques that want it; none for gathers.
+    #[must_use]
+    pub fn sky(&self) -> Option<&Arc<Vec<SkyShare>>> {
+        match &self.parts {
+            Parts::Splat { sky, .. } | Parts::Separable { sky, .. } => Some(sky),
+            Parts::Gather { .. } => None,
+        }
+    }
+
+    /// Brings everything to a device; material and mesh have to be those that it was computed for.
+    ///
+    /// # Errors
+    /// The device cannot draw it, or has no room for it.
+    pub fn upload(&self, gpu: &Gpu, material: &Bssrdf<'_>, mesh: &Mesh) -> Result<GpuAsset> {
+        let outline = Outline::new(mesh, self.mapping, material.header());
+        let shared = |sky: &[SkyShare]| GpuMesh::upload(gpu, mesh, &outline, Known::Sky(sky));
+        Ok(match &self.parts {
+            Parts::Gather { fine, surface } => GpuAsset::Gather {
+                mesh: GpuMesh::upload(gpu, fine, &outline, Known::Points(surface.point_of()))?,
+                points: GpuPoints::upload(gpu, surface)?,
+                material: Material::upload(gpu, material)?,
+            },
+            Parts::Splat { sky, factors } => {
+                GpuAsset::Splat { mesh: shared(sky)?, material: SplatMaterial::upload(gpu, material, factors)? }
+            }
+            Parts::Separable { sky, factors } => {
+                GpuAsset::Separable { mesh: shared(sky)?, material: SeparableMaterial::upload(gpu, factors)? }
+            }
+        })
+    }
+}
+
+/// Factors of a material, or of its mean for [`Scattering::Homogeneous`].
+#[must_use]
+pub fn factors(material: &Bssrdf<'_>, technique: Scattering) -> Factors {
+    match technique {
+        Scattering::Homogeneous => Factors::homogeneous(material, Detail::default().gaussians),
+        Scattering::Gather | Scattering::Splat | Scattering::Separable => Factors::within(material, LEAST_DB),
+    }
+}
+
+/// The mesh with vertices close enough to gather light at, and them as points that exchange light.
+///
+/// # Errors
+/// The mesh would have too many vertices.
+pub fn points(mesh: &Mesh, mapping: Mapping, material: &Bssrdf<'_>, scene: &Scene) -> Result<(Mesh, Surface)> {
+    let fine = mesh.clone().subdivided(LONGEST_EDGE * material.header().pitch_mm)?;
+    let visibilities = vertex_visibilities(&fine, &scene.lights);
+    let surface = Surface::new(&fine, mapping, material.header(), &visibilities);
+    Ok((fine, surface))
+}
+
+/// What every vertex sees of every light: 1, or 0 in shadow.
+#[must_use]
+pub fn vertex_visibilities(mesh: &Mesh, lights: &[Light]) -> Vec<[f32; MAX_LIGHTS]> {
+    let mut visibilities = vec![[0.0; MAX_LIGHTS]; mesh.positions.len()];
+    for (k, light) in lights.iter().take(MAX_LIGHTS).enumerate() {
+        for (of_vertex, seen) in visibilities.iter_mut().zip(visibility(mesh, light)) {
+            of_vertex[k] = seen;
+        }
+    }
+    visibilities
+}
