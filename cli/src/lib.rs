@@ -4,10 +4,9 @@
 //! `subsurf-runtime` and `subsurf-viewer` instead.
 
 pub mod compare;
-mod curve;
 mod demo;
 pub mod devices;
-pub mod encode;
+mod encode;
 pub mod images;
 pub mod info;
 pub mod options;

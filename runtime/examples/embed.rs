@@ -3,8 +3,10 @@
 //! `cargo run --release -p subsurf-runtime --example embed -- jade.subsurf`
 
 use subsurf_decoder::Bssrdf;
-use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Outline, Scene, SkyShare, View, torus};
-use subsurf_runtime::{Gpu, GpuMesh, Known, Model, Path, Renderer, RuntimeOptions, SeparableMaterial, wgpu};
+use subsurf_runtime::{
+    AmbientTransfer, Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, SeparableMaterial, Technique, VertexData, wgpu,
+};
+use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Placement, Scene, torus};
 use subsurf_shaders::separable::{Detail, Factors};
 
 const SIZE: [u32; 2] = [640, 480];
@@ -35,13 +37,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let bytes = std::fs::read(file)?;
     let bssrdf = Bssrdf::parse(&bytes)?;
     let mesh = torus(18.0, 8.0, 64);
-    let outline = Outline::new(&mesh, Mapping::Box, bssrdf.header());
-    let sky = SkyShare::of(&mesh, &bssrdf)?;
-    let mesh = GpuMesh::upload(&gpu, &mesh, &outline, Known::Sky(&sky))?;
+    let placement = Placement::new(&mesh, Mapping::Box, bssrdf.header());
+    let sky = AmbientTransfer::of(&mesh, &bssrdf)?;
+    let mesh = GpuMesh::upload(&gpu, &mesh, &placement, VertexData::Ambient(&sky))?;
     let material = SeparableMaterial::upload(&gpu, &Factors::of(&bssrdf, Detail::default()))?;
-    let model = Model::Separable { mesh: &mesh, material: &material };
+    let model = Drawable::Separable { mesh: &mesh, material: &material };
     let options = RuntimeOptions { format: FORMAT, samples: 4, ..Default::default() };
-    let renderer = Renderer::new(&gpu, Path::Separable(material.terms()), options)?;
+    let renderer = Renderer::new(&gpu, Technique::Separable(material.terms()), options)?;
 
     // Again when the size changes: room for the passes of a frame.
     let [eye_mm, target_mm] = [[55.0, 60.0, 80.0], [0.0; 3]].map(Into::into);
@@ -52,7 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }],
         environment: Environment::uniform([0.35, 0.4, 0.5]),
         roughness: 0.25,
-        view: View { eye_mm, target_mm, angle: 0.5, exposure: 0.5 },
+        camera: Camera { eye_mm, target_mm, fov_y_rad: 0.5, exposure: 0.5 },
     };
     let mut frame = renderer.prepare(&gpu, &model, &scene, SIZE)?;
 

@@ -1,64 +1,64 @@
-//! What can go wrong, sorted by whose fault it is.
+//! Errors, sorted by whose fault they are: the file, the scene, the budget, the device.
 
 use subsurf_decoder::ReadError;
 
-use crate::context::Backend;
+use crate::gpu::Backend;
 
 /// Result of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// Why something could not be drawn.
+/// Reason why something could not be drawn.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The file is broken.
+    /// File that is broken.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// The mesh is broken or empty.
+    /// Mesh that a technique cannot draw.
     #[error("mesh: {0}")]
     Mesh(String),
-    /// The environment's picture is broken or empty.
-    #[error("environment: {0}")]
-    Environment(String),
-    /// The images of a BTF cannot be drawn as they are.
+    /// Mesh or environment that is broken, empty or too large.
+    #[error(transparent)]
+    Scene(#[from] subsurf_scene::Error),
+    /// Images of a BTF that cannot be drawn as they are.
     #[error("images of a BTF: {0}")]
     Images(String),
-    /// What is asked for does not fit the budget; nothing was allocated.
+    /// More than the budget; nothing was allocated.
     #[error("this takes {need_bytes} bytes on the device, more than the budget of {budget_bytes}")]
     OverBudget {
-        /// What is used already and what is needed at least.
+        /// Bytes that are used already and those that are needed at least.
         need_bytes: u64,
-        /// The budget.
+        /// Bytes of the budget.
         budget_bytes: u64,
     },
-    /// There is no device of that kind.
+    /// No device of that kind.
     #[error("no {backend} device on this machine ({reason})")]
     NoDevice {
-        /// What was asked for.
+        /// API that was asked for.
         backend: Backend,
-        /// What the driver said.
+        /// Words of the driver.
         reason: String,
     },
-    /// The device cannot hold or do something.
+    /// Size that the device cannot hold.
     #[error("the device takes {what} up to {have}; this needs {need}")]
     Unsupported {
-        /// What it is about.
+        /// Kind of the size.
         what: &'static str,
-        /// What is needed.
+        /// Size that is needed.
         need: u64,
-        /// What the device has.
+        /// Largest size of the device.
         have: u64,
     },
-    /// Passes that keep values in half floats, on a device that cannot draw to them.
+    /// Passes that need half floats to draw to, on a device that cannot draw to them.
     #[error(
         "{what} need half floats to draw to, which this device does not offer (GL_EXT_color_buffer_half_float); meshes are \
          drawn without them by the gather and by the separable path, flat patches by the gather"
     )]
     NoHalfFloats {
-        /// What it is about.
+        /// Passes that were asked for.
         what: &'static str,
     },
-    /// The device or its driver failed.
+    /// Device or driver that failed, or a request that does not fit what is on the device.
     #[error("the device failed: {0}")]
     Device(String),
 }

@@ -2,33 +2,24 @@
 //!
 //! Everything keeps within `Limits::downlevel_webgl2_defaults()`: no compute, no storage buffers, tables in textures.
 
-mod btf;
-mod cascade;
-mod context;
+mod asset;
 mod error;
-mod factors;
 mod frame;
-mod ledger;
-mod material;
-mod mesh;
-mod pass;
-mod patch;
-mod pipeline;
-mod resource;
-pub mod scene;
-mod separable;
+mod gpu;
+mod technique;
 
-pub use btf::{BtfAnswer, BtfImages, BtfMaterial, BtfQueries, BtfQuery};
-pub use context::{Backend, Gpu, OnScreen, PictureTarget, devices};
+pub use asset::{
+    AmbientTransfer, BtfImages, BtfMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial,
+    VertexData, storage_of,
+};
 pub use error::{Error, Result};
-pub use factors::{SeparableMaterial, SplatMaterial};
-pub use frame::{BACKGROUND, BtfOptions, Frame, GpuPoints, Model, Path, Plan, Renderer, RuntimeOptions};
-pub use ledger::Ledger;
-pub use material::{Material, storage_of};
-pub use mesh::{GpuMesh, Known};
-pub use patch::{Exitance, PatchLight, PatchRenderer, Region};
-pub use separable::{HomogeneousPatch, HomogeneousRenderer, SeparablePatch, SeparableRenderer};
+pub use frame::{BACKGROUND, Frame, Plan, Renderer, RuntimeOptions};
+pub use gpu::{Backend, Gpu, Ledger, OnScreen, PictureTarget, devices};
 pub use subsurf_shaders::source::Keeping;
 pub use subsurf_shaders::uniform::BtfFiltering;
 pub use subsurf_shaders::{BtfStorage, Storage};
+pub use technique::{
+    BtfAnswer, BtfOptions, BtfQueries, BtfQuery, Drawable, Exitance, HomogeneousPatch, HomogeneousRenderer, PatchLight,
+    PatchRenderer, Region, SeparablePatch, SeparableRenderer, Technique,
+};
 pub use wgpu;

@@ -7,12 +7,12 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::bssrdf::{Options, encode};
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_encoder::simulate::diffusion::{Finish, BuiltinMaterial};
-use subsurf_runtime::scene::{Environment, Light, LightShape, Mapping, Mesh, Outline, Scene, SkyShare, Surface, View};
 use subsurf_runtime::{
-    BACKGROUND, Backend, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, Renderer, RuntimeOptions,
-    SeparableMaterial, SplatMaterial,
+    AmbientTransfer, BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, Renderer, RuntimeOptions,
+    SeparableMaterial, SplatMaterial, Technique, VertexData,
 };
-use subsurf_shaders::separable::{Ranks, Factors};
+use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene, SurfacePoints};
+use subsurf_shaders::separable::{Detail, Factors};
 
 use crate::simulated;
 
@@ -50,7 +50,7 @@ pub fn scene(mesh: &Mesh) -> Scene {
         }],
         environment: Environment::uniform([0.35, 0.4, 0.5]),
         roughness: 0.25,
-        view: View { eye_mm: 4.2 * radius * towards, target_mm: Vec3::ZERO, angle: 0.5, exposure: 0.9 },
+        camera: Camera { eye_mm: 4.2 * radius * towards, target_mm: Vec3::ZERO, fov_y_rad: 0.5, exposure: 0.9 },
     }
 }
 
@@ -91,19 +91,19 @@ impl Loaded {
     #[must_use]
     pub fn under(gpu: &Gpu, way: Way, file: &[u8], mesh: &Mesh, mapping: Mapping, scene: &Scene) -> Self {
         let material = Bssrdf::parse(file).unwrap();
-        let outline = Outline::new(mesh, mapping, material.header());
-        let factors = || Factors::of(&material, Ranks::default());
+        let placement = Placement::new(mesh, mapping, material.header());
+        let factors = || Factors::of(&material, Detail::default());
         let lit = || {
-            let shares = SkyShare::of(mesh, &material).unwrap();
-            GpuMesh::upload(gpu, mesh, &outline, Known::Sky(&shares)).unwrap()
+            let shares = AmbientTransfer::of(mesh, &material).unwrap();
+            GpuMesh::upload(gpu, mesh, &placement, VertexData::Ambient(&shares)).unwrap()
         };
         match way {
             Way::Gather => {
                 // Fine enough that the sum is close to its integral.
                 let fine = mesh.clone().subdivided(0.8 * material.header().pitch_mm).unwrap();
                 let visibilities = shadows(&fine, mesh, scene);
-                let surface = Surface::new(&fine, mapping, material.header(), &visibilities);
-                let on_gpu = GpuMesh::upload(gpu, &fine, &outline, Known::Points(surface.point_of())).unwrap();
+                let surface = SurfacePoints::new(&fine, mapping, material.header(), &visibilities);
+                let on_gpu = GpuMesh::upload(gpu, &fine, &placement, VertexData::Points(&surface.point_of)).unwrap();
                 let points = GpuPoints::upload(gpu, &surface).unwrap();
                 Self::Gather(on_gpu, points, Material::upload(gpu, &material).unwrap())
             }
@@ -114,21 +114,21 @@ impl Loaded {
 
     /// As a renderer takes it.
     #[must_use]
-    pub fn model(&self) -> Model<'_> {
+    pub fn model(&self) -> Drawable<'_> {
         match self {
-            Self::Gather(mesh, points, material) => Model::Gather { mesh, points, material },
-            Self::Splat(mesh, material) => Model::Splat { mesh, material },
-            Self::Separable(mesh, material) => Model::Separable { mesh, material },
+            Self::Gather(mesh, points, material) => Drawable::Gather { mesh, points, material },
+            Self::Splat(mesh, material) => Drawable::Splat { mesh, material },
+            Self::Separable(mesh, material) => Drawable::Separable { mesh, material },
         }
     }
 
     /// The renderer's name for the path.
     #[must_use]
-    pub fn path(&self) -> Path {
+    pub fn path(&self) -> Technique {
         match self {
-            Self::Gather(_, _, material) => Path::Gather(material.storage()),
-            Self::Splat(_, material) => Path::Splat(material.planes().storage()),
-            Self::Separable(_, material) => Path::Separable(material.terms()),
+            Self::Gather(_, _, material) => Technique::Gather(material.storage()),
+            Self::Splat(_, material) => Technique::Splat(material.planes().storage()),
+            Self::Separable(_, material) => Technique::Separable(material.terms()),
         }
     }
 

@@ -11,7 +11,7 @@ use subsurf_decoder::container::crc32;
 use subsurf_decoder::{Bssrdf, Section};
 use subsurf_encoder::bssrdf::write_file;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
-use subsurf_encoder::simulate::diffusion::{Finish, BuiltinMaterial, Slab, simulate};
+use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Slab, simulate};
 use subsurf_encoder::synthetic::Shape;
 
 /// A small synthetic material of seven base materials.

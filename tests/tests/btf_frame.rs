@@ -4,14 +4,12 @@ use glam::{Vec2, Vec3};
 use subsurf_decoder::Btf;
 use subsurf_decoder::btf::{Grid, Tone};
 use subsurf_encoder::synthetic::NestedShape;
-use subsurf_runtime::scene::{
-    Environment, Light, LightShape, Mesh, Outline, REFLECTION_SIZE, Scene, View, sphere, torus,
-};
 use subsurf_runtime::{
-    BACKGROUND, Backend, BtfFiltering, BtfMaterial, BtfOptions, BtfStorage, Error, Gpu, GpuMesh, Known, Model, Path,
-    Renderer, RuntimeOptions,
+    BACKGROUND, Backend, BtfFiltering, BtfMaterial, BtfOptions, BtfStorage, Drawable, Error, Gpu, GpuMesh, Renderer,
+    RuntimeOptions, Technique, VertexData,
 };
-use subsurf_shaders::cpu;
+use subsurf_scene::{Camera, Environment, Light, LightShape, Mesh, Placement, REFLECTION_SIZE, Scene, sphere, torus};
+use subsurf_shaders::{cpu, uniform};
 use subsurf_tests::frames::device;
 
 /// Display values: a step of 255 for rounding, and one for the half floats of the environment.
@@ -48,7 +46,7 @@ fn scene(lights: usize) -> Scene {
         lights: all,
         environment: Environment::equirectangular([16, 8], &sky).unwrap(),
         roughness: 0.3,
-        view: View { eye_mm: Vec3::new(6.0, 22.0, 28.0), target_mm: Vec3::ZERO, angle: 0.5, exposure: 0.8 },
+        camera: Camera { eye_mm: Vec3::new(6.0, 22.0, 28.0), target_mm: Vec3::ZERO, fov_y_rad: 0.5, exposure: 0.8 },
     }
 }
 
@@ -60,20 +58,23 @@ fn picture(
     scene: &Scene,
     options: BtfOptions,
 ) -> Vec<[u8; 3]> {
-    let outline = Outline::of_btf(mesh, copies);
+    let placement = Placement::of_btf(mesh, copies);
     let tangents = mesh.tangents().unwrap();
-    let on_gpu = GpuMesh::upload(gpu, mesh, &outline, Known::Tangents(&tangents)).unwrap();
+    let on_gpu = GpuMesh::upload(gpu, mesh, &placement, VertexData::Tangents(&tangents)).unwrap();
     let material = BtfMaterial::upload(gpu, btf).unwrap();
-    let model = Model::Btf { mesh: &on_gpu, material: &material, number: 0 };
-    let renderer =
-        Renderer::new(gpu, Path::Btf(BtfStorage::Nested), RuntimeOptions { btf: options, ..RuntimeOptions::default() })
-            .unwrap();
+    let model = Drawable::Btf { mesh: &on_gpu, material: &material, number: 0 };
+    let renderer = Renderer::new(
+        gpu,
+        Technique::Btf(BtfStorage::Nested),
+        RuntimeOptions { btf: options, ..RuntimeOptions::default() },
+    )
+    .unwrap();
     let mut frame = renderer.prepare(gpu, &model, scene, SIZE).unwrap();
     renderer.picture(gpu, &mut frame, &model, scene).unwrap()
 }
 
 fn twin(btf: &Btf<'_>, mesh: &Mesh, copies: [f32; 2], scene: &Scene, options: BtfOptions) -> Vec<[u8; 3]> {
-    let block = scene.block(&Outline::of_btf(mesh, copies), SIZE, 512);
+    let block = uniform::Scene::new(scene, &Placement::of_btf(mesh, copies), SIZE, 512);
     let uvs = mesh.uvs.as_ref().unwrap().iter().map(|uv| *uv * Vec2::from(copies));
     let uvs: Vec<Vec2> = uvs.map(|uv| Vec2::new(uv.x, 1.0 - uv.y)).collect();
     let triangles = cpu::BtfTriangles {
@@ -155,9 +156,9 @@ fn white_surroundings_show_the_albedo() {
     for gpu in Backend::ALL.map(device) {
         let found = picture(&gpu, &btf, &mesh, [1.0; 2], &scene, options);
         // The middle of the dome, seen from where the eye is: x along x, y down the picture, which is towards z.
-        let towards = scene.view.eye_mm.normalize();
+        let towards = scene.camera.eye_mm.normalize();
         let albedo = btf.albedo(texel, [towards.x, towards.z, towards.y]);
-        let light = albedo.map(|value| 2.0 * value * scene.view.exposure);
+        let light = albedo.map(|value| 2.0 * value * scene.camera.exposure);
         let expected = cpu::display(cpu::srgb(cpu::neutral(light)));
         let middle = found[(SIZE[1] / 2 * SIZE[0] + SIZE[0] / 2) as usize];
         println!("{:?}: {middle:?}, by the albedo {expected:?}", gpu.info().backend);
@@ -173,21 +174,21 @@ fn what_cannot_be_drawn_is_said() {
     let btf = Btf::parse(&file).unwrap();
     let gpu = device(Backend::Gl);
     let mesh = torus(6.0, 2.0, 12);
-    let outline = Outline::of_btf(&mesh, [4.0, 2.0]);
+    let placement = Placement::of_btf(&mesh, [4.0, 2.0]);
     let tangents = mesh.tangents().unwrap();
     let material = BtfMaterial::upload(&gpu, &btf).unwrap();
-    let renderer = Renderer::new(&gpu, Path::Btf(BtfStorage::Nested), RuntimeOptions::default()).unwrap();
-    let on_gpu = GpuMesh::upload(&gpu, &mesh, &outline, Known::Tangents(&tangents)).unwrap();
+    let renderer = Renderer::new(&gpu, Technique::Btf(BtfStorage::Nested), RuntimeOptions::default()).unwrap();
+    let on_gpu = GpuMesh::upload(&gpu, &mesh, &placement, VertexData::Tangents(&tangents)).unwrap();
     let prepare = |mesh, number| {
-        let model = Model::Btf { mesh, material: &material, number };
+        let model = Drawable::Btf { mesh, material: &material, number };
         renderer.prepare(&gpu, &model, &scene(1), SIZE).map(|_| ()).unwrap_err()
     };
     assert!(prepare(&on_gpu, 1).to_string().contains("material 1 of a BTF of 1"), "no such material");
-    let bare = GpuMesh::upload(&gpu, &mesh, &outline, Known::Points(&vec![0; mesh.positions.len()])).unwrap();
+    let bare = GpuMesh::upload(&gpu, &mesh, &placement, VertexData::Points(&vec![0; mesh.positions.len()])).unwrap();
     assert!(prepare(&bare, 0).to_string().contains("tangents"), "no tangents");
     let budget = RuntimeOptions { budget_bytes: Some(100_000), ..RuntimeOptions::default() };
-    let renderer = Renderer::new(&gpu, Path::Btf(BtfStorage::Nested), budget).unwrap();
-    let model = Model::Btf { mesh: &on_gpu, material: &material, number: 0 };
+    let renderer = Renderer::new(&gpu, Technique::Btf(BtfStorage::Nested), budget).unwrap();
+    let model = Drawable::Btf { mesh: &on_gpu, material: &material, number: 0 };
     match renderer.prepare(&gpu, &model, &scene(1), SIZE) {
         Err(Error::OverBudget { .. }) => {}
         other => panic!("{other:?}"),

@@ -6,8 +6,8 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_encoder::simulate::diffusion::BuiltinMaterial;
 use subsurf_encoder::baseline::song2009::per_pixel_of;
-use subsurf_runtime::scene::{bowl, drapery, knot, torus};
-use subsurf_runtime::{BACKGROUND, Backend, Error, Gpu, Model, Path, Renderer, RuntimeOptions};
+use subsurf_runtime::{BACKGROUND, Backend, Drawable, Error, Gpu, Renderer, RuntimeOptions, Technique};
+use subsurf_scene::{bowl, drapery, knot, torus};
 use subsurf_tests::frames::{API_TOLERANCE, Loaded, SIZE, Way, assert_close, device, material_of, scene};
 use subsurf_tests::shape;
 
@@ -49,8 +49,8 @@ fn far_meshes_do_not_shimmer() {
     let mut worst = f64::INFINITY;
     for step in 0..4_u8 {
         let mut far = scene(&mesh);
-        far.view.eye_mm *= 6.0;
-        far.view.target_mm = Vec3::new(0.0, 0.06 * f32::from(step), 0.0);
+        far.camera.eye_mm *= 6.0;
+        far.camera.target_mm = Vec3::new(0.0, 0.06 * f32::from(step), 0.0);
         let size = [160, 120];
         let small = loaded.picture(&gpu, &far, size);
         let large = loaded.picture(&gpu, &far, size.map(|side| LARGER * side));
@@ -108,8 +108,8 @@ fn points_of_another_surface_are_refused() {
     };
     let (mesh, _, material) = of(&large);
     let (_, points, _) = of(&small);
-    let model = Model::Gather { mesh: &mesh, points: &points, material: &material };
-    let renderer = Renderer::new(&gpu, Path::Gather(material.storage()), RuntimeOptions::default()).unwrap();
+    let model = Drawable::Gather { mesh: &mesh, points: &points, material: &material };
+    let renderer = Renderer::new(&gpu, Technique::Gather(material.storage()), RuntimeOptions::default()).unwrap();
     match renderer.prepare(&gpu, &model, &scene(&large), SIZE) {
         Err(Error::Device(reason)) => assert!(reason.contains("another surface"), "{reason}"),
         other => panic!("{:?}", other.map(|frame| *frame.plan())),

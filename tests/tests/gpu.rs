@@ -6,15 +6,16 @@ use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{Addressing, Coding};
 use subsurf_encoder::synthetic::{Shape, capture_row, unit};
-use subsurf_runtime::scene::{
-    Environment, Light, LightShape, Mapping, Mesh, Outline, REFLECTION_SIZE, Scene, Surface, View, sphere, torus,
-};
 use subsurf_runtime::{
-    BACKGROUND, Backend, Gpu, GpuMesh, GpuPoints, Known, Material, Model, PatchLight, PatchRenderer, Path, Region,
-    Renderer, RuntimeOptions, SeparableMaterial, SeparableRenderer, Storage, storage_of,
+    BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, PatchLight, PatchRenderer, Region, Renderer,
+    RuntimeOptions, SeparableMaterial, SeparableRenderer, Storage, Technique, VertexData, storage_of,
 };
-use subsurf_shaders::cpu;
-use subsurf_shaders::separable::{Ranks, Factors};
+use subsurf_scene::{
+    Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, REFLECTION_SIZE, Scene, SurfacePoints, sphere,
+    torus,
+};
+use subsurf_shaders::separable::{Detail, Factors};
+use subsurf_shaders::{cpu, uniform};
 use subsurf_tests::shape;
 
 /// Targets are half floats: software drivers truncate to 11 bits, so that every target on the way costs up to 2⁻¹⁰.
@@ -126,7 +127,7 @@ fn separable(backend: Backend) {
         for (radius, terms, gaussians) in [(4, 2, 4), (20, 2, 2), (4, 1, 6)] {
             let file = shape(size, radius, addressing).bmpp();
             let material = Bssrdf::parse(&file).unwrap();
-            let factors = Factors::of(&material, Ranks { terms, gaussians });
+            let factors = Factors::of(&material, Detail { terms, gaussians });
             let uploaded = SeparableMaterial::upload(&gpu, &factors).unwrap();
             let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
             let renderer = SeparableRenderer::new(&gpu, terms).unwrap();
@@ -234,7 +235,7 @@ fn scene() -> Scene {
         ],
         environment: Environment::equirectangular([16, 8], &sky).unwrap(),
         roughness: 0.3,
-        view: View { eye_mm: Vec3::new(10.0, 12.0, 25.0), target_mm: Vec3::ZERO, angle: 0.6, exposure: 0.35 },
+        camera: Camera { eye_mm: Vec3::new(10.0, 12.0, 25.0), target_mm: Vec3::ZERO, fov_y_rad: 0.6, exposure: 0.35 },
     }
 }
 
@@ -246,27 +247,27 @@ fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, storage: Storage,
     // Shadows over half of it, with soft edges.
     let soft = |x: f32| (0.5 + 0.2 * x).clamp(0.0, 1.0);
     let visibilities: Vec<[f32; 4]> = mesh.positions.iter().map(|p| [soft(p.x), soft(-p.y), soft(p.z), 1.0]).collect();
-    let surface = Surface::new(mesh, mapping, material.header(), &visibilities);
+    let surface = SurfacePoints::new(mesh, mapping, material.header(), &visibilities);
     let size = [160, 120];
     let scene = scene();
-    let outline = Outline::new(mesh, mapping, material.header());
+    let placement = Placement::new(mesh, mapping, material.header());
 
     let options = RuntimeOptions::default();
-    let renderer = Renderer::new(&gpu, Path::Gather(storage), options).unwrap();
+    let renderer = Renderer::new(&gpu, Technique::Gather(storage), options).unwrap();
     let points = GpuPoints::upload(&gpu, &surface).unwrap();
     let uploaded = Material::upload(&gpu, &material).unwrap();
-    let on_gpu = GpuMesh::upload(&gpu, mesh, &outline, Known::Points(surface.point_of())).unwrap();
-    let model = Model::Gather { mesh: &on_gpu, points: &points, material: &uploaded };
+    let on_gpu = GpuMesh::upload(&gpu, mesh, &placement, VertexData::Points(&surface.point_of)).unwrap();
+    let model = Drawable::Gather { mesh: &on_gpu, points: &points, material: &uploaded };
     let mut frame = renderer.prepare(&gpu, &model, &scene, size).unwrap();
     let picture = renderer.picture(&gpu, &mut frame, &model, &scene).unwrap();
     let found = points.read(&gpu).unwrap();
 
-    let block = scene.block(&outline, size, options.light_texels);
-    let expected = cpu::surface_gather(&material, &surface.points(), &surface.irradiance(&block));
+    let block = uniform::Scene::new(&scene, &placement, size, options.light_texels);
+    let expected = cpu::surface_gather(&material, &surface, &cpu::irradiance(&block, &surface));
     // Irradiance and exitance.
     assert_close(&found, &expected, 2.0, &what);
 
-    let of_vertices: Vec<[f32; 3]> = surface.point_of().iter().map(|&point| found[point as usize]).collect();
+    let of_vertices: Vec<[f32; 3]> = surface.point_of.iter().map(|&point| found[point as usize]).collect();
     let triangles = cpu::Triangles {
         positions: &mesh.positions,
         normals: &mesh.normals,

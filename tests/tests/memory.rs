@@ -1,8 +1,8 @@
 //! Bytes on the device: within budgets, counted rightly, and given back.
 
 use subsurf_decoder::bssrdf::Addressing;
-use subsurf_runtime::scene::{Scene, torus};
 use subsurf_runtime::{Backend, Error, Frame, Gpu, Renderer, RuntimeOptions};
+use subsurf_scene::{Scene, torus};
 use subsurf_tests::frames::{Loaded, SIZE, Way, device, scene};
 use subsurf_tests::shape;
 

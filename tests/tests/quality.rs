@@ -9,9 +9,9 @@ use subsurf_encoder::bssrdf::{Method, Options, encode};
 use subsurf_encoder::capture::Capture;
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_encoder::metrics::bssrdf::{Light, compare};
-use subsurf_encoder::simulate::diffusion::{Finish, BuiltinMaterial};
+use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish};
 use subsurf_shaders::cpu;
-use subsurf_shaders::separable::{Ranks, Factors};
+use subsurf_shaders::separable::{Detail, Factors};
 use subsurf_tests::simulated;
 
 struct Quality {
@@ -81,7 +81,7 @@ fn judge(scene: BuiltinMaterial, share: f64) {
     let material = Bssrdf::parse(&direct.file).unwrap();
     // The usual factors, and the cheapest that are close enough on some columns: the whole patch may be a little further.
     for (factors, least_db) in
-        [(Factors::of(&material, Ranks::default()), 44.0), (Factors::within(&material, 40.0), 38.0)]
+        [(Factors::of(&material, Detail::default()), 44.0), (Factors::within(&material, 40.0), 38.0)]
     {
         for (light, db) in separable_db(&material, &factors) {
             println!("  separable path, {:?}, against the gather: {db:.1} dB, {}", factors.detail, light.name());

@@ -5,12 +5,12 @@ use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::simulate::diffusion::BuiltinMaterial;
-use subsurf_runtime::scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
 use subsurf_runtime::wgpu::TextureFormat;
 use subsurf_runtime::{
-    BACKGROUND, Backend, Error, Gpu, Keeping, Material, PatchLight, PatchRenderer, Path, Region, Renderer,
-    RuntimeOptions, Storage,
+    BACKGROUND, Backend, Error, Gpu, Keeping, Material, PatchLight, PatchRenderer, Region, Renderer, RuntimeOptions,
+    Storage, Technique,
 };
+use subsurf_scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
 use subsurf_tests::frames::{
     API_TOLERANCE, EDGE_PIXELS, Loaded, SIZE, Way, assert_close, device, material_of, psnr, scene, share_that_differs,
 };
@@ -128,7 +128,7 @@ fn devices_without_half_floats_to_draw_to_draw_the_same() {
             let share = share_that_differs(&draw(&gpu), &draw(&packed));
             assert!(share <= EDGE_PIXELS, "{backend}, {way:?}: {share} of pixels differ by more than {API_TOLERANCE}");
         }
-        match Renderer::new(&packed, Path::Splat(Storage::Bmpp), RuntimeOptions::default()) {
+        match Renderer::new(&packed, Technique::Splat(Storage::Bmpp), RuntimeOptions::default()) {
             Err(Error::NoHalfFloats { what }) => assert_eq!(what, "splats"),
             other => panic!("{other:?}"),
         }

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use subsurf_runtime::RuntimeOptions;
-use subsurf_scene::{Environment, Light, LightShape, Mesh, Scene, View};
+use subsurf_scene::{Environment, Light, LightShape, Mesh, Scene, Camera};
 
 /// Direction towards the usual light, not normalised: over the right shoulder.
 pub const DEFAULT_LIGHT: Vec3 = Vec3::new(0.9, 1.1, 0.35);
@@ -63,13 +63,13 @@ impl RenderRequest {
             }],
             environment: self.environment.clone(),
             roughness: self.roughness,
-            view: framed(mesh, self.angles, self.size),
+            camera: framed(mesh, self.angles, self.size),
         }
     }
 }
 
 /// A view in which the mesh fills a picture of `size`.
-fn framed(mesh: &Mesh, angles: Angles, size: [u32; 2]) -> View {
+fn framed(mesh: &Mesh, angles: Angles, size: [u32; 2]) -> Camera {
     const ANGLE: f32 = 0.5;
     let [low, high] = mesh.bounds();
     let target_mm = 0.5 * (low + high);
@@ -79,5 +79,5 @@ fn framed(mesh: &Mesh, angles: Angles, size: [u32; 2]) -> View {
     #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
     let aspect = (size[0] as f32 / size[1] as f32).min(1.0);
     let distance = 1.02 * radius / (0.5 * ANGLE).sin() / aspect;
-    View { eye_mm: target_mm + distance * towards, target_mm, angle: ANGLE, exposure: 1.0 }
+    Camera { eye_mm: target_mm + distance * towards, target_mm, fov_y_rad: ANGLE, exposure: 1.0 }
 }

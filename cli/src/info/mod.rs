@@ -14,7 +14,6 @@ use subsurf_viewer::read;
 
 pub use btf::{CodebookSize, FactorSizes, Parts};
 
-use crate::program::failure::bad_request;
 use subsurf_viewer::human;
 use crate::outln;
 

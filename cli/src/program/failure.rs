@@ -78,9 +78,9 @@ fn code(error: &anyhow::Error) -> u8 {
 }
 
 fn of_renderer(error: &subsurf_runtime::Error) -> u8 {
-    use subsurf_runtime::Error::{Mesh, NoDevice, NoHalfFloats, Read, Unsupported};
+    use subsurf_runtime::Error::{Mesh, NoDevice, NoHalfFloats, Read, Scene, Unsupported};
     match error {
-        Read(_) | Mesh(_) => INPUT,
+        Read(_) | Mesh(_) | Scene(_) => INPUT,
         NoDevice { .. } | NoHalfFloats { .. } | Unsupported { .. } => NO_DEVICE,
         _ => MACHINE,
     }

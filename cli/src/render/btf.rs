@@ -4,8 +4,8 @@ use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Btf;
 use subsurf_runtime::{BACKGROUND, BtfMaterial, Gpu, RuntimeOptions};
-use subsurf_scene::{Mesh, Outline, REFLECTION_SIZE, Scene};
-use subsurf_shaders::cpu;
+use subsurf_scene::{Mesh, Placement, REFLECTION_SIZE, Scene};
+use subsurf_shaders::{cpu, uniform};
 use subsurf_viewer::{
     GpuAsset, RenderRequest, RenderSession, TexturedMesh, expect_uvs, exposure_of, upload_images, vertex_visibilities,
 };
@@ -49,7 +49,7 @@ pub(crate) fn draw_btf(
     let mut draw = |material: BtfMaterial, number: usize, scene: &mut Scene, exposure: Option<f32>, name: &str| {
         facts.insert(name.to_owned(), json!(material.gpu_bytes()));
         let mut session = RenderSession::new(gpu, GpuAsset::btf(gpu, mesh, copies, material, number)?, scene, large, options)?;
-        scene.view.exposure = match exposure {
+        scene.camera.exposure = match exposure {
             Some(exposure) => exposure,
             None => session.exposure(gpu, scene)?,
         };
@@ -60,12 +60,12 @@ pub(crate) fn draw_btf(
         None => picture,
         Some(folder) => {
             let images = FolderImages::read(folder)?;
-            let exposure = Some(scene.view.exposure);
+            let exposure = Some(scene.camera.exposure);
             let beside = draw(upload_images(gpu, &images)?, 0, &mut scene, exposure, "images_gpu_bytes")?;
             montage(&[vec![picture, beside]])
         }
     };
-    facts.insert("exposure".to_owned(), json!(scene.view.exposure));
+    facts.insert("exposure".to_owned(), json!(scene.camera.exposure));
     Ok((picture, facts))
 }
 
@@ -82,9 +82,9 @@ fn on_cpu(
     let textured = TexturedMesh::new(mesh, copies)?;
     let triangles = textured.triangles(mesh, &visibilities);
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };
-    let outline = Outline::of_btf(mesh, copies);
+    let placement = Placement::of_btf(mesh, copies);
     let draw = |exposure, size| {
-        let mut block = scene.block(&outline, size, RuntimeOptions::default().light_texels);
+        let mut block = uniform::Scene::new(scene, &placement, size, RuntimeOptions::default().light_texels);
         block.exposure = exposure;
         cpu::shade_btf(&triangles, surface, &block, &reflections, size, [BACKGROUND; 3])
     };

@@ -5,8 +5,9 @@ use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_runtime::{BACKGROUND, Gpu};
-use subsurf_scene::{Mesh, Outline};
+use subsurf_scene::{Mesh, Placement};
 use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_shaders::uniform;
 use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scattering, choose_mapping, points};
 
 use super::exposure::{BRIGHT, SUPERSAMPLING, average_down, exposure_for};
@@ -33,7 +34,7 @@ pub(crate) fn draw_mesh(
             let asset = Asset::compute(material, mesh, mapping, &scene, technique, None)?.upload(gpu, material, mesh)?;
             facts.insert("gpu_bytes".to_owned(), json!(asset.material_bytes()));
             let mut session = RenderSession::new(gpu, asset, &scene, large, request.options)?;
-            scene.view.exposure = match request.exposure {
+            scene.camera.exposure = match request.exposure {
                 Some(exposure) => exposure,
                 None => session.exposure(gpu, &scene)?,
             };
@@ -44,16 +45,16 @@ pub(crate) fn draw_mesh(
         }
         None => {
             let (fine, surface) = points(mesh, mapping, material, &scene)?;
-            let outline = Outline::new(mesh, mapping, material.header());
-            let mut block = scene.block(&outline, large, request.options.light_texels);
-            let exitance = cpu::surface_gather(material, &surface.points(), &surface.irradiance(&block));
+            let placement = Placement::new(mesh, mapping, material.header());
+            let mut block = uniform::Scene::new(&scene, &placement, large, request.options.light_texels);
+            let exitance = cpu::surface_gather(material, &surface, &cpu::irradiance(&block, &surface));
             let brightest = scene.environment.irradiance(Vec3::Y).iter().copied().fold(0.0, f32::max);
             let chosen = || exposure_for(exitance.iter()).min(BRIGHT / brightest.max(1e-6)) * std::f32::consts::PI;
             block.exposure = request.exposure.unwrap_or_else(chosen);
-            scene.view.exposure = block.exposure;
-            let of_vertices = || surface.point_of().iter().map(|&point| point as usize);
+            scene.camera.exposure = block.exposure;
+            let of_vertices = || surface.point_of.iter().map(|&point| point as usize);
             let exitances: Vec<Rgb> = of_vertices().map(|point| exitance[point]).collect();
-            let visibilities: Vec<_> = of_vertices().map(|point| surface.visibilities()[point]).collect();
+            let visibilities: Vec<_> = of_vertices().map(|point| surface.visibilities[point]).collect();
             let triangles = cpu::Triangles {
                 positions: &fine.positions,
                 normals: &fine.normals,
@@ -68,6 +69,6 @@ pub(crate) fn draw_mesh(
             cpu::shade(&triangles, &block, &reflections, large, [BACKGROUND; 3])
         }
     };
-    facts.insert("exposure".to_owned(), json!(scene.view.exposure));
+    facts.insert("exposure".to_owned(), json!(scene.camera.exposure));
     Ok((average_down(&pixels, large), facts))
 }

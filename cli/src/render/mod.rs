@@ -16,7 +16,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_runtime::{Keeping, RuntimeOptions};
-use subsurf_scene::{Environment, load};
+use subsurf_scene::{Environment, load_mesh};
 use subsurf_viewer::{Content, DEFAULT_LIGHT, ROUGHNESS, RenderRequest, Scattering, human, parse, read};
 
 use crate::devices::{self, BackendArg, check_picture};
@@ -113,7 +113,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             args.refuse_scattering()?;
             let gpu = args.backend.open()?;
             let shape = args.mesh.as_deref().unwrap_or(Path::new(BTF_SHAPE));
-            let mesh = load(shape, args.extent, args.up.into())?;
+            let mesh = load_mesh(shape, args.extent, args.up.into())?;
             let (picture, facts) = draw_btf(gpu.as_ref(), &btf, &mesh, &args.btf, &args.request()?)?;
             (picture, facts, devices::name(gpu.as_ref()))
         }
@@ -159,7 +159,7 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, 
             return Err(bad_request("--light X,Y,Z is for meshes; on a patch it is uniform, disc or line"));
         }
         (Some(shape), _) => {
-            let mesh = load(shape, args.extent, args.up.into())?;
+            let mesh = load_mesh(shape, args.extent, args.up.into())?;
             draw_mesh(gpu.as_ref(), material, &mesh, args.mapping.into(), technique, &args.request()?)?
         }
     };

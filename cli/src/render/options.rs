@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use glam::Vec3;
 use subsurf_encoder::metrics::bssrdf::Light;
-use subsurf_scene::{Environment, Up};
+use subsurf_scene::{Environment, UpAxis};
 use subsurf_shaders::cpu::{self, Rgb};
 use subsurf_viewer::{Angles, MappingChoice, Scattering};
 
@@ -65,7 +65,7 @@ pub(crate) enum UpArg {
     Z,
 }
 
-impl From<UpArg> for Up {
+impl From<UpArg> for UpAxis {
     fn from(arg: UpArg) -> Self {
         match arg {
             UpArg::Y => Self::Y,

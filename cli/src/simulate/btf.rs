@@ -40,6 +40,7 @@ pub(crate) struct Args {
     seed: u64,
 }
 
+/// Sample by its name on a command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SampleArg(pub Sample);
 

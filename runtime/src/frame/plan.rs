@@ -1,20 +1,20 @@
-//! How large the buffers of a frame are, and what they take, before any of them is made.
+//! Sizes of the buffers of a frame, and the bytes that they take, before any of them is made.
 
-use subsurf_shaders::uniform::{MAX_LIGHTS, Upsampling};
+use subsurf_scene::{Camera, MAX_LIGHTS};
+use subsurf_shaders::uniform::Upsampling;
 use wgpu::TextureFormat;
 
 use crate::error::{Error, Result};
-use crate::mesh::DEPTH;
-use crate::scene::View;
+use crate::gpu::DEPTH;
 
 /// Sizes of everything that a frame allocates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
-    /// Pixels of the picture.
+    /// Width and height of the picture in pixels.
     pub size: [u32; 2],
-    /// Texels to a side of what each light sees.
+    /// Texels to a side of each light's view.
     pub light_texels: u32,
-    /// Lights with a view.
+    /// Number of lights with a view.
     pub lights: u32,
     /// Pixels of the picture to a side of a texel of the maps that scatter light.
     pub divisor: u32,
@@ -24,34 +24,35 @@ pub struct Plan {
 
 /// Bytes of a texel of half floats.
 const HALF4: u64 = 8;
-/// Coarsest maps and views that still look like the scene.
+/// Largest divisor whose maps still look like the scene.
 const LARGEST_DIVISOR: u32 = 4;
+/// Fewest texels to a side of lights' views that still look like the scene.
 pub(crate) const LEAST_LIGHT_TEXELS: u32 = 128;
 
 impl Plan {
-    /// Texels of the maps.
+    /// Width and height of the maps in texels.
     #[must_use]
     pub fn map_size(&self) -> [u32; 2] {
         self.size.map(|side| side.div_ceil(self.divisor).max(1))
     }
 
-    /// Texels of the maps that something spans whose angle to the eye has a tangent of 1.
-    pub(crate) fn texels_per_tangent(&self, view: &View) -> f32 {
+    /// Texels of the maps that a length spans which is as long as it is far from the eye.
+    pub(crate) fn texels_per_tangent(&self, camera: &Camera) -> f32 {
         #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
         let height = self.map_size()[1] as f32;
-        0.5 * height / (0.5 * view.angle).tan()
+        0.5 * height / (0.5 * camera.fov_y_rad).tan()
     }
 
-    /// How pixels of the picture lie on the maps, when the middle of the scene is `middle_mm` away.
-    pub(crate) fn upsampling(&self, view: &View, middle_mm: f32) -> Upsampling {
+    /// Block of how pixels of the picture lie on the maps, when the middle of the mesh is `middle_mm` away.
+    pub(crate) fn upsampling(&self, camera: &Camera, middle_mm: f32) -> Upsampling {
         #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
         let [maps, picture] = [self.map_size(), self.size].map(|size| size.map(|side| side as f32));
         // Surfaces that are not seen at too flat an angle are the same two texels away.
-        let near_mm = 2.0 * middle_mm.max(1e-3) / self.texels_per_tangent(view);
+        let near_mm = 2.0 * middle_mm.max(1e-3) / self.texels_per_tangent(camera);
         Upsampling { texels_per_pixel: [maps[0] / picture[0], maps[1] / picture[1]], near_mm, pad: 0 }
     }
 
-    /// Bytes of what lights see, with `levels` levels.
+    /// Bytes of lights' views with `levels` levels, and of their depth.
     pub(crate) fn light_bytes(&self, levels: u32) -> u64 {
         let texels = |level: u32| u64::from((self.light_texels >> level).max(1)).pow(2);
         let views = (0..levels).map(texels).sum::<u64>() * u64::from(light_layers(self.lights)) * 3 * HALF4;
@@ -65,7 +66,7 @@ impl Plan {
         pixels.saturating_mul(bytes_of(DEPTH) + coloured)
     }
 
-    /// The next cheaper plan, if there is one.
+    /// Next cheaper plan, if there is one.
     fn cheaper(self) -> Option<Self> {
         // What is seen least goes first.
         if self.light_texels > 2 * LEAST_LIGHT_TEXELS {
@@ -78,7 +79,10 @@ impl Plan {
         (light_texels >= LEAST_LIGHT_TEXELS).then_some(Self { light_texels, ..self })
     }
 
-    /// The best plan that fits, when `used` bytes are taken already and a plan takes what `bytes` says.
+    /// Best plan that fits, when `used` bytes are taken already and a plan takes what `bytes` says.
+    ///
+    /// # Errors
+    /// [`Error::OverBudget`] if the cheapest does not fit.
     pub(crate) fn within(self, budget: Option<u64>, used: u64, bytes: impl Fn(&Self) -> u64) -> Result<Self> {
         let Some(budget_bytes) = budget else {
             return Ok(self);
@@ -94,13 +98,14 @@ impl Plan {
     }
 }
 
-/// Layers of textures for that many lights: two at least, for drivers that take one layer for no array.
+/// Number of layers of textures for that many lights: two at least, for drivers that take one layer for no array.
 pub(crate) fn light_layers(lights: u32) -> u32 {
     #[allow(clippy::cast_possible_truncation, reason = "four")]
     let most = MAX_LIGHTS as u32;
     lights.clamp(2, most)
 }
 
+/// Bytes of a texel.
 fn bytes_of(format: TextureFormat) -> u64 {
     u64::from(format.block_copy_size(None).unwrap_or(4))
 }

@@ -5,10 +5,11 @@ use std::f32::consts::PI;
 use glam::{Vec2, Vec3, Vec4};
 use subsurf_decoder::Btf;
 use subsurf_decoder::btf::{Texel, View};
+use subsurf_scene::MAX_LIGHTS;
 
 use super::raster::{Covered, rasterise};
 use super::{Reflections, display, incident, neutral, srgb};
-use crate::uniform::{BtfFiltering, MAX_LIGHTS, Scene};
+use crate::uniform::{BtfFiltering, Scene};
 
 /// One material of a BTF, and how it is looked up.
 #[derive(Clone, Copy, Debug)]

@@ -1,18 +1,18 @@
 //! Twin of `irradiance.wgsl`.
 
-use glam::Vec4;
+use subsurf_scene::SurfacePoints;
 
 use super::{Rgb, entering, incident, sky_irradiance};
-use crate::uniform::{MAX_LIGHTS, Scene};
+use crate::uniform::Scene;
 
-/// Irradiance that enters at each point, from its position in mm, its unit normal and how much of each light reaches it:
+/// Irradiance that enters at each point of a surface:
 /// E = Σ F_t(cos) max(cos, 0) V E_light + T_sky E_sky.
 ///
 /// # Panics
 /// If there are more lights than a scene may have.
 #[must_use]
-pub fn irradiance(scene: &Scene, positions: &[Vec4], normals: &[Vec4], visibilities: &[[f32; MAX_LIGHTS]]) -> Vec<Rgb> {
-    let points = positions.iter().zip(normals).zip(visibilities);
+pub fn irradiance(scene: &Scene, points: &SurfacePoints) -> Vec<Rgb> {
+    let points = points.positions.iter().zip(&points.normals).zip(&points.visibilities);
     points
         .map(|((position, normal), seen)| {
             let normal = normal.truncate();

@@ -7,7 +7,6 @@ mod coat;
 mod fresnel;
 mod gather;
 mod irradiance;
-mod mapping;
 mod present;
 mod raster;
 mod scene;
@@ -21,12 +20,11 @@ pub use coat::{Reflections, glint, sheen};
 pub use fresnel::{diffuse_transmittance, fresnel_transmittance};
 pub use gather::{Reflectance, gather};
 pub use irradiance::irradiance;
-pub use mapping::place_in_box;
 pub use present::present;
 pub use scene::{entering, incident, sky_irradiance};
 pub use separable::separable;
 pub use shade::{Triangles, shade};
-pub use surface_gather::{Points, surface_gather};
+pub use surface_gather::surface_gather;
 pub use tone::{display, linear, neutral, srgb};
 
 /// Linear red, green and blue.

@@ -1,10 +1,11 @@
 //! Twin of `shade.wgsl`.
 
 use glam::{Vec3, Vec4};
+use subsurf_scene::MAX_LIGHTS;
 
 use super::raster::rasterise;
 use super::{Reflections, Rgb, display, fresnel_transmittance, glint, incident, neutral, sheen, srgb};
-use crate::uniform::{MAX_LIGHTS, Scene};
+use crate::uniform::Scene;
 
 /// A mesh to draw.
 #[derive(Clone, Copy, Debug)]

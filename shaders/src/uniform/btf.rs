@@ -5,9 +5,6 @@ use subsurf_decoder::Btf;
 use subsurf_decoder::btf::layout::MAX_STAGES;
 use subsurf_decoder::btf::{Codebooks, PackedTable, Tone};
 
-/// Words to a row of the texture of a file, as `btf_words.wgsl` takes them.
-pub const BTF_ROW: u32 = 2_048;
-
 /// `BtfTable` of `btf_words.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]

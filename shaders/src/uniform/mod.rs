@@ -1,14 +1,20 @@
 //! Uniform blocks, laid out as in WGSL; `tests/layout.rs` holds them to it.
 
 mod btf;
+mod scene;
 
 use bytemuck::{Pod, Zeroable};
 use subsurf_decoder::bssrdf::Header;
+use subsurf_scene::MAX_LIGHTS;
 
 use crate::cpu::Rgb;
 use crate::separable::{self, Factors, MAX_GAUSSIANS, MAX_TERMS};
 
-pub use btf::{BTF_ROW, BtfBooks, BtfFiltering, BtfImages, BtfTable, BtfTexture, MAX_LEVELS, MAX_RINGS_OF_DIRECTIONS};
+pub use btf::{BtfBooks, BtfFiltering, BtfImages, BtfTable, BtfTexture, MAX_LEVELS, MAX_RINGS_OF_DIRECTIONS};
+
+/// Texels to a row of textures that hold plain arrays, the words of a BTF file among them; every GLES 3.0 device has as
+/// many.
+pub const ROW: u32 = 2_048;
 
 /// `Material` of `material.wgsl`.
 #[repr(C)]
@@ -85,9 +91,6 @@ pub struct Surface {
     /// Number of points.
     pub points: u32,
 }
-
-/// Most lights of a scene.
-pub const MAX_LIGHTS: usize = 4;
 
 /// `LightSource` of `scene.wgsl`.
 #[repr(C)]

@@ -13,8 +13,8 @@ use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::Btf;
 use subsurf_encoder::Progress as _;
 use subsurf_runtime::{BACKGROUND, Backend, BtfFiltering, BtfMaterial, BtfOptions, BtfStorage, Gpu, RuntimeOptions};
-use subsurf_scene::{Light, LightShape, Mesh, Outline, REFLECTION_SIZE, Scene, relief, sphere};
-use subsurf_shaders::cpu;
+use subsurf_scene::{Light, LightShape, Mesh, Placement, REFLECTION_SIZE, Scene, relief, sphere};
+use subsurf_shaders::{cpu, uniform};
 use subsurf_viewer::{
     GpuAsset, RenderRequest, RenderSession, TexturedMesh, human, material_number, parse_btf, read, upload_images,
 };
@@ -68,7 +68,7 @@ fn test_meshes() -> anyhow::Result<Vec<TestMesh>> {
         ("sphere", "sphere, 7k faces", sphere(20.0, 42), [1.2, 10.0, 170.0]),
         ("relief", "dragon, 115k faces", relief(20.0, 8, 170), [1.1, 8.0, 10.0]),
     ];
-    let test_mesh = |(name, stands_for, mesh, published_fps)| {
+    let test_mesh = |(name, stands_for, mesh, published_fps): (_, _, Mesh, _)| {
         Ok(TestMesh { name, stands_for, mesh: mesh.fitted(EXTENT_MM)?, published_fps })
     };
     all.into_iter().map(test_mesh).collect()
@@ -236,7 +236,7 @@ impl Setting<'_> {
         let target = gpu.target(size, options.format)?;
         let times = timed(self.args.frames, self.bars, || {
             turn(&mut scene);
-            renderer.draw(gpu, &mut frame, &asset.model(), &scene, target.view())?;
+            renderer.draw(gpu, &mut frame, &asset.drawable(), &scene, target.view())?;
             Ok(gpu.finish()?)
         })?;
         Ok(Row { device: self.backend.to_string(), storage, filtering, times, material_bytes })
@@ -260,11 +260,11 @@ fn on_cpu(
     let textured = TexturedMesh::new(mesh, copies)?;
     let triangles = textured.triangles(mesh, &lit);
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };
-    let outline = Outline::of_btf(mesh, copies);
+    let placement = Placement::of_btf(mesh, copies);
     let mut scene = scene.clone();
     let times = timed(args.frames, bars, || {
         turn(&mut scene);
-        let block = scene.block(&outline, args.size.0, RuntimeOptions::default().light_texels);
+        let block = uniform::Scene::new(&scene, &placement, args.size.0, RuntimeOptions::default().light_texels);
         let picture = cpu::shade_btf(&triangles, &surface, &block, &reflections, args.size.0, [BACKGROUND; 3]);
         std::hint::black_box(picture);
         Ok(())

@@ -63,14 +63,14 @@ impl BenchCase {
     fn draw(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<f64> {
         let RenderSession { asset, renderer, frame } = &mut self.session;
         let begin = Instant::now();
-        renderer.draw(gpu, frame, &asset.model(), scene, self.target.view())?;
+        renderer.draw(gpu, frame, &asset.drawable(), scene, self.target.view())?;
         gpu.finish()?;
         Ok(ms(begin.elapsed()))
     }
 
     fn draw_timed(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<()> {
         let RenderSession { asset, renderer, frame } = &mut self.session;
-        let passes = renderer.draw_timed(gpu, frame, &asset.model(), scene, self.target.view())?;
+        let passes = renderer.draw_timed(gpu, frame, &asset.drawable(), scene, self.target.view())?;
         self.times.order = passes.iter().map(|(name, _)| *name).collect();
         for (name, time) in passes {
             self.times.passes.entry(name).or_default().push(ms(time));
@@ -83,7 +83,7 @@ impl BenchCase {
 /// Cases take turns: what else the machine does falls on all of them alike. If `frames` is 0, the first one counts.
 pub(super) fn run(gpu: &Gpu, cases: &mut [BenchCase], mesh: &Mesh, size: [u32; 2], frames: usize) -> anyhow::Result<()> {
     let mut scene = RenderRequest::usual(size).scene(mesh);
-    scene.view.exposure = 0.5;
+    scene.camera.exposure = 0.5;
     let bars = Bars::new();
     bars.begin("frames", ((2 * frames + 1) * cases.len()) as u64);
     for number in 0..=frames {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use subsurf_scene::{Mesh, Up, load};
+use subsurf_scene::{Mesh, UpAxis, load_mesh};
 
 /// Longest side of all meshes, in mm.
 pub(super) const EXTENT_MM: f32 = 60.0;
@@ -14,5 +14,5 @@ pub(super) fn stem(path: &Path) -> String {
 
 /// Mesh of a file, or a shape, and its name.
 pub(super) fn named(path: &Path) -> anyhow::Result<(String, Mesh)> {
-    Ok((stem(path), load(path, EXTENT_MM, Up::Y)?))
+    Ok((stem(path), load_mesh(path, EXTENT_MM, UpAxis::Y)?))
 }

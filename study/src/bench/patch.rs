@@ -12,7 +12,7 @@ use subsurf_runtime::{
     Backend, Gpu, HomogeneousRenderer, Material, PatchLight, PatchRenderer, Region, SeparableMaterial,
     SeparableRenderer, storage_of,
 };
-use subsurf_shaders::separable::{Ranks, Factors, Stage, mean_kernel};
+use subsurf_shaders::separable::{Detail, Factors, Stage, mean_kernel};
 
 use super::devices::to_compare;
 use super::timing::median;
@@ -71,7 +71,7 @@ fn measure(gpu: &Gpu, backend: Backend, side: u32, args: &Args) -> anyhow::Resul
     // A gather takes long enough to be timed a few times only.
     let gather = times(gpu, args.frames.min(3), || renderer.gather(gpu, &uploaded, &light, whole).map(|_| ()))?;
 
-    let factors = Factors::of(&material, Ranks::default());
+    let factors = Factors::of(&material, Detail::default());
     let uploaded = SeparableMaterial::upload(gpu, &factors)?;
     let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
     let patch = renderer.prepare(gpu, &uploaded, &light)?;

@@ -25,7 +25,7 @@ use subsurf_viewer::human;
 
 use self::record::{FitCase, Record, capture_name};
 use self::results::Results;
-use crate::duration;
+use crate::page::duration;
 
 /// Repeat the experiments of Yatagawa et al. 2020 on simulated materials, with and without measurement noise.
 ///

@@ -6,7 +6,7 @@ use subsurf_encoder::baseline::whole_brdf::{Baseline, local_pca, local_pca_bytes
 use subsurf_encoder::btf::nested::Extent;
 use subsurf_encoder::btf::{Method, Options, Setup, TruncatedSvd, presets};
 use subsurf_encoder::capture::Images;
-use subsurf_encoder::rate::Target;
+use subsurf_encoder::rate::bssrdf::Target;
 use subsurf_encoder::rate::btf::search;
 
 use super::svd::{SEED, shared_svd};

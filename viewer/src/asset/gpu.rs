@@ -1,9 +1,9 @@
 //! Material and mesh on a device.
 
 use subsurf_runtime::{
-    BtfMaterial, Gpu, GpuMesh, GpuPoints, Known, Material, Model, Path, SeparableMaterial, SplatMaterial,
+    BtfMaterial, Gpu, GpuMesh, GpuPoints, Drawable, Material, Technique, VertexData, SeparableMaterial, SplatMaterial,
 };
-use subsurf_scene::{Mesh, Outline};
+use subsurf_scene::{Mesh, Placement};
 
 use crate::error::Result;
 
@@ -51,7 +51,7 @@ impl GpuAsset {
     /// The mesh has no texture coordinates, or the device no room for it.
     pub fn btf(gpu: &Gpu, mesh: &Mesh, repeats: [f32; 2], material: BtfMaterial, number: usize) -> Result<Self> {
         let tangents = mesh.tangents()?;
-        let mesh = GpuMesh::upload(gpu, mesh, &Outline::of_btf(mesh, repeats), Known::Tangents(&tangents))?;
+        let mesh = GpuMesh::upload(gpu, mesh, &Placement::of_btf(mesh, repeats), VertexData::Tangents(&tangents))?;
         Ok(Self::Btf { mesh, material, number })
     }
 
@@ -79,23 +79,23 @@ impl GpuAsset {
 
     /// What the renderer draws.
     #[must_use]
-    pub fn model(&self) -> Model<'_> {
+    pub fn drawable(&self) -> Drawable<'_> {
         match self {
-            Self::Gather { mesh, points, material } => Model::Gather { mesh, points, material },
-            Self::Splat { mesh, material } => Model::Splat { mesh, material },
-            Self::Separable { mesh, material } => Model::Separable { mesh, material },
-            Self::Btf { mesh, material, number } => Model::Btf { mesh, material, number: *number },
+            Self::Gather { mesh, points, material } => Drawable::Gather { mesh, points, material },
+            Self::Splat { mesh, material } => Drawable::Splat { mesh, material },
+            Self::Separable { mesh, material } => Drawable::Separable { mesh, material },
+            Self::Btf { mesh, material, number } => Drawable::Btf { mesh, material, number: *number },
         }
     }
 
     /// How the renderer draws it.
     #[must_use]
-    pub fn path(&self) -> Path {
+    pub fn technique(&self) -> Technique {
         match self {
-            Self::Gather { material, .. } => Path::Gather(material.storage()),
-            Self::Splat { material, .. } => Path::Splat(material.planes().storage()),
-            Self::Separable { material, .. } => Path::Separable(material.terms()),
-            Self::Btf { material, .. } => Path::Btf(material.storage()),
+            Self::Gather { material, .. } => Technique::Gather(material.storage()),
+            Self::Splat { material, .. } => Technique::Splat(material.planes().storage()),
+            Self::Separable { material, .. } => Technique::Separable(material.terms()),
+            Self::Btf { material, .. } => Technique::Btf(material.storage()),
         }
     }
 }

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use subsurf_decoder::Bssrdf;
-use subsurf_runtime::{Gpu, GpuMesh, GpuPoints, Known, Material, SeparableMaterial, SplatMaterial};
-use subsurf_scene::{Light, Mapping, Mesh, Outline, Scene, SkyShare, Surface, visibility};
+use subsurf_runtime::{AmbientTransfer, Gpu, GpuMesh, GpuPoints, VertexData, Material, SeparableMaterial, SplatMaterial};
+use subsurf_scene::{Light, MAX_LIGHTS, Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
 use subsurf_shaders::separable::{Detail, Factors};
-use subsurf_shaders::uniform::MAX_LIGHTS;
+
 
 use super::gpu::GpuAsset;
 use crate::error::Result;
@@ -36,9 +36,9 @@ pub struct Asset {
 }
 
 enum Parts {
-    Gather { fine: Mesh, surface: Surface },
-    Splat { sky: Arc<Vec<SkyShare>>, factors: Factors },
-    Separable { sky: Arc<Vec<SkyShare>>, factors: Factors },
+    Gather { fine: Mesh, surface: SurfacePoints },
+    Splat { sky: Arc<Vec<AmbientTransfer>>, factors: Factors },
+    Separable { sky: Arc<Vec<AmbientTransfer>>, factors: Factors },
 }
 
 impl Asset {
@@ -54,11 +54,11 @@ impl Asset {
         mapping: Mapping,
         scene: &Scene,
         technique: Scattering,
-        sky: Option<Arc<Vec<SkyShare>>>,
+        sky: Option<Arc<Vec<AmbientTransfer>>>,
     ) -> Result<Self> {
         let sky = || match sky {
             Some(sky) => Ok(sky),
-            None => SkyShare::of(mesh, material).map(Arc::new),
+            None => AmbientTransfer::of(mesh, material).map(Arc::new),
         };
         let parts = match technique {
             Scattering::Gather => {
@@ -75,7 +75,7 @@ impl Asset {
 
     /// Light from all around at every vertex, the same for all techniques that want it; none for gathers.
     #[must_use]
-    pub fn sky(&self) -> Option<&Arc<Vec<SkyShare>>> {
+    pub fn sky(&self) -> Option<&Arc<Vec<AmbientTransfer>>> {
         match &self.parts {
             Parts::Splat { sky, .. } | Parts::Separable { sky, .. } => Some(sky),
             Parts::Gather { .. } => None,
@@ -87,11 +87,11 @@ impl Asset {
     /// # Errors
     /// The device cannot draw it, or has no room for it.
     pub fn upload(&self, gpu: &Gpu, material: &Bssrdf<'_>, mesh: &Mesh) -> Result<GpuAsset> {
-        let outline = Outline::new(mesh, self.mapping, material.header());
-        let shared = |sky: &[SkyShare]| GpuMesh::upload(gpu, mesh, &outline, Known::Sky(sky));
+        let placement = Placement::new(mesh, self.mapping, material.header());
+        let shared = |sky: &[AmbientTransfer]| GpuMesh::upload(gpu, mesh, &placement, VertexData::Ambient(sky));
         Ok(match &self.parts {
             Parts::Gather { fine, surface } => GpuAsset::Gather {
-                mesh: GpuMesh::upload(gpu, fine, &outline, Known::Points(surface.point_of()))?,
+                mesh: GpuMesh::upload(gpu, fine, &placement, VertexData::Points(&surface.point_of))?,
                 points: GpuPoints::upload(gpu, surface)?,
                 material: Material::upload(gpu, material)?,
             },
@@ -118,10 +118,10 @@ pub fn factors(material: &Bssrdf<'_>, technique: Scattering) -> Factors {
 ///
 /// # Errors
 /// The mesh would have too many vertices.
-pub fn points(mesh: &Mesh, mapping: Mapping, material: &Bssrdf<'_>, scene: &Scene) -> Result<(Mesh, Surface)> {
+pub fn points(mesh: &Mesh, mapping: Mapping, material: &Bssrdf<'_>, scene: &Scene) -> Result<(Mesh, SurfacePoints)> {
     let fine = mesh.clone().subdivided(LONGEST_EDGE * material.header().pitch_mm)?;
     let visibilities = vertex_visibilities(&fine, &scene.lights);
-    let surface = Surface::new(&fine, mapping, material.header(), &visibilities);
+    let surface = SurfacePoints::new(&fine, mapping, material.header(), &visibilities);
     Ok((fine, surface))
 }
 

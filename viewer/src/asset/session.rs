@@ -23,8 +23,8 @@ impl RenderSession {
     /// # Errors
     /// What the device cannot do, or has no room for.
     pub fn new(gpu: &Gpu, asset: GpuAsset, scene: &Scene, size: [u32; 2], options: RuntimeOptions) -> Result<Self> {
-        let renderer = Renderer::new(gpu, asset.path(), options)?;
-        let frame = renderer.prepare(gpu, &asset.model(), scene, size)?;
+        let renderer = Renderer::new(gpu, asset.technique(), options)?;
+        let frame = renderer.prepare(gpu, &asset.drawable(), scene, size)?;
         Ok(Self { asset, renderer, frame })
     }
 
@@ -33,7 +33,7 @@ impl RenderSession {
     /// # Errors
     /// The device failed.
     pub fn picture(&mut self, gpu: &Gpu, scene: &Scene) -> Result<Vec<[u8; 3]>> {
-        Ok(self.renderer.picture(gpu, &mut self.frame, &self.asset.model(), scene)?)
+        Ok(self.renderer.picture(gpu, &mut self.frame, &self.asset.drawable(), scene)?)
     }
 
     /// The exposure that suits a picture of a scene.
@@ -56,8 +56,8 @@ pub(crate) fn chosen_exposure(
     let mut scene = scene.clone();
     let mut failed = Ok(());
     let exposure = exposure_of(|dark| {
-        scene.view.exposure = dark;
-        renderer.picture(gpu, frame, &asset.model(), &scene).unwrap_or_else(|error| {
+        scene.camera.exposure = dark;
+        renderer.picture(gpu, frame, &asset.drawable(), &scene).unwrap_or_else(|error| {
             failed = Err(error);
             Vec::new()
         })

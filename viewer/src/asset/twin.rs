@@ -1,9 +1,9 @@
 //! Meshes as the CPU twin of the BTF shaders reads them.
 
 use glam::{Vec2, Vec4};
-use subsurf_scene::Mesh;
+use subsurf_scene::{MAX_LIGHTS, Mesh};
 use subsurf_shaders::cpu;
-use subsurf_shaders::uniform::MAX_LIGHTS;
+
 
 use crate::error::Result;
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use subsurf_scene::{Mesh, SHAPES, Up, load};
+use subsurf_scene::{Mesh, SHAPES, UpAxis, load_mesh};
 
 use crate::error::{Error, Result};
 use crate::file::{Content, material_number, parse, read};
@@ -71,7 +71,7 @@ fn stem(path: &Path) -> String {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MeshReading {
     pub(super) extent_mm: f32,
-    pub(super) up: Up,
+    pub(super) up: UpAxis,
 }
 
 /// Materials to choose from, and the mesh that is made of one of them.
@@ -104,7 +104,7 @@ impl Assets {
         let files = materials.iter().map(open).collect::<Result<Vec<_>>>()?;
         Ok(Self {
             materials: files.concat(),
-            mesh: Arc::new(load(mesh, reading.extent_mm, reading.up)?),
+            mesh: Arc::new(load_mesh(mesh, reading.extent_mm, reading.up)?),
             mesh_name: stem(mesh),
             mesh_number: 0,
             reading,
@@ -141,7 +141,7 @@ impl Assets {
     }
 
     fn set_mesh(&mut self, path: &Path) -> Result<()> {
-        self.mesh = Arc::new(load(path, self.reading.extent_mm, self.reading.up)?);
+        self.mesh = Arc::new(load_mesh(path, self.reading.extent_mm, self.reading.up)?);
         self.mesh_name = stem(path);
         self.mesh_number += 1;
         Ok(())
@@ -160,7 +160,7 @@ mod tests {
             std::fs::write(&path, text).unwrap();
             path
         };
-        let reading = MeshReading { extent_mm: 60.0, up: Up::Y };
+        let reading = MeshReading { extent_mm: 60.0, up: UpAxis::Y };
         let mut assets = Assets::open(&[], None, Path::new("torus"), reading).unwrap();
         let triangle = file("triangle.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         assert_eq!(assets.drop(&triangle).unwrap(), Dropped::Mesh);

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use subsurf_runtime::{Backend, BtfOptions, RuntimeOptions};
-use subsurf_scene::{Environment, Up};
+use subsurf_scene::{Environment, UpAxis};
 
 use crate::asset::{BtfImageSet, MappingChoice, Scattering};
 use crate::error::Result;
@@ -23,7 +23,7 @@ pub struct Config {
     /// Longest side of the mesh in mm.
     pub extent_mm: f32,
     /// Which way is up in mesh files.
-    pub up: Up,
+    pub up: UpAxis,
     /// Where translucent materials lie on the mesh.
     pub mapping: MappingChoice,
     /// How translucent materials are drawn.

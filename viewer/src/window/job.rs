@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use subsurf_runtime::{BtfMaterial, Gpu};
-use subsurf_scene::{Mesh, Scene, SkyShare};
+use subsurf_runtime::{AmbientTransfer, BtfMaterial, Gpu};
+use subsurf_scene::{Mesh, Scene};
 
 use super::assets::MaterialFile;
 use super::config::LoadImages;
@@ -77,7 +77,7 @@ impl Computed {
     }
 
     /// Light from all around, where it was computed.
-    fn sky(&self) -> Option<&Arc<Vec<SkyShare>>> {
+    fn sky(&self) -> Option<&Arc<Vec<AmbientTransfer>>> {
         match self {
             Self::Scattering(asset) => asset.sky(),
             Self::Btf { .. } | Self::Images { .. } => None,
@@ -86,7 +86,7 @@ impl Computed {
 }
 
 impl Job {
-    fn compute(&self, sky: Option<Arc<Vec<SkyShare>>>) -> Result<Computed> {
+    fn compute(&self, sky: Option<Arc<Vec<AmbientTransfer>>>) -> Result<Computed> {
         match (self.material.read()?, self.key.mode) {
             (Content::Bssrdf(material), RenderMode::Scattering(technique)) => {
                 let mapping = choose_mapping(&self.mesh, self.mapping, &material)?;

@@ -3,7 +3,7 @@
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::{Quat, Vec2, Vec3};
-use subsurf_scene::View;
+use subsurf_scene::Camera;
 
 /// Eye that looks at a point from all around.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,7 @@ const STEP: f32 = 0.9;
 impl Orbit {
     /// From where a view is seen; the eye may come three times nearer, which is still outside of what fills the view, and
     /// go four times further away.
-    pub(super) fn of(view: &View) -> Self {
+    pub(super) fn of(view: &Camera) -> Self {
         let from = view.eye_mm - view.target_mm;
         let distance_mm = from.length().max(1e-3);
         Self {
@@ -36,17 +36,17 @@ impl Orbit {
             up: (from.y / distance_mm).asin().clamp(-HIGHEST, HIGHEST),
             distance_mm,
             range_mm: [0.3 * distance_mm, 4.0 * distance_mm],
-            angle: view.angle,
+            angle: view.fov_y_rad,
         }
     }
 
     /// What it sees.
-    pub(super) fn view(&self, exposure: f32) -> View {
+    pub(super) fn view(&self, exposure: f32) -> Camera {
         let towards = Vec3::new(self.up.cos() * self.around.sin(), self.up.sin(), self.up.cos() * self.around.cos());
-        View {
+        Camera {
             eye_mm: self.target_mm + self.distance_mm * towards,
             target_mm: self.target_mm,
-            angle: self.angle,
+            fov_y_rad: self.angle,
             exposure,
         }
     }
@@ -65,7 +65,7 @@ impl Orbit {
 }
 
 /// A light's direction after the pointer dragged it; `by` is in heights of the window, y down.
-pub(super) fn dragged(towards: Vec3, by: Vec2, view: &View) -> Vec3 {
+pub(super) fn dragged(towards: Vec3, by: Vec2, view: &Camera) -> Vec3 {
     let forward = (view.target_mm - view.eye_mm).normalize_or(Vec3::NEG_Z);
     let right = forward.cross(Vec3::Y).normalize_or(Vec3::X);
     let turn = Quat::from_axis_angle(right.cross(forward), by.x * PI) * Quat::from_axis_angle(right, by.y * PI);
@@ -76,7 +76,7 @@ pub(super) fn dragged(towards: Vec3, by: Vec2, view: &View) -> Vec3 {
 mod tests {
     use super::*;
 
-    const VIEW: View = View { eye_mm: Vec3::new(3.0, 4.0, 12.0), target_mm: Vec3::ZERO, angle: 0.5, exposure: 1.0 };
+    const VIEW: Camera = Camera { eye_mm: Vec3::new(3.0, 4.0, 12.0), target_mm: Vec3::ZERO, fov_y_rad: 0.5, exposure: 1.0 };
 
     #[test]
     fn an_orbit_begins_where_the_view_is() {
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn a_light_at_the_eye_follows_the_pointer() {
-        let view = View { eye_mm: Vec3::Z, ..VIEW };
+        let view = Camera { eye_mm: Vec3::Z, ..VIEW };
         let right = dragged(Vec3::Z, Vec2::new(0.1, 0.0), &view);
         assert!(right.x > 0.1 && right.y.abs() < 1e-5, "{right}");
         let down = dragged(Vec3::Z, Vec2::new(0.0, 0.1), &view);

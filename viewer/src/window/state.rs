@@ -25,7 +25,7 @@ impl SceneState {
     pub(super) fn of(mesh: &Mesh, environment: &Environment, size: [u32; 2]) -> Self {
         let request = RenderRequest { environment: environment.clone(), ..RenderRequest::usual(size) };
         let scene = request.scene(mesh);
-        Self { orbit: Orbit::of(&scene.view), scene, light: request.direction, rested: request.direction }
+        Self { orbit: Orbit::of(&scene.camera), scene, light: request.direction, rested: request.direction }
     }
 
     /// View and light as at the beginning; the surroundings stay.
@@ -60,7 +60,7 @@ impl SceneState {
 
     /// What is drawn under a light from there.
     pub(super) fn scene(&mut self, light: Vec3, settings: &Settings) -> &Scene {
-        self.scene.view = self.orbit.view(settings.exposure);
+        self.scene.camera = self.orbit.view(settings.exposure);
         self.scene.roughness = settings.roughness;
         for source in &mut self.scene.lights {
             source.shape = LightShape::Directional { towards: light };

@@ -6,9 +6,9 @@ use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::Btf;
 use subsurf_encoder::capture::Folder;
 use subsurf_runtime::{
-    BtfImages, BtfMaterial, BtfStorage, Gpu, GpuMesh, Known, Model, Path as DrawPath, Renderer, RuntimeOptions,
+    BtfImages, BtfMaterial, BtfStorage, Drawable, Gpu, GpuMesh, VertexData, Renderer, RuntimeOptions, Technique,
 };
-use subsurf_scene::{Mesh, Outline, Scene, relief};
+use subsurf_scene::{Mesh, Placement, Scene, relief};
 use subsurf_viewer::{RenderRequest, parse_btf};
 
 use super::results::Steps;
@@ -39,9 +39,9 @@ impl<'a> BtfLoader<'a> {
         let storage = if is_array { BtfStorage::Images } else { BtfStorage::Nested };
         let mesh: Mesh = relief(20.0, 8, 22);
         let draw = |gpu: &Gpu| -> anyhow::Result<_> {
-            let renderer = Renderer::new(gpu, DrawPath::Btf(storage), RuntimeOptions::default())?;
+            let renderer = Renderer::new(gpu, Technique::Btf(storage), RuntimeOptions::default())?;
             let tangents = mesh.tangents()?;
-            Ok((renderer, GpuMesh::upload(gpu, &mesh, &Outline::of_btf(&mesh, COPIES), Known::Tangents(&tangents))?))
+            Ok((renderer, GpuMesh::upload(gpu, &mesh, &Placement::of_btf(&mesh, COPIES), VertexData::Tangents(&tangents))?))
         };
         Ok(Self {
             gpu,
@@ -72,7 +72,7 @@ impl<'a> BtfLoader<'a> {
                 let material = self.upload(gpu, btf.as_ref(), &bytes)?;
                 gpu.finish()?;
                 let upload = clock.lap();
-                let model = Model::Btf { mesh, material: &material, number: 0 };
+                let model = Drawable::Btf { mesh, material: &material, number: 0 };
                 let target = gpu.target(FRAME, RuntimeOptions::default().format)?;
                 let mut frame = renderer.prepare(gpu, &model, &self.scene, FRAME)?;
                 renderer.draw(gpu, &mut frame, &model, &self.scene, target.view())?;

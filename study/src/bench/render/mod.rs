@@ -86,7 +86,7 @@ fn compare(
         RenderSession::new(gpu, asset.upload(gpu, material, mesh)?, scene, size, RuntimeOptions::default())
     };
     let exposure = session(gpu, &separable, &scene)?.exposure(gpu, &scene)?;
-    scene.view.exposure = exposure;
+    scene.camera.exposure = exposure;
     let reference = session(gpu, &gather, &scene)?.picture(gpu, &scene)?;
     let mut shown = vec![image(&reference, size[0])];
     for (backend, gpu) in gpus {

@@ -8,7 +8,7 @@ use subsurf_runtime::wgpu::{
     BindGroup, Color, CommandEncoderDescriptor, LoadOp, Operations, PollType, RenderPassColorAttachment,
     RenderPassDescriptor, StoreOp, TextureFormat, TextureView, TextureViewDescriptor,
 };
-use subsurf_runtime::{Backend, Frame, Gpu, Path, PictureTarget, Plan, Renderer, RuntimeOptions};
+use subsurf_runtime::{Backend, Frame, Gpu, Technique, PictureTarget, Plan, Renderer, RuntimeOptions};
 use subsurf_scene::{Mesh, Scene};
 use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
@@ -45,7 +45,7 @@ impl Fit {
     const MARGIN: f32 = 1.25;
 
     fn of(scene: &Scene, size: [u32; 2]) -> Self {
-        Self { size, distance_mm: scene.view.eye_mm.distance(scene.view.target_mm) }
+        Self { size, distance_mm: scene.camera.eye_mm.distance(scene.camera.target_mm) }
     }
 
     fn serves(&self, wanted: &Self) -> bool {
@@ -71,7 +71,7 @@ pub(in crate::window) struct Stage {
     painter: Painter,
     options: RuntimeOptions,
     /// Made once for each path.
-    renderers: Vec<(Path, Renderer)>,
+    renderers: Vec<(Technique, Renderer)>,
     drawn: [Option<Drawn>; 2],
     pictures: Option<BindGroup>,
 }
@@ -172,7 +172,7 @@ impl Stage {
     ) -> Result<()> {
         self.clear(role);
         let asset = computed.upload(&self.gpu, material, mesh)?;
-        let path = asset.path();
+        let path = asset.technique();
         if !self.renderers.iter().any(|(made, _)| *made == path) {
             self.renderers.push((path, Renderer::new(&self.gpu, path, self.options)?));
         }
@@ -185,11 +185,11 @@ impl Stage {
         let Some(drawn) = &mut self.drawn[role as usize] else {
             return Ok(None);
         };
-        let path = drawn.asset.path();
+        let path = drawn.asset.technique();
         let Some((_, renderer)) = self.renderers.iter().find(|(made, _)| *made == path) else {
             return Ok(None);
         };
-        let (gpu, model) = (&self.gpu, drawn.asset.model());
+        let (gpu, model) = (&self.gpu, drawn.asset.drawable());
         let fit = Fit::of(scene, self.canvas.size());
         if !drawn.buffers.as_ref().is_some_and(|(made, ..)| made.serves(&fit)) {
             // The old ones go first, for they count in the budget.
@@ -211,7 +211,7 @@ impl Stage {
         let Some(Drawn { asset, buffers: Some((_, frame, _)), .. }) = &mut self.drawn[Role::Shown as usize] else {
             return Ok(None);
         };
-        let path = asset.path();
+        let path = asset.technique();
         let Some((_, renderer)) = self.renderers.iter().find(|(made, _)| *made == path) else {
             return Ok(None);
         };

@@ -1,0 +1,109 @@
+//! Light from all around that scatters to the vertices of a mesh: more than on flat ground where the mesh is thin or
+//! folded, less on tips.
+
+use std::collections::HashMap;
+
+use glam::{IVec3, Vec3};
+use rayon::prelude::*;
+use subsurf_decoder::Bssrdf;
+use subsurf_scene::Mesh;
+use subsurf_shaders::cpu::Rgb;
+use subsurf_shaders::separable::mean_profile;
+
+use crate::error::Result;
+
+/// Exitance of a vertex under uniform light from all around, relative to that of flat ground of the same material; rgb, 0 to
+/// about 2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AmbientTransfer {
+    /// Share from surface that faces the same way as the vertex.
+    pub front: Rgb,
+    /// Share from surface that faces the other way: light that passes through thin parts.
+    pub back: Rgb,
+}
+
+/// Longest edge of the mesh between whose vertices light scatters, in pixels of the material.
+const LONGEST_EDGE: f32 = 1.5;
+/// Number of vertices to a square pixel of the material that is enough.
+const DENSITY: f32 = 1.5;
+
+/// Vertex that stands for a piece of the surface.
+struct Sample {
+    position_mm: Vec3,
+    normal: Vec3,
+    area_mm2: f32,
+}
+
+impl AmbientTransfer {
+    /// Transfer of every vertex of a mesh made of a material, by its mean profile: Σ R(r) dA / 2π ∫ R(r) r dr, r the
+    /// distance in space. Approximate: heterogeneity and occlusion of the light are left out.
+    ///
+    /// # Errors
+    /// [`crate::Error::Scene`] if the mesh is too large for the material's pixels.
+    pub fn of(mesh: &Mesh, material: &Bssrdf<'_>) -> Result<Vec<Self>> {
+        let header = material.header();
+        let profile = mean_profile(material);
+        let samples = samples(mesh.clone().subdivided(LONGEST_EDGE * header.pitch_mm)?, header.pitch_mm);
+        let cell_mm = 0.5 * header.r_max_mm;
+        let cell_of = |position: Vec3| (position / cell_mm).floor().as_ivec3();
+        let mut cells: HashMap<IVec3, Vec<usize>> = HashMap::new();
+        for (number, sample) in samples.iter().enumerate() {
+            cells.entry(cell_of(sample.position_mm)).or_default().push(number);
+        }
+        let flat = flat(&profile, header.r_max_mm);
+        let share = |(position, normal): (&Vec3, &Vec3)| {
+            let [mut front, mut back] = [[0.0; 3]; 2];
+            let cell = cell_of(*position);
+            for (x, y, z) in around(2) {
+                for &number in cells.get(&(cell + IVec3::new(x, y, z))).into_iter().flatten() {
+                    let sample = &samples[number];
+                    let r_mm = sample.position_mm.distance(*position);
+                    if r_mm <= header.r_max_mm {
+                        let sum = if sample.normal.dot(*normal) >= 0.0 { &mut front } else { &mut back };
+                        let reflectance = profile(r_mm);
+                        for c in 0..3 {
+                            sum[c] += reflectance[c] * sample.area_mm2 / flat[c];
+                        }
+                    }
+                }
+            }
+            Self { front, back }
+        };
+        Ok(mesh.positions.par_iter().zip(&mesh.normals).map(share).collect())
+    }
+}
+
+/// Vertices with a third of the area of the triangles around each; every n-th with n times the area where they are dense.
+fn samples(mesh: Mesh, pitch_mm: f32) -> Vec<Sample> {
+    let areas = mesh.vertex_areas();
+    let total: f32 = areas.iter().sum();
+    #[allow(clippy::cast_precision_loss, reason = "an estimate")]
+    let density = areas.len() as f32 * pitch_mm * pitch_mm / total.max(1e-9);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let stride = (density / DENSITY).clamp(1.0, 1e6) as usize;
+    let vertices = mesh.positions.iter().zip(&mesh.normals).zip(&areas);
+    #[allow(clippy::cast_precision_loss, reason = "small")]
+    let sample = |((position_mm, normal), area): ((&Vec3, &Vec3), &f32)| Sample {
+        position_mm: *position_mm,
+        normal: *normal,
+        area_mm2: *area * stride as f32,
+    };
+    vertices.step_by(stride).map(sample).collect()
+}
+
+/// Exitance of flat ground, 2π ∫ R(r) r dr, by the midpoint rule.
+fn flat(profile: impl Fn(f32) -> Rgb, r_max_mm: f32) -> Rgb {
+    const STEPS: u16 = 2_048;
+    let step = r_max_mm / f32::from(STEPS);
+    let ring = |k: u16| {
+        let r_mm = (f32::from(k) + 0.5) * step;
+        profile(r_mm).map(|value| value * std::f32::consts::TAU * r_mm * step)
+    };
+    (0..STEPS).map(ring).fold([1e-12; 3], |sum, ring| [0, 1, 2].map(|c| sum[c] + ring[c]))
+}
+
+/// Steps to the cells at most `reach` away along each axis.
+fn around(reach: i32) -> impl Iterator<Item = (i32, i32, i32)> {
+    let line = move || -reach..=reach;
+    line().flat_map(move |z| line().flat_map(move |y| line().map(move |x| (x, y, z))))
+}

@@ -1,0 +1,224 @@
+//! Scattering materials on the device: the planes of a file, or an uncompressed capture.
+
+use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::{BaseMaterials, Header, Mixtures, Model, Profiles};
+use subsurf_shaders::Storage;
+use subsurf_shaders::uniform::{self, BASE_ROWS, ROW};
+use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
+
+use crate::error::{Error, Result};
+use crate::gpu::{Gpu, Slot, Surface2d, TextureSpec, Tracked, layers_of};
+
+/// Layout of a file on the device.
+#[must_use]
+pub fn storage_of(material: &Bssrdf<'_>) -> Storage {
+    let Model::BaseMaterials(planes) = material.model() else {
+        return Storage::PerPixel;
+    };
+    match planes.mixtures {
+        Mixtures::One(_) | Mixtures::OneOfMany(_) => Storage::Single,
+        Mixtures::Two { .. } | Mixtures::TwoSmall { .. } => Storage::Bmpp,
+        Mixtures::Palette { .. } => Storage::Palette,
+        Mixtures::Several { count: 3, .. } => Storage::Three,
+        Mixtures::Several { .. } => Storage::Five,
+    }
+}
+
+/// Bindings of a material's group.
+pub(crate) fn slots(storage: Storage) -> &'static [Slot] {
+    match storage {
+        Storage::Single => &[Slot::Uniform, Slot::Float, Slot::Uint],
+        Storage::Bmpp => &[Slot::Uniform, Slot::Float, Slot::Float, Slot::Uint],
+        Storage::Palette => &[Slot::Uniform, Slot::Float, Slot::Uint, Slot::Uint],
+        Storage::Three | Storage::Five => &[Slot::Uniform, Slot::Float, Slot::FloatLayers, Slot::UintLayers],
+        Storage::PerPixel | Storage::Capture => &[Slot::Uniform, Slot::FloatLayers],
+    }
+}
+
+/// Scattering material on the device, in one of the layouts.
+#[derive(Debug)]
+pub struct Material {
+    storage: Storage,
+    header: Header,
+    uniform: Tracked<Buffer>,
+    textures: Vec<Surface2d>,
+    views: Vec<TextureView>,
+}
+
+impl Material {
+    /// Uploads the planes of a file, each as one texture, as they stand in the file. Only the small table of base
+    /// profiles is widened from three channels to four, so that a node is one load instead of three.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no texture of that size.
+    pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>) -> Result<Self> {
+        let header = material.header();
+        let size = [header.width, header.height];
+        let storage = storage_of(material);
+        let mut planes = Planes { gpu, size, all: Vec::new() };
+        match material.model() {
+            Model::PerPixel(profiles) => {
+                let count = 3 * u32::from(header.samples);
+                planes.layers("local profiles", count, TextureFormat::R32Float, profiles.profiles.as_bytes())?;
+            }
+            Model::BaseMaterials(BaseMaterials { profiles, mixtures }) => {
+                planes.base_profiles(header, *profiles)?;
+                planes.mixtures(*mixtures)?;
+            }
+        }
+        let (textures, views) = planes.all.into_iter().unzip();
+        Ok(Self::new(gpu, storage, header, [ROW; 2], textures, views))
+    }
+
+    /// Uploads an uncompressed capture, `[y][x][dy][dx][rgb]` of little-endian f32, for comparison: sizes, pitch and
+    /// window come from `header`.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device has not enough layers.
+    pub fn upload_capture(gpu: &Gpu, header: &Header, entries: &[u8]) -> Result<Self> {
+        let rows = entries.len().div_ceil(ROW as usize * 4);
+        let layers = rows.div_ceil(ROW as usize).max(2);
+        let small = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        let rows = small(rows.div_ceil(layers));
+        let layer = ROW as usize * rows as usize * 4;
+        let spec = TextureSpec::layered("capture", [ROW, rows], small(layers), TextureFormat::R32Float);
+        let texture = gpu.texture(&spec)?;
+        for (bytes, layer) in entries.chunks(layer).zip(0..) {
+            gpu.checked(|| gpu.fill(&texture.texture, layer, bytes))?;
+            // Copies wait in buffers of their own until they are submitted: do not let them all wait together.
+            gpu.finish()?;
+        }
+        let views = vec![layers_of(&texture)];
+        Ok(Self::new(gpu, Storage::Capture, header, [ROW, rows], vec![texture], views))
+    }
+
+    fn new(
+        gpu: &Gpu,
+        storage: Storage,
+        header: &Header,
+        layer: [u32; 2],
+        textures: Vec<Surface2d>,
+        views: Vec<TextureView>,
+    ) -> Self {
+        let block = uniform::Material::new(header, layer);
+        Self { storage, header: *header, uniform: gpu.uniform("material", &block), textures, views }
+    }
+
+    /// Layout of the material on the device.
+    #[must_use]
+    pub fn storage(&self) -> Storage {
+        self.storage
+    }
+
+    /// Header of the file: size, pitch and window of the patch.
+    #[must_use]
+    pub fn header(&self) -> &Header {
+        &self.header
+    }
+
+    /// Bytes of textures and blocks on the device.
+    #[must_use]
+    pub fn gpu_bytes(&self) -> u64 {
+        self.textures.iter().map(|surface| surface.texture.bytes()).sum::<u64>() + self.uniform.bytes()
+    }
+
+    /// Resources of the material's group, in the order of [`slots`].
+    pub(crate) fn resources(&self) -> Vec<BindingResource<'_>> {
+        let uniform = std::iter::once(self.uniform.as_entire_binding());
+        uniform.chain(self.views.iter().map(BindingResource::TextureView)).collect()
+    }
+
+    /// Refuses a material of another layout than a pass was built for.
+    pub(crate) fn expect(&self, storage: Storage) -> Result<()> {
+        if self.storage == storage {
+            return Ok(());
+        }
+        Err(Error::Device(format!("this renderer draws {storage:?}, the material is stored as {:?}", self.storage)))
+    }
+}
+
+/// Textures of a file, in the order of [`slots`], each with the view that shaders take.
+struct Planes<'a> {
+    gpu: &'a Gpu,
+    /// Width and height of the patch in pixels.
+    size: [u32; 2],
+    all: Vec<(Surface2d, TextureView)>,
+}
+
+impl Planes<'_> {
+    /// Adds a texture of one layer.
+    fn texture(&mut self, spec: &TextureSpec, bytes: &[u8]) -> Result<()> {
+        let surface = self.gpu.filled(spec, bytes)?;
+        let view = surface.view.clone();
+        self.all.push((surface, view));
+        Ok(())
+    }
+
+    /// Adds a texture of one texel for each pixel of the patch.
+    fn table(&mut self, label: &'static str, format: TextureFormat, bytes: &[u8]) -> Result<()> {
+        self.texture(&TextureSpec::table(label, self.size, format), bytes)
+    }
+
+    /// Adds `count` layers of one texel for each pixel of the patch.
+    fn layers(&mut self, label: &'static str, count: u32, format: TextureFormat, bytes: &[u8]) -> Result<()> {
+        let surface = self.gpu.texture(&TextureSpec::layered(label, self.size, count, format))?;
+        let plane = bytes.len() / count as usize;
+        self.gpu.checked(|| {
+            for (bytes, layer) in bytes.chunks(plane).zip(0..) {
+                self.gpu.fill(&surface.texture, layer, bytes);
+            }
+        })?;
+        let view = layers_of(&surface);
+        self.all.push((surface, view));
+        Ok(())
+    }
+
+    /// Adds the table of base profiles, widened to four channels; columns of [`BASE_ROWS`] materials stand beside each other.
+    fn base_profiles(&mut self, header: &Header, profiles: Profiles<'_>) -> Result<()> {
+        let (format, channel, source) = match profiles {
+            Profiles::F32(values) => (TextureFormat::Rgba32Float, 4, values.as_bytes()),
+            Profiles::F16(values) => (TextureFormat::Rgba16Float, 2, values.as_bytes()),
+        };
+        let samples = u32::from(header.samples);
+        let width = header.base_materials.div_ceil(BASE_ROWS) * samples;
+        let rows = header.base_materials.min(BASE_ROWS);
+        let spec = TextureSpec::table("base profiles", [width, rows], format);
+        let surface = self.gpu.texture(&spec)?;
+        let mut texels = vec![0; (width * rows) as usize * 4 * channel];
+        for (number, node) in source.chunks(3 * channel).enumerate() {
+            let (base, h) = (number / samples as usize, number % samples as usize);
+            let (column, row) = (base / BASE_ROWS as usize * samples as usize + h, base % BASE_ROWS as usize);
+            texels[(row * width as usize + column) * 4 * channel..][..3 * channel].copy_from_slice(node);
+        }
+        self.gpu.checked(|| self.gpu.fill(&surface.texture, 0, &texels))?;
+        let view = surface.view.clone();
+        self.all.push((surface, view));
+        Ok(())
+    }
+
+    /// Adds the planes that say of which base materials a pixel is mixed.
+    fn mixtures(&mut self, mixtures: Mixtures<'_>) -> Result<()> {
+        match mixtures {
+            Mixtures::One(indices) => self.table("base indices", TextureFormat::R8Uint, indices),
+            Mixtures::OneOfMany(indices) => self.table("base indices", TextureFormat::R16Uint, indices.as_bytes()),
+            Mixtures::Two { ratios, indices } => {
+                self.table("mixture ratios", TextureFormat::R32Float, ratios.as_bytes())?;
+                self.table("base indices", TextureFormat::Rg8Uint, indices.as_flattened())
+            }
+            Mixtures::TwoSmall { ratios, indices } => {
+                self.table("mixture ratios", TextureFormat::R8Unorm, ratios)?;
+                self.table("base indices", TextureFormat::Rg8Uint, indices.as_flattened())
+            }
+            Mixtures::Palette { pairs, codes } => {
+                self.table("palette codes", TextureFormat::R16Uint, codes.as_bytes())?;
+                let count = u32::try_from(pairs.len()).unwrap_or(u32::MAX);
+                self.texture(&TextureSpec::table("pairs", [count, 1], TextureFormat::Rg8Uint), pairs.as_flattened())
+            }
+            Mixtures::Several { ratios, indices, count } => {
+                let count = u32::try_from(count).unwrap_or(u32::MAX);
+                self.layers("mixture ratios", count, TextureFormat::R32Float, ratios.as_bytes())?;
+                self.layers("base indices", count, TextureFormat::R8Uint, indices)
+            }
+        }
+    }
+}

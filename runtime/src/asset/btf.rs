@@ -1,0 +1,90 @@
+//! BTFs on the device: the file as it is.
+
+use subsurf_decoder::Btf;
+use subsurf_shaders::BtfStorage;
+use subsurf_shaders::uniform::{BtfBooks, BtfTexture};
+use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
+
+use crate::error::{Error, Result};
+use crate::gpu::{Gpu, Slot, Surface2d, TextureSpec, Tracked};
+
+/// BTF on the device: its file, word by word, and a block that says where its codebooks are; or its images.
+#[derive(Debug)]
+pub struct BtfMaterial {
+    storage: BtfStorage,
+    /// Mipmap levels of each material.
+    textures: Vec<BtfTexture>,
+    texture: Surface2d,
+    view: TextureView,
+    block: Tracked<Buffer>,
+}
+
+/// Bindings of a BTF's group, but for the last, the block of the material that is drawn.
+pub(crate) fn slots(storage: BtfStorage) -> [Slot; 2] {
+    match storage {
+        BtfStorage::Nested => [Slot::Uniform, Slot::Uint],
+        BtfStorage::Images => [Slot::Uniform, Slot::FloatLayers],
+    }
+}
+
+impl BtfMaterial {
+    /// Uploads a file as it is, in 32-bit words: it takes as many bytes on the device as on the disk, and less than one
+    /// row of 8 KiB and 2 KiB more.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no texture of that size.
+    pub fn upload(gpu: &Gpu, btf: &Btf<'_>) -> Result<Self> {
+        let file = btf.file();
+        let too_large = || Error::Unsupported { what: "bytes of a BTF", need: file.len() as u64, have: 512 << 20 };
+        let books = BtfBooks::of(btf).ok_or_else(too_large)?;
+        // Of the last word, zeros are missing.
+        let mut bytes = file.to_vec();
+        bytes.resize(file.len().next_multiple_of(4), 0);
+        let words = TextureSpec::array("BTF", bytes.len() / 4, TextureFormat::R32Uint);
+        let materials = usize::from(btf.header().materials);
+        let textures = (0..materials).filter_map(|number| BtfTexture::of(btf, number)).collect();
+        let words = gpu.filled(&words, &bytes)?;
+        let view = words.view.clone();
+        Ok(Self::new(BtfStorage::Nested, textures, words, view, gpu.uniform("codebooks", &books)))
+    }
+
+    pub(super) fn new(
+        storage: BtfStorage,
+        textures: Vec<BtfTexture>,
+        texture: Surface2d,
+        view: TextureView,
+        block: Tracked<Buffer>,
+    ) -> Self {
+        Self { storage, textures, texture, view, block }
+    }
+
+    /// Layout of the BTF on the device.
+    #[must_use]
+    pub fn storage(&self) -> BtfStorage {
+        self.storage
+    }
+
+    /// Refuses a BTF of another layout than a pass was built for.
+    pub(crate) fn expect(&self, storage: BtfStorage) -> Result<()> {
+        if self.storage == storage {
+            return Ok(());
+        }
+        Err(Error::Device(format!("this draws BTFs as {storage:?}, the material is stored as {:?}", self.storage)))
+    }
+
+    /// Bytes of textures and blocks on the device.
+    #[must_use]
+    pub fn gpu_bytes(&self) -> u64 {
+        self.texture.texture.bytes() + self.block.bytes()
+    }
+
+    /// Mipmap levels of each material.
+    pub(crate) fn textures(&self) -> &[BtfTexture] {
+        &self.textures
+    }
+
+    /// Resources of its group, in the order of [`slots`].
+    pub(crate) fn resources(&self) -> [BindingResource<'_>; 2] {
+        [self.block.as_entire_binding(), BindingResource::TextureView(&self.view)]
+    }
+}

@@ -1,0 +1,148 @@
+//! Meshes on the device, with what techniques need to know of every vertex.
+
+use glam::{Vec2, Vec3, Vec4};
+use subsurf_scene::{Mapping, Mesh, Placement};
+use wgpu::{Buffer, BufferUsages, IndexFormat, RenderPass, VertexBufferLayout, VertexStepMode, vertex_attr_array};
+
+use super::ambient::AmbientTransfer;
+use crate::error::{Error, Result};
+use crate::gpu::{Gpu, Tracked};
+
+/// Mesh on the device.
+#[derive(Debug)]
+pub struct GpuMesh {
+    vertices: Tracked<Buffer>,
+    indices: Tracked<Buffer>,
+    /// Tangents, of a mesh for BTFs.
+    tangents: Option<Tracked<Buffer>>,
+    index_count: u32,
+    /// One more than the largest point that a vertex names; 0 if none does.
+    pub(crate) points: usize,
+    pub(crate) placement: Placement,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct Vertex {
+    position_mm: Vec3,
+    normal: Vec3,
+    /// Texture coordinates in copies of the patch, v down.
+    uv: Vec2,
+    point: u32,
+    /// [`AmbientTransfer::front`], 0 to 2 as 0 to 255.
+    sky_front: [u8; 4],
+    /// [`AmbientTransfer::back`], likewise.
+    sky_back: [u8; 4],
+}
+
+/// What a technique needs to know of every vertex, in the order of the mesh.
+#[derive(Clone, Copy, Debug)]
+pub enum VertexData<'a> {
+    /// Number of the vertex's point, [`subsurf_scene::SurfacePoints::point_of`]: for the gather.
+    Points(&'a [u32]),
+    /// Light from all around that scatters to the vertex: for splats and separable blurs.
+    Ambient(&'a [AmbientTransfer]),
+    /// Tangents, [`Mesh::tangents`]: for BTFs.
+    Tangents(&'a [Vec4]),
+}
+
+/// Values of 0 to 2 as bytes of 0 to 255.
+fn halves(share: [f32; 3]) -> [u8; 4] {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let [r, g, b] = share.map(|value| (value * 127.5).round().clamp(0.0, 255.0) as u8);
+    [r, g, b, 0]
+}
+
+impl GpuMesh {
+    /// Uploads a mesh with data of its vertices.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no buffers of that size; [`Error::Mesh`] if there are more than 2³² indices.
+    ///
+    /// # Panics
+    /// If there is data for fewer vertices than the mesh has.
+    pub fn upload(gpu: &Gpu, mesh: &Mesh, placement: &Placement, known: VertexData<'_>) -> Result<Self> {
+        let times = match placement.mapping {
+            Mapping::Uv(times) => Vec2::from(times),
+            Mapping::Box => Vec2::ZERO,
+        };
+        let sky = |k: usize| match known {
+            VertexData::Ambient(shares) => shares[k],
+            VertexData::Points(_) | VertexData::Tangents(_) => AmbientTransfer { front: [1.0; 3], back: [0.0; 3] },
+        };
+        let vertex = |k: usize| {
+            let uv = mesh.uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[k]) * times;
+            Vertex {
+                position_mm: mesh.positions[k],
+                normal: mesh.normals[k],
+                uv: Vec2::new(uv.x, 1.0 - uv.y),
+                point: match known {
+                    VertexData::Points(points) => points[k],
+                    VertexData::Ambient(_) | VertexData::Tangents(_) => 0,
+                },
+                sky_front: halves(sky(k).front),
+                sky_back: halves(sky(k).back),
+            }
+        };
+        let vertices: Vec<Vertex> = (0..mesh.positions.len()).map(vertex).collect();
+        let limit = gpu.device.limits().max_buffer_size;
+        let need = (size_of_val(&vertices[..]) as u64).max(size_of_val(&mesh.triangles[..]) as u64);
+        if need > limit {
+            return Err(Error::Unsupported { what: "buffers", need, have: limit });
+        }
+        let index_count = u32::try_from(3 * mesh.triangles.len());
+        Ok(Self {
+            vertices: gpu.buffer("vertices", bytemuck::cast_slice(&vertices), BufferUsages::VERTEX),
+            indices: gpu.buffer("indices", bytemuck::cast_slice(&mesh.triangles), BufferUsages::INDEX),
+            tangents: match known {
+                VertexData::Tangents(tangents) => {
+                    Some(gpu.buffer("tangents", bytemuck::cast_slice(tangents), BufferUsages::VERTEX))
+                }
+                VertexData::Points(_) | VertexData::Ambient(_) => None,
+            },
+            index_count: index_count.map_err(|_| Error::Mesh("more than 2³² indices".to_owned()))?,
+            points: match known {
+                VertexData::Points(points) => points.iter().map(|point| *point as usize + 1).max().unwrap_or(0),
+                VertexData::Ambient(_) | VertexData::Tangents(_) => 0,
+            },
+            placement: *placement,
+        })
+    }
+
+    /// Refuses a mesh that was uploaded without tangents.
+    pub(crate) fn expect_tangents(&self) -> Result<()> {
+        let missing = || Error::Mesh("uploaded without tangents, which a BTF needs".to_owned());
+        self.tangents.as_ref().map(|_| ()).ok_or_else(missing)
+    }
+
+    /// Draws all triangles in a pass that was begun with their shader.
+    pub(crate) fn draw(&self, pass: &mut RenderPass<'_>) {
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        if let Some(tangents) = &self.tangents {
+            pass.set_vertex_buffer(1, tangents.slice(..));
+        }
+        pass.set_index_buffer(self.indices.slice(..), IndexFormat::Uint32);
+        pass.draw_indexed(0..self.index_count, 0, 0..1);
+    }
+
+    /// Bytes of vertices and indices on the device.
+    #[must_use]
+    pub fn gpu_bytes(&self) -> u64 {
+        let tangents = self.tangents.as_ref().map_or(0, Tracked::bytes);
+        self.vertices.bytes() + self.indices.bytes() + tangents
+    }
+}
+
+pub(crate) const VERTICES: VertexBufferLayout<'static> = VertexBufferLayout {
+    array_stride: size_of::<Vertex>() as u64,
+    step_mode: VertexStepMode::Vertex,
+    attributes: &vertex_attr_array![
+        0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32, 4 => Unorm8x4, 5 => Unorm8x4
+    ],
+};
+
+pub(crate) const TANGENTS: VertexBufferLayout<'static> = VertexBufferLayout {
+    array_stride: size_of::<Vec4>() as u64,
+    step_mode: VertexStepMode::Vertex,
+    attributes: &vertex_attr_array![6 => Float32x4],
+};

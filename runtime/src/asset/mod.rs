@@ -1,0 +1,23 @@
+//! From files and meshes to what is on the device, one file for each kind.
+
+mod ambient;
+mod bssrdf;
+mod btf;
+mod btf_images;
+mod mesh;
+mod patch_layers;
+mod points;
+mod separable;
+mod splat;
+
+pub use ambient::AmbientTransfer;
+pub(crate) use bssrdf::slots;
+pub use bssrdf::{Material, storage_of};
+pub use btf::BtfMaterial;
+pub(crate) use btf::slots as btf_slots;
+pub use btf_images::BtfImages;
+pub use mesh::{GpuMesh, VertexData};
+pub(crate) use mesh::{TANGENTS, VERTICES};
+pub use points::GpuPoints;
+pub use separable::SeparableMaterial;
+pub use splat::SplatMaterial;

@@ -1,0 +1,71 @@
+//! Points of a mesh on the device, between which light scatters.
+
+use subsurf_scene::SurfacePoints;
+use subsurf_shaders::uniform;
+use wgpu::{Buffer, TextureFormat};
+
+use super::mesh::GpuMesh;
+use crate::error::{Error, Result};
+use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked, array_size};
+
+/// Points of a mesh on the device, and irradiance and exitance at them.
+#[derive(Debug)]
+pub struct GpuPoints {
+    pub(crate) grid: Tracked<Buffer>,
+    pub(crate) positions: Surface2d,
+    pub(crate) normals: Surface2d,
+    pub(crate) visibilities: Surface2d,
+    pub(crate) pixels: Surface2d,
+    pub(crate) cell_starts: Surface2d,
+    pub(crate) irradiance: Surface2d,
+    pub(crate) exitance: Surface2d,
+    pub(crate) count: usize,
+}
+
+impl GpuPoints {
+    /// Uploads the points of a surface.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no textures of that size.
+    pub fn upload(gpu: &Gpu, surface: &SurfacePoints) -> Result<Self> {
+        let table = |label, len, format, bytes: &[u8]| gpu.filled(&TextureSpec::array(label, len, format), bytes);
+        let target = |label| gpu.texture(&TextureSpec::target(label, array_size(surface.len()), gpu.kept()));
+        let count = surface.len();
+        let float = TextureFormat::Rgba32Float;
+        Ok(Self {
+            grid: gpu.uniform("grid", &uniform::Surface::new(surface)),
+            positions: table("positions", count, float, bytemuck::cast_slice(&surface.positions))?,
+            normals: table("normals", count, float, bytemuck::cast_slice(&surface.normals))?,
+            visibilities: table("visibilities", count, float, bytemuck::cast_slice(&surface.visibilities))?,
+            pixels: table("pixels", count, TextureFormat::Rg16Uint, bytemuck::cast_slice(&surface.pixels))?,
+            cell_starts: table(
+                "cell starts",
+                surface.cell_starts.len(),
+                TextureFormat::R32Uint,
+                bytemuck::cast_slice(&surface.cell_starts),
+            )?,
+            irradiance: target("irradiance")?,
+            exitance: target("exitance")?,
+            count,
+        })
+    }
+
+    /// Refuses points that are fewer than a mesh names, or not `bound` in number.
+    pub(crate) fn expect(&self, mesh: &GpuMesh, bound: usize) -> Result<()> {
+        if mesh.points <= self.count && self.count == bound {
+            return Ok(());
+        }
+        let (have, want) = (self.count, mesh.points.max(bound));
+        Err(Error::Device(format!("{have} points for a mesh that names {want}: they are of another surface")))
+    }
+
+    /// Exitance of every point as it was last gathered, linear Rec. 709, relative to irradiance in the scene's unit.
+    ///
+    /// # Errors
+    /// [`Error::Device`] if the device is lost.
+    pub fn read(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>> {
+        let mut texels = gpu.read_rgb(&self.exitance.texture)?;
+        texels.truncate(self.count);
+        Ok(texels)
+    }
+}

@@ -1,0 +1,98 @@
+//! Materials for separable blurs on the device.
+
+use subsurf_decoder::bssrdf::Header;
+use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_shaders::separable::Factors;
+use subsurf_shaders::uniform;
+use wgpu::Buffer;
+
+use super::patch_layers::PatchLayers;
+use crate::error::{Error, Result};
+use crate::gpu::{Gpu, Tracked};
+
+/// Refuses a basis whose tables are not as long as it says.
+pub(super) fn whole(factors: &Factors) -> Result<()> {
+    let detail = factors.detail;
+    let error = || Error::Device(format!("factors that are not as many as {detail:?} and the patch take"));
+    factors.is_whole().then_some(()).ok_or_else(error)
+}
+
+/// Albedo of every pixel under uniform light.
+pub(super) fn albedo(factors: &Factors) -> Vec<Rgb> {
+    cpu::separable(factors, &vec![[1.0; 3]; factors.coefficients_of(0).len()])
+}
+
+/// Separable material on the device: factors c_l and albedo over the patch, and blocks of the cascade of Gaussians.
+#[derive(Debug)]
+pub struct SeparableMaterial {
+    header: Header,
+    terms: usize,
+    /// Layers c_l, l < L, and the albedo under uniform light.
+    pub(crate) layers: PatchLayers,
+    /// Blocks along rows and along columns, for each Gaussian a.
+    stages: Vec<[Tracked<Buffer>; 2]>,
+    through: Tracked<Buffer>,
+    narrowest_pixels: f32,
+}
+
+impl SeparableMaterial {
+    /// Uploads a basis; factors become half floats.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if some are missing.
+    pub fn upload(gpu: &Gpu, factors: &Factors) -> Result<Self> {
+        whole(factors)?;
+        let terms = factors.detail.terms;
+        let layers = (0..terms).map(|l| factors.coefficients_of(l).to_vec()).chain([albedo(factors)]);
+        let stages = uniform::Stage::cascade(factors);
+        Ok(Self {
+            header: factors.header,
+            terms,
+            layers: PatchLayers::upload(gpu, &factors.header, layers.collect())?,
+            through: gpu.uniform("through", &uniform::Through::new(factors)),
+            narrowest_pixels: factors.sigmas.first().copied().unwrap_or(1.0),
+            stages: stages.iter().map(|axes| axes.map(|block| gpu.uniform("stage", &block))).collect(),
+        })
+    }
+
+    /// Header of the file: size, pitch and window of the patch.
+    #[must_use]
+    pub fn header(&self) -> &Header {
+        &self.header
+    }
+
+    /// Number of terms L, 1 or 2.
+    #[must_use]
+    pub fn terms(&self) -> usize {
+        self.terms
+    }
+
+    /// Refuses a material of another number of terms than a pass was built for.
+    pub(crate) fn expect(&self, terms: usize) -> Result<()> {
+        if self.terms == terms {
+            return Ok(());
+        }
+        Err(Error::Device(format!("this renderer draws L = {terms}, the material has L = {}", self.terms)))
+    }
+
+    /// Bytes of layers and blocks on the device.
+    #[must_use]
+    pub fn gpu_bytes(&self) -> u64 {
+        self.layers.bytes() + self.stages.iter().flatten().chain([&self.through]).map(Tracked::bytes).sum::<u64>()
+    }
+
+    /// Block of the weights of all Gaussians, for light that passes through thin parts.
+    pub(crate) fn through(&self) -> &Buffer {
+        &self.through
+    }
+
+    /// Standard deviation of the narrowest Gaussian, in pixels of the patch.
+    pub(crate) fn narrowest_pixels(&self) -> f32 {
+        self.narrowest_pixels
+    }
+
+    /// Blocks along rows and along columns, for each Gaussian.
+    pub(crate) fn stages(&self) -> &[[Tracked<Buffer>; 2]] {
+        &self.stages
+    }
+}

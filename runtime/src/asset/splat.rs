@@ -1,0 +1,49 @@
+//! Materials for splats on the device.
+
+use subsurf_decoder::Bssrdf;
+use subsurf_shaders::cpu::Rgb;
+use subsurf_shaders::separable::{Factors, softened};
+
+use super::bssrdf::Material;
+use super::patch_layers::PatchLayers;
+use super::separable::{albedo, whole};
+use crate::error::Result;
+use crate::gpu::Gpu;
+
+/// Material for splats on the device: the planes of its file, and its albedo under uniform light.
+#[derive(Debug)]
+pub struct SplatMaterial {
+    /// Planes of the file.
+    pub(crate) planes: Material,
+    /// One layer: albedo under uniform light.
+    pub(crate) albedo: PatchLayers,
+    /// Factors that give back the light that softened distances take, by [`softened`].
+    pub(crate) softened: [Rgb; 8],
+}
+
+impl SplatMaterial {
+    /// Uploads the planes of a file as they stand in it, and the albedo that its separable basis gives.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if some factors are missing.
+    pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>, factors: &Factors) -> Result<Self> {
+        whole(factors)?;
+        Ok(Self {
+            planes: Material::upload(gpu, material)?,
+            softened: softened(material),
+            albedo: PatchLayers::upload(gpu, material.header(), vec![albedo(factors)])?,
+        })
+    }
+
+    /// Planes of the file.
+    #[must_use]
+    pub fn planes(&self) -> &Material {
+        &self.planes
+    }
+
+    /// Bytes of planes and albedo on the device.
+    #[must_use]
+    pub fn gpu_bytes(&self) -> u64 {
+        self.planes.gpu_bytes() + self.albedo.bytes()
+    }
+}

@@ -1,0 +1,201 @@
+//! The device that everything is drawn with.
+
+use std::fmt;
+
+use half::f16;
+use pollster::block_on;
+use subsurf_shaders::source::Keeping;
+use wgpu::rwh::HasDisplayHandle;
+use wgpu::{
+    Adapter, AdapterInfo, Color, Device, DeviceDescriptor, ErrorFilter, ExperimentalFeatures, Extent3d, Features,
+    Instance, Limits, MemoryHints, Queue, Surface, SurfaceTarget, TextureDescriptor, TextureDimension, TextureFormat,
+    TextureUsages, Trace,
+};
+
+use super::backend::{Backend, adapters, instance};
+use super::ledger::Ledger;
+use crate::error::{Error, Result};
+
+/// Device and queue, within the limits of WebGL2, and the ledger of what lives on the device.
+#[derive(Debug)]
+pub struct Gpu {
+    pub(crate) device: Device,
+    pub(crate) queue: Queue,
+    keeping: Keeping,
+    info: AdapterInfo,
+    ledger: Ledger,
+}
+
+/// Device that draws to a window, and what it takes to make the window's surface anew when it is lost.
+#[derive(Debug)]
+pub struct OnScreen<'w> {
+    /// Device that draws to the surface.
+    pub gpu: Gpu,
+    /// Surface of the window, not configured yet. Drop it before the window.
+    pub surface: Surface<'w>,
+    /// Entry to the API, which made the surface.
+    pub instance: Instance,
+    /// Adapter, which knows the formats of the surface.
+    pub adapter: Adapter,
+}
+
+/// Format of targets: half floats where they can be drawn to, which takes GL_EXT_color_buffer_half_float or GL_EXT_color_buffer_float.
+fn keeping_of(device: &Device) -> Keeping {
+    let scope = device.push_error_scope(ErrorFilter::Validation);
+    let _ = device.create_texture(&TextureDescriptor {
+        label: Some("probe"),
+        size: Extent3d::default(),
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: TextureDimension::D2,
+        format: TextureFormat::Rgba16Float,
+        usage: TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    });
+    if block_on(scope.pop()).is_some() { Keeping::Packed } else { Keeping::Halves }
+}
+
+impl Gpu {
+    /// Opens the best device of a backend, without a window, within `Limits::downlevel_webgl2_defaults()` but for the
+    /// size of textures.
+    ///
+    /// # Errors
+    /// [`Error::NoDevice`] if the driver lists none, or refuses it.
+    pub fn open(backend: Backend) -> Result<Self> {
+        let adapter = adapters(&Instance::new(instance(backend)), backend).into_iter().next();
+        let none = || Error::NoDevice { backend, reason: "the driver lists none".to_owned() };
+        Self::of(&adapter.ok_or_else(none)?, backend)
+    }
+
+    /// Opens the best device of a backend that draws to a window, within the same limits.
+    ///
+    /// # Errors
+    /// [`Error::NoDevice`] if the driver lists none for this window, or refuses it.
+    pub fn open_for<'w>(
+        backend: Backend,
+        display: impl HasDisplayHandle + fmt::Debug + Send + Sync + 'static,
+        window: impl Into<SurfaceTarget<'w>>,
+    ) -> Result<OnScreen<'w>> {
+        let none = |reason: String| Error::NoDevice { backend, reason };
+        let instance = Instance::new(instance(backend).with_display_handle(Box::new(display)));
+        let surface = instance.create_surface(window).map_err(|error| none(error.to_string()))?;
+        let adapter = adapters(&instance, backend).into_iter().find(|adapter| adapter.is_surface_supported(&surface));
+        let adapter = adapter.ok_or_else(|| none("the driver lists none that draws to this window".to_owned()))?;
+        Ok(OnScreen { gpu: Self::of(&adapter, backend)?, surface, instance, adapter })
+    }
+
+    fn of(adapter: &Adapter, backend: Backend) -> Result<Self> {
+        let request = adapter.request_device(&DeviceDescriptor {
+            label: Some("subsurf"),
+            required_features: Features::empty(),
+            required_limits: Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits()),
+            experimental_features: ExperimentalFeatures::disabled(),
+            memory_hints: MemoryHints::MemoryUsage,
+            trace: Trace::Off,
+        });
+        let none = |reason: String| Error::NoDevice { backend, reason };
+        let (device, queue) = block_on(request).map_err(|error| none(error.to_string()))?;
+        Ok(Self::from_device(device, queue, adapter.get_info()))
+    }
+
+    /// Wraps a device that the caller owns; `info` is what its adapter says. `Limits::downlevel_webgl2_defaults()` are enough.
+    #[must_use]
+    pub fn from_device(device: Device, queue: Queue, info: AdapterInfo) -> Self {
+        Self { keeping: keeping_of(&device), device, queue, info, ledger: Ledger::default() }
+    }
+
+    /// How passes keep values for later ones.
+    #[must_use]
+    pub fn keeping(&self) -> Keeping {
+        self.keeping
+    }
+
+    /// The same device, with values kept in another way: for drivers that claim to draw to half floats and fail.
+    #[must_use]
+    pub fn keep(self, keeping: Keeping) -> Self {
+        Self { keeping, ..self }
+    }
+
+    /// Format of what passes keep.
+    pub(crate) fn kept(&self) -> TextureFormat {
+        match self.keeping {
+            Keeping::Halves => TextureFormat::Rgba16Float,
+            Keeping::Packed => TextureFormat::Rgba16Uint,
+        }
+    }
+
+    /// What to clear a target of that format with.
+    pub(crate) fn kept_colour(&self, colour: Color) -> Color {
+        match self.keeping {
+            Keeping::Halves => colour,
+            Keeping::Packed => {
+                let bits = |value: f64| f16::from_f64(value).to_bits().into();
+                Color { r: bits(colour.r), g: bits(colour.g), b: bits(colour.b), a: bits(colour.a) }
+            }
+        }
+    }
+
+    /// Refuses to do what takes half floats that can be drawn to.
+    pub(crate) fn expect_halves(&self, what: &'static str) -> Result<()> {
+        match self.keeping {
+            Keeping::Halves => Ok(()),
+            Keeping::Packed => Err(Error::NoHalfFloats { what }),
+        }
+    }
+
+    /// Device, for passes of the host's own.
+    #[must_use]
+    pub fn device(&self) -> &Device {
+        &self.device
+    }
+
+    /// Queue of the device.
+    #[must_use]
+    pub fn queue(&self) -> &Queue {
+        &self.queue
+    }
+
+    /// Name, kind and driver of the device.
+    #[must_use]
+    pub fn info(&self) -> &AdapterInfo {
+        &self.info
+    }
+
+    /// Ledger of the bytes on the device.
+    #[must_use]
+    pub fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    /// Runs `work`.
+    ///
+    /// # Errors
+    /// [`Error::Device`] with the first complaint of the device about it.
+    pub(crate) fn checked<T>(&self, work: impl FnOnce() -> T) -> Result<T> {
+        // Shader errors of GLES come as internal ones.
+        let filters = [ErrorFilter::Validation, ErrorFilter::Internal, ErrorFilter::OutOfMemory];
+        let scopes = filters.map(|filter| self.device.push_error_scope(filter));
+        let result = work();
+        let mut failed = None;
+        for scope in scopes.into_iter().rev() {
+            failed = failed.or(block_on(scope.pop()));
+        }
+        failed.map_or(Ok(result), |error| Err(Error::Device(error.to_string())))
+    }
+
+    /// Submits what is still waiting to be uploaded, and waits until the device has done everything.
+    ///
+    /// # Errors
+    /// [`Error::Device`] if the device is lost.
+    pub fn finish(&self) -> Result<()> {
+        self.queue.submit([]);
+        loop {
+            // The GL backend gives up after two seconds of waiting, however long it was asked to wait.
+            match self.device.poll(wgpu::PollType::wait_indefinitely()) {
+                Ok(_) => return Ok(()),
+                Err(wgpu::PollError::Timeout) => {}
+                Err(error) => return Err(Error::Device(error.to_string())),
+            }
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Passes without a mesh: one triangle over the whole target, or squares that are added up.
+
+use wgpu::{
+    BindGroup, BindingResource, BlendComponent, BlendFactor, BlendOperation, BlendState, Color, CommandEncoder,
+    CommandEncoderDescriptor, LoadOp, PrimitiveTopology, TextureFormat, TextureView,
+};
+
+use super::device::Gpu;
+use super::pipeline::{Drawing, Pipeline, Program, attachment};
+use super::slot::Slot;
+use crate::error::Result;
+
+/// Pass that covers its whole target with one triangle.
+#[derive(Debug)]
+pub(crate) struct CoverPass(Pipeline);
+
+impl CoverPass {
+    /// Builds the pipeline of a shader with the entry points `cover` and `fragment`, bind groups of these slots, and
+    /// targets of these formats.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        shader: &str,
+        fragment: &str,
+        groups: &[&[Slot]],
+        targets: &[TextureFormat],
+    ) -> Result<Self> {
+        let program = Program { shader, vertex: "cover", fragment, groups, targets };
+        Ok(Self(Pipeline::new(gpu, &program, Drawing::default())?))
+    }
+
+    /// Binds resources, in order, to bind group number `group`.
+    pub(crate) fn bind(&self, gpu: &Gpu, group: usize, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
+        self.0.bind(gpu, group, resources)
+    }
+
+    /// Draws `rows` rows of the targets from `first` on.
+    pub(crate) fn record(
+        &self,
+        encoder: &mut CommandEncoder,
+        targets: &[&TextureView],
+        groups: &[&BindGroup],
+        rows: Rows,
+    ) {
+        // What stood there before is only wanted by bands after the first: loading it costs a tiler dearly.
+        let load = if rows.first == 0 { LoadOp::Clear(Color::TRANSPARENT) } else { LoadOp::Load };
+        let attachments: Vec<_> = targets.iter().map(|view| Some(attachment(view, load))).collect();
+        let mut pass = self.0.begin(encoder, &attachments, None, groups);
+        pass.set_scissor_rect(0, rows.first, rows.width, rows.count);
+        pass.draw(0..3, 0..1);
+    }
+
+    /// Draws `rows` rows of one target, in a submission of its own.
+    pub(crate) fn draw(&self, gpu: &Gpu, target: &TextureView, groups: &[&BindGroup], rows: Rows) -> Result<()> {
+        gpu.checked(|| {
+            let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+            self.record(&mut encoder, &[target], groups, rows);
+            gpu.queue.submit([encoder.finish()]);
+        })
+    }
+}
+
+/// Pass that adds instances of a square to its target.
+#[derive(Debug)]
+pub(crate) struct SquarePass(Pipeline);
+
+impl SquarePass {
+    /// Builds the pipeline of a shader with the entry points `spread` and `fragment`; values are added to the target.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        shader: &str,
+        fragment: &str,
+        groups: &[&[Slot]],
+        target: TextureFormat,
+    ) -> Result<Self> {
+        let add = BlendComponent {
+            src_factor: BlendFactor::One,
+            dst_factor: BlendFactor::One,
+            operation: BlendOperation::Add,
+        };
+        let blend = Some(BlendState { color: add, alpha: add });
+        let program = Program { shader, vertex: "spread", fragment, groups, targets: &[target] };
+        let drawing = Drawing { topology: PrimitiveTopology::TriangleStrip, blend, ..Default::default() };
+        Ok(Self(Pipeline::new(gpu, &program, drawing)?))
+    }
+
+    /// Binds resources, in order, to bind group number `group`.
+    pub(crate) fn bind(&self, gpu: &Gpu, group: usize, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
+        self.0.bind(gpu, group, resources)
+    }
+
+    /// Adds squares to a target that is cleared to 0; of each draw, bind group 1 and the number of squares.
+    pub(crate) fn record(
+        &self,
+        encoder: &mut CommandEncoder,
+        target: &TextureView,
+        group: &BindGroup,
+        draws: &[(&BindGroup, u32)],
+    ) {
+        let attachments = [Some(attachment(target, LoadOp::Clear(Color::TRANSPARENT)))];
+        let mut pass = self.0.begin(encoder, &attachments, None, &[group]);
+        for (of_draw, squares) in draws {
+            pass.set_bind_group(1, *of_draw, &[]);
+            pass.draw(0..4, 0..*squares);
+        }
+    }
+}
+
+/// Band of rows of a target.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rows {
+    /// Texels of a row.
+    pub(crate) width: u32,
+    /// Number of the first row, from the top.
+    pub(crate) first: u32,
+    /// Number of rows.
+    pub(crate) count: u32,
+}
+
+impl Rows {
+    /// All rows of a target of `size`, width and height.
+    pub(crate) fn all(size: [u32; 2]) -> Self {
+        Self { width: size[0], first: 0, count: size[1] }
+    }
+
+    /// All rows of a target of `size`, in bands of at most `work_per_row` · rows ≈ 2²⁸ steps of a loop each: one submission
+    /// that runs for seconds trips a driver's watchdog.
+    pub(crate) fn bands(size: [u32; 2], work_per_row: u64) -> impl Iterator<Item = Self> {
+        let rows = ((1_u64 << 28) / work_per_row.max(1)).clamp(1, u64::from(size[1].max(1)));
+        let rows = u32::try_from(rows).unwrap_or(1);
+        (0..size[1]).step_by(rows as usize).map(move |first| Self {
+            width: size[0],
+            first,
+            count: rows.min(size[1] - first),
+        })
+    }
+}

@@ -1,0 +1,148 @@
+//! Render pipelines: a shader compiled for its targets, its bind groups, and the beginning of a pass.
+
+use wgpu::{
+    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindingResource,
+    BlendState, Color, ColorTargetState, ColorWrites, CommandEncoder, DepthStencilState, FragmentState, LoadOp,
+    MultisampleState, Operations, PipelineLayoutDescriptor, PrimitiveState, PrimitiveTopology, RenderPass,
+    RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor, RenderPipeline,
+    RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp, TextureFormat, TextureView,
+    VertexBufferLayout, VertexState,
+};
+
+use super::device::Gpu;
+use super::slot::{Slot, layout_entries};
+use crate::error::Result;
+
+/// Render pipeline, and the layouts of its bind groups.
+#[derive(Debug)]
+pub(crate) struct Pipeline {
+    pipeline: RenderPipeline,
+    groups: Vec<BindGroupLayout>,
+}
+
+/// Shader of a pipeline, what it reads and what it draws to.
+pub(crate) struct Program<'a> {
+    /// WGSL, without what says how targets hold values.
+    pub(crate) shader: &'a str,
+    /// Entry point of the vertex stage.
+    pub(crate) vertex: &'a str,
+    /// Entry point of the fragment stage.
+    pub(crate) fragment: &'a str,
+    /// Bindings of each bind group.
+    pub(crate) groups: &'a [&'a [Slot]],
+    /// Format of each colour target.
+    pub(crate) targets: &'a [TextureFormat],
+}
+
+/// Fixed state of a pipeline: from vertices to samples of the targets.
+#[derive(Default)]
+pub(crate) struct Drawing<'a> {
+    pub(crate) topology: PrimitiveTopology,
+    /// How values are added to those of the target; replaced if `None`.
+    pub(crate) blend: Option<BlendState>,
+    pub(crate) vertices: &'a [VertexBufferLayout<'a>],
+    pub(crate) depth: Option<DepthStencilState>,
+    pub(crate) multisample: MultisampleState,
+}
+
+impl Pipeline {
+    /// Compiles a shader.
+    ///
+    /// # Errors
+    /// [`crate::Error::Device`] if the driver refuses it.
+    pub(crate) fn new(gpu: &Gpu, program: &Program<'_>, drawing: Drawing<'_>) -> Result<Self> {
+        let label = Some(program.fragment);
+        gpu.checked(|| {
+            let groups: Vec<BindGroupLayout> =
+                program.groups.iter().map(|slots| bind_group_layout(gpu, slots)).collect();
+            let module = gpu.device.create_shader_module(ShaderModuleDescriptor {
+                label,
+                source: ShaderSource::Wgsl(gpu.keeping().complete(program.shader).into()),
+            });
+            let bind_group_layouts: Vec<Option<&BindGroupLayout>> = groups.iter().map(Some).collect();
+            let target = |format: &TextureFormat| {
+                Some(ColorTargetState { format: *format, blend: drawing.blend, write_mask: ColorWrites::ALL })
+            };
+            let targets: Vec<Option<ColorTargetState>> = program.targets.iter().map(target).collect();
+            let layout = gpu.device.create_pipeline_layout(&PipelineLayoutDescriptor {
+                label,
+                bind_group_layouts: &bind_group_layouts,
+                immediate_size: 0,
+            });
+            let vertices: Vec<_> = drawing.vertices.iter().cloned().map(Some).collect();
+            let pipeline = gpu.device.create_render_pipeline(&RenderPipelineDescriptor {
+                label,
+                layout: Some(&layout),
+                vertex: VertexState {
+                    module: &module,
+                    entry_point: Some(program.vertex),
+                    compilation_options: Default::default(),
+                    buffers: &vertices,
+                },
+                primitive: PrimitiveState { topology: drawing.topology, ..Default::default() },
+                depth_stencil: drawing.depth,
+                multisample: drawing.multisample,
+                fragment: Some(FragmentState {
+                    module: &module,
+                    entry_point: label,
+                    compilation_options: Default::default(),
+                    targets: &targets,
+                }),
+                multiview_mask: None,
+                cache: None,
+            });
+            Self { pipeline, groups }
+        })
+    }
+
+    /// Binds resources, in order, to bind group number `group`.
+    pub(crate) fn bind(&self, gpu: &Gpu, group: usize, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
+        let entries = resources.iter().zip(0..);
+        let entries: Vec<BindGroupEntry<'_>> =
+            entries.map(|(resource, binding)| BindGroupEntry { binding, resource: resource.clone() }).collect();
+        let layout = &self.groups[group];
+        gpu.checked(|| gpu.device.create_bind_group(&BindGroupDescriptor { label: None, layout, entries: &entries }))
+    }
+
+    /// Begins a pass that draws to `attachments`, with `groups` bound from 0 on. Depth is cleared to 1 and discarded at the end.
+    pub(crate) fn begin<'e>(
+        &self,
+        encoder: &'e mut CommandEncoder,
+        attachments: &[Option<RenderPassColorAttachment<'_>>],
+        depth: Option<&TextureView>,
+        groups: &[&BindGroup],
+    ) -> RenderPass<'e> {
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: None,
+            color_attachments: attachments,
+            depth_stencil_attachment: depth.map(|view| RenderPassDepthStencilAttachment {
+                view,
+                depth_ops: Some(Operations { load: LoadOp::Clear(1.0), store: StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: None,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pass.set_pipeline(&self.pipeline);
+        for (group, index) in groups.iter().zip(0..) {
+            pass.set_bind_group(index, *group, &[]);
+        }
+        pass
+    }
+}
+
+/// Attachment of a colour target whose values are stored.
+pub(crate) fn attachment<'a>(view: &'a TextureView, load: LoadOp<Color>) -> RenderPassColorAttachment<'a> {
+    RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: Operations { load, store: StoreOp::Store },
+    }
+}
+
+fn bind_group_layout(gpu: &Gpu, slots: &[Slot]) -> BindGroupLayout {
+    let entries = layout_entries(slots, gpu.keeping());
+    gpu.device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: None, entries: &entries })
+}

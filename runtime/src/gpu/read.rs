@@ -1,0 +1,105 @@
+//! Pictures to draw to, and reading texels back from the device.
+
+use bytemuck::Pod;
+use half::f16;
+use wgpu::{BufferUsages, CommandEncoderDescriptor, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture};
+
+use super::device::Gpu;
+use super::resource::{Surface2d, TextureSpec, extent};
+use crate::error::{Error, Result};
+
+/// Picture on the device.
+#[derive(Debug)]
+pub struct PictureTarget(pub(crate) Surface2d);
+
+impl PictureTarget {
+    /// View to draw to.
+    #[must_use]
+    pub fn view(&self) -> &wgpu::TextureView {
+        &self.0.view
+    }
+}
+
+impl Gpu {
+    /// Creates a picture of `size` pixels, width and height, to draw to.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if `size` is more than the device takes.
+    pub fn target(&self, size: [u32; 2], format: wgpu::TextureFormat) -> Result<PictureTarget> {
+        Ok(PictureTarget(self.texture(&TextureSpec::target("picture", size, format))?))
+    }
+
+    /// Texels of a picture, row by row from the top, as they stand in it; the picture must have four bytes to a texel.
+    ///
+    /// # Errors
+    /// [`Error::Device`] if the device is lost.
+    pub fn read_picture(&self, target: &PictureTarget) -> Result<Vec<[u8; 4]>> {
+        self.read(&target.0.texture)
+    }
+
+    /// Texels of a texture of one layer, row by row.
+    pub(crate) fn read<T: Pod>(&self, texture: &Texture) -> Result<Vec<T>> {
+        let texel = texture.format().block_copy_size(None).unwrap_or(4);
+        let (width, height) = (texture.width(), texture.height());
+        let row = (width * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        // As many rows at a time as a buffer may have.
+        let most = self.device.limits().max_buffer_size / u64::from(row);
+        let most = u32::try_from(most).unwrap_or(u32::MAX).clamp(1, height.max(1));
+        let mut texels = Vec::with_capacity(width as usize * height as usize);
+        for first in (0..height).step_by(most as usize) {
+            let rows = most.min(height - first);
+            self.read_rows(texture, first, [width, rows], row, &mut texels)?;
+        }
+        Ok(texels)
+    }
+
+    /// Appends the texels of some rows from `first` on to `texels`; in the buffer between, rows are `row` bytes apart.
+    fn read_rows<T: Pod>(
+        &self,
+        texture: &Texture,
+        first: u32,
+        size: [u32; 2],
+        row: u32,
+        texels: &mut Vec<T>,
+    ) -> Result<()> {
+        let texel = texture.format().block_copy_size(None).unwrap_or(4);
+        let [width, height] = size;
+        let bytes = u64::from(row) * u64::from(height);
+        let buffer = self.checked(|| {
+            self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("read back"),
+                size: bytes,
+                usage: BufferUsages::COPY_DST | BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            })
+        })?;
+        let buffer = self.ledger().enter(buffer, bytes);
+        self.checked(|| {
+            let mut encoder = self.device.create_command_encoder(&CommandEncoderDescriptor::default());
+            let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
+            let to = TexelCopyBufferInfo { buffer: &buffer, layout };
+            let origin = wgpu::Origin3d { x: 0, y: first, z: 0 };
+            let from = wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() };
+            encoder.copy_texture_to_buffer(from, to, extent(size, 1));
+            self.queue.submit([encoder.finish()]);
+        })?;
+        let (sender, receiver) = std::sync::mpsc::channel();
+        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+            // The receiver waits below; if it is gone, nobody wants the answer.
+            let _ = sender.send(result);
+        });
+        self.finish()?;
+        let mapped = receiver.recv().map_err(|_| Error::Device("the device never answered".to_owned()))?;
+        mapped.map_err(|error| Error::Device(error.to_string()))?;
+        let bytes = buffer.get_mapped_range(..).map_err(|error| Error::Device(error.to_string()))?;
+        let rows = bytes.chunks(row as usize).map(|bytes| &bytes[..(width * texel) as usize]);
+        texels.extend(rows.flat_map(bytemuck::pod_collect_to_vec::<u8, T>));
+        Ok(())
+    }
+
+    /// Linear rgb of every texel of a target of [`Gpu::map_format`], half floats or their bits, row by row.
+    pub(crate) fn read_rgb(&self, texture: &Texture) -> Result<Vec<[f32; 3]>> {
+        let texels: Vec<[u16; 4]> = self.read(texture)?;
+        Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b].map(|bits| f16::from_bits(bits).to_f32())).collect())
+    }
+}

@@ -1,0 +1,153 @@
+//! Cascade of Gaussian blurs over weighted irradiance maps.
+
+use subsurf_shaders::source::{self, Domain};
+use wgpu::{BindGroup, BindingResource, CommandEncoder, TextureView};
+
+use crate::asset::SeparableMaterial;
+use crate::error::Result;
+use crate::gpu::{CoverPass, Gpu, HALF, Rows, Slot, Surface2d, TextureSpec, layer_of, layers_of};
+
+/// L maps in one array.
+#[derive(Debug)]
+pub(crate) struct Maps {
+    surface: Surface2d,
+    /// View of all maps, to read.
+    pub(crate) all: TextureView,
+    /// View of each map, to draw to.
+    pub(crate) layers: Vec<TextureView>,
+}
+
+impl Maps {
+    pub(crate) fn new(gpu: &Gpu, label: &'static str, size: [u32; 2], terms: usize) -> Result<Self> {
+        let count = u32::try_from(terms).unwrap_or(u32::MAX);
+        let target = TextureSpec::target(label, size, gpu.kept());
+        let surface = gpu
+            .texture(&TextureSpec { usage: target.usage, ..TextureSpec::layered(label, size, count, target.format) })?;
+        let layers = (0..count).map(|layer| layer_of(&surface, layer)).collect();
+        Ok(Self { all: layers_of(&surface), layers, surface })
+    }
+
+    /// Bytes on the device of L maps of `size`.
+    pub(crate) fn bytes_of(size: [u32; 2], terms: usize) -> u64 {
+        let count = u32::try_from(terms).unwrap_or(u32::MAX);
+        TextureSpec::layered("", size, count, HALF).bytes()
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
+        self.surface.texture.bytes()
+    }
+}
+
+/// Passes of the cascade, for maps that lie on a patch or on the screen.
+#[derive(Debug)]
+pub(crate) struct BlurPasses {
+    terms: usize,
+    rows: CoverPass,
+    columns: CoverPass,
+}
+
+impl BlurPasses {
+    pub(crate) fn new(gpu: &Gpu, domain: Domain, terms: usize) -> Result<Self> {
+        // Maps of a patch are sampled.
+        let (of_domain, of_maps) = match domain {
+            Domain::Patch => (Slot::Nearest, Slot::FloatLayers),
+            Domain::Screen => (Slot::Uniform, Slot::KeptLayers),
+        };
+        let of_rows = [Slot::Uniform, of_domain, of_maps];
+        let of_columns = [Slot::Uniform, of_domain, of_maps, Slot::KeptLayers];
+        let targets = vec![gpu.kept(); 2 * terms];
+        Ok(Self {
+            terms,
+            rows: CoverPass::new(gpu, source::blur_rows(domain, terms), "blur", &[&of_rows], &targets[..terms])?,
+            columns: CoverPass::new(gpu, source::blur_columns(domain, terms), "blur", &[&of_columns], &targets)?,
+        })
+    }
+}
+
+/// Maps of one size, and bind groups of the passes that blur them.
+#[derive(Debug)]
+pub(crate) struct Cascade {
+    size: [u32; 2],
+    /// Maps c_l E, blurred in place stage by stage; and the same between rows and columns.
+    pub(crate) maps: [Maps; 2],
+    /// Sums S_m of the stages before and with this one, by turns.
+    sums: [Maps; 2],
+    groups: Vec<[BindGroup; 2]>,
+}
+
+impl Cascade {
+    /// Makes the maps of `size`. `domain` is the binding of the [`Domain`]: the block of the screen, or a sampler that wraps as the patch does.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        passes: &BlurPasses,
+        material: &SeparableMaterial,
+        domain: &BindingResource<'_>,
+        size: [u32; 2],
+    ) -> Result<Self> {
+        let map = |label| Maps::new(gpu, label, size, passes.terms);
+        let maps = [map("weighted irradiance")?, map("irradiance blurred along rows")?];
+        let sums = [map("sums of stages")?, map("sums of stages, by turns")?];
+        let texture = BindingResource::TextureView;
+        let groups = material.stages().iter().enumerate().map(|(a, [rows, columns])| {
+            let of_rows = [rows.as_entire_binding(), domain.clone(), texture(&maps[0].all)];
+            let so_far = texture(&sums[(a + 1) % 2].all);
+            let of_columns = [columns.as_entire_binding(), domain.clone(), texture(&maps[1].all), so_far];
+            Ok([passes.rows.bind(gpu, 0, &of_rows)?, passes.columns.bind(gpu, 0, &of_columns)?])
+        });
+        let groups = groups.collect::<Result<_>>()?;
+        Ok(Self { size, maps, sums, groups })
+    }
+
+    /// Bytes on the device of all maps of a cascade.
+    pub(crate) fn bytes_of(size: [u32; 2], terms: usize) -> u64 {
+        4 * Maps::bytes_of(size, terms)
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
+        self.maps.iter().chain(&self.sums).map(Maps::bytes).sum()
+    }
+
+    /// Sums S_m before the first stage: light of the pass that makes the maps, on the screen.
+    pub(crate) fn begun_sums(&self) -> &Maps {
+        &self.sums[1]
+    }
+
+    /// Sums S_m after the last stage.
+    pub(crate) fn sums(&self) -> &Maps {
+        &self.sums[(self.groups.len() + 1) % 2]
+    }
+
+    /// Sums S_m before the last stage.
+    pub(crate) fn sums_before_last(&self) -> &Maps {
+        &self.sums[self.groups.len() % 2]
+    }
+
+    /// Records all stages, from the maps to the sums; with `ends`, other passes take the place of the first and the last.
+    pub(crate) fn record(&self, encoder: &mut CommandEncoder, passes: &BlurPasses, ends: Option<Ends<'_>>) {
+        let [maps, between] = &self.maps;
+        let all = Rows::all(self.size);
+        let last = self.groups.len() - 1;
+        for (a, [of_rows, of_columns]) in self.groups.iter().enumerate() {
+            let to: Vec<&TextureView> = between.layers.iter().collect();
+            match ends {
+                Some(Ends { first: (rows, of_rows), .. }) if a == 0 => rows.record(encoder, &to, &[of_rows], all),
+                _ => passes.rows.record(encoder, &to, &[of_rows], all),
+            }
+            let to: Vec<&TextureView> = maps.layers.iter().chain(&self.sums[a % 2].layers).collect();
+            match ends {
+                Some(Ends { last: (columns, of_columns), target, .. }) if a == last => {
+                    columns.record(encoder, &[target], &[of_columns], all);
+                }
+                _ => passes.columns.record(encoder, &to, &[of_columns], all),
+            }
+        }
+    }
+}
+
+/// Passes in place of the first along rows and the last along columns, with their bind groups and the last's target.
+#[derive(Clone, Copy)]
+pub(crate) struct Ends<'a> {
+    pub(crate) first: (&'a CoverPass, &'a BindGroup),
+    pub(crate) last: (&'a CoverPass, &'a BindGroup),
+    pub(crate) target: &'a TextureView,
+}

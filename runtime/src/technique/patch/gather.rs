@@ -1,0 +1,68 @@
+//! Gather on flat patches: the reference.
+
+use subsurf_shaders::{Storage, source, uniform};
+use wgpu::{BindingResource, TextureFormat};
+
+use super::surface::{Exitance, PatchLight, Region};
+use crate::asset::{Material, slots};
+use crate::error::Result;
+use crate::gpu::{CoverPass, Gpu, Rows, Slot, TextureSpec};
+
+/// Pipelines of the gather on flat patches of one layout; made once.
+#[derive(Debug)]
+pub struct PatchRenderer {
+    storage: Storage,
+    gather: CoverPass,
+    present: CoverPass,
+}
+
+impl PatchRenderer {
+    /// Compiles the passes for a layout.
+    ///
+    /// # Errors
+    /// [`crate::Error::Device`] if the driver refuses them.
+    pub fn new(gpu: &Gpu, storage: Storage) -> Result<Self> {
+        let gather_groups = [slots(storage), &[Slot::Uniform, Slot::Float]];
+        let present_groups: [&[Slot]; 1] = [&[Slot::Uniform, Slot::Kept]];
+        Ok(Self {
+            storage,
+            gather: CoverPass::new(gpu, source::gather(storage), "gather", &gather_groups, &[gpu.kept()])?,
+            present: CoverPass::new(gpu, source::PRESENT, "present", &present_groups, &[TextureFormat::Rgba8Unorm])?,
+        })
+    }
+
+    /// Exitance Σ Rd(x_i, x_o) E(x_i) pitch² of a region, in the unit of the irradiance.
+    ///
+    /// # Errors
+    /// [`crate::Error::Device`] if material or light are for another layout or size, or the device is lost.
+    pub fn gather(&self, gpu: &Gpu, material: &Material, light: &PatchLight, region: Region) -> Result<Exitance> {
+        material.expect(self.storage)?;
+        light.expect([material.header().width, material.header().height])?;
+        let spec = TextureSpec::target("exitance", region.size, gpu.kept());
+        let surface = gpu.texture(&spec)?;
+        let view = gpu.uniform("view", &uniform::View { origin: region.origin, pad: [0; 2] });
+        let of_material = self.gather.bind(gpu, 0, &material.resources())?;
+        let of_view = [view.as_entire_binding(), BindingResource::TextureView(&light.0.view)];
+        let of_view = self.gather.bind(gpu, 1, &of_view)?;
+        let d = 2 * u64::from(material.header().window_radius) + 1;
+        for rows in Rows::bands(region.size, d * d * u64::from(region.size[0])) {
+            self.gather.draw(gpu, &surface.view, &[&of_material, &of_view], rows)?;
+        }
+        Ok(Exitance::new(surface, region.size))
+    }
+
+    /// Picture of an exitance: `size` pixels of 8-bit sRGB, row by row, tone-mapped after multiplication with `exposure`.
+    ///
+    /// # Errors
+    /// [`crate::Error::Device`] if the device is lost.
+    pub fn picture(&self, gpu: &Gpu, exitance: &Exitance, size: [u32; 2], exposure: f32) -> Result<Vec<[u8; 3]>> {
+        let target = gpu.texture(&TextureSpec::target("picture", size, TextureFormat::Rgba8Unorm))?;
+        let frame = uniform::Frame { size, texels: exitance.size, exposure, pad: [0.0; 3] };
+        let frame = gpu.uniform("frame", &frame);
+        let resources = [frame.as_entire_binding(), BindingResource::TextureView(&exitance.surface.view)];
+        let group = self.present.bind(gpu, 0, &resources)?;
+        self.present.draw(gpu, &target.view, &[&group], Rows::all(size))?;
+        let texels: Vec<[u8; 4]> = gpu.read(&target.texture)?;
+        Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect())
+    }
+}

@@ -1,0 +1,108 @@
+//! Separable blurs on flat patches: a cascade of Gaussians from weighted irradiance to exitance.
+
+use subsurf_shaders::source::{self, Domain};
+use wgpu::{BindGroup, BindingResource, CommandEncoderDescriptor};
+
+use super::surface::{Exitance, PatchLight, nearest};
+use crate::asset::SeparableMaterial;
+use crate::error::Result;
+use crate::gpu::{CoverPass, Gpu, HALF, Rows, Slot, TextureSpec};
+use crate::technique::cascade::{BlurPasses, Cascade, Ends};
+
+/// Pipelines of separable blurs on flat patches of L terms; made once.
+#[derive(Debug)]
+pub struct SeparableRenderer {
+    terms: usize,
+    first: CoverPass,
+    blur: BlurPasses,
+    last: CoverPass,
+}
+
+/// Patch under a light, ready to be drawn any number of times.
+#[derive(Debug)]
+pub struct SeparablePatch {
+    cascade: Cascade,
+    first: BindGroup,
+    last: BindGroup,
+    exitance: Exitance,
+}
+
+impl SeparableRenderer {
+    /// Compiles the passes.
+    ///
+    /// # Errors
+    /// [`Error::Device`] if the driver refuses them; [`Error::NoHalfFloats`].
+    pub fn new(gpu: &Gpu, terms: usize) -> Result<Self> {
+        gpu.expect_halves("blurs on flat patches")?;
+        let of_first = [Slot::Uniform, Slot::Nearest, Slot::FilteredLayers, Slot::Float];
+        let of_last = [Slot::Uniform, Slot::Nearest, Slot::FloatLayers, Slot::KeptLayers, Slot::FilteredLayers];
+        Ok(Self {
+            terms,
+            first: CoverPass::new(gpu, source::first_rows(terms), "blur", &[&of_first], &vec![HALF; terms])?,
+            blur: BlurPasses::new(gpu, Domain::Patch, terms)?,
+            last: CoverPass::new(gpu, source::last_columns(terms), "blur", &[&of_last], &[HALF])?,
+        })
+    }
+
+    /// Makes room for the maps of a patch.
+    ///
+    /// # Errors
+    /// [`Error::Device`] if the material has another number of terms, [`Error::Unsupported`] if it is too large.
+    pub fn prepare(&self, gpu: &Gpu, material: &SeparableMaterial, light: &PatchLight) -> Result<SeparablePatch> {
+        material.expect(self.terms)?;
+        let header = material.header();
+        let size = [header.width, header.height];
+        light.expect(size)?;
+        let nearest = nearest(gpu, header.addressing);
+        let nearest = BindingResource::Sampler(&nearest);
+        let cascade = Cascade::new(gpu, &self.blur, material, &nearest, size)?;
+        let texture = BindingResource::TextureView;
+        let [rows, _] = &material.stages()[0];
+        let [_, columns] = &material.stages()[material.stages().len() - 1];
+        let factors = texture(&material.layers.all);
+        let of_first = [rows.as_entire_binding(), nearest.clone(), factors.clone(), texture(light.view())];
+        let of_last = [
+            columns.as_entire_binding(),
+            nearest.clone(),
+            texture(&cascade.maps[1].all),
+            texture(&cascade.sums_before_last().all),
+            factors,
+        ];
+        let surface = gpu.texture(&TextureSpec::target("exitance", size, HALF))?;
+        Ok(SeparablePatch {
+            first: self.first.bind(gpu, 0, &of_first)?,
+            last: self.last.bind(gpu, 0, &of_last)?,
+            cascade,
+            exitance: Exitance::new(surface, size),
+        })
+    }
+
+    /// Draws the exitance of the whole patch.
+    ///
+    /// # Errors
+    /// [`Error::Device`] if the device is lost.
+    pub fn draw<'a>(&self, gpu: &Gpu, patch: &'a SeparablePatch) -> Result<&'a Exitance> {
+        let ends =
+            Ends { first: (&self.first, &patch.first), last: (&self.last, &patch.last), target: patch.exitance.view() };
+        gpu.checked(|| {
+            let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+            patch.cascade.record(&mut encoder, &self.blur, Some(ends));
+            gpu.queue.submit([encoder.finish()]);
+        })?;
+        Ok(&patch.exitance)
+    }
+}
+
+impl SeparablePatch {
+    /// Exitance that was drawn last.
+    #[must_use]
+    pub fn into_exitance(self) -> Exitance {
+        self.exitance
+    }
+
+    /// Bytes of the maps on the device.
+    #[must_use]
+    pub fn gpu_bytes(&self) -> u64 {
+        self.cascade.bytes()
+    }
+}

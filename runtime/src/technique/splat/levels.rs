@@ -1,0 +1,59 @@
+//! How the samples that lights see are cut into levels and rings.
+
+use subsurf_scene::Placement;
+use subsurf_shaders::uniform::MAX_RINGS;
+
+/// Edge of samples of the first ring, in pixels of the material.
+const SAMPLE_PIXELS: f32 = 1.0;
+/// Where the first ring begins to fade out, in edges of its samples, and where it ends.
+pub(super) const RING: f32 = 2.0;
+pub(super) const FADE: f32 = 1.6;
+/// Texels of the finest target to an edge of a sample of the first ring.
+const TEXELS_PER_SAMPLE: f32 = 2.0;
+
+/// Levels and rings for a mesh of a certain size.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Levels {
+    /// Level of lights' views that the first ring takes its samples from.
+    pub(super) first: u32,
+    /// Number of rings.
+    pub(super) rings: u32,
+}
+
+impl Levels {
+    /// Levels for views of `light_texels` to a side.
+    pub(super) fn new(placement: &Placement, light_texels: u32) -> Self {
+        #[allow(clippy::cast_precision_loss, reason = "a thousand")]
+        let texel_mm = 2.0 * placement.bounds.radius_mm / light_texels as f32;
+        let sample_mm = SAMPLE_PIXELS * placement.pitch_mm;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let first = (sample_mm / texel_mm).log2().round().clamp(1.0, 5.0) as u32;
+        #[allow(clippy::cast_precision_loss, reason = "small")]
+        let first_mm = texel_mm * (1_u32 << first) as f32;
+        let reach = placement.r_max_mm / (RING * first_mm);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let rings = (reach.log2().ceil() + 1.0).clamp(1.0, MAX_RINGS as f32) as u32;
+        Self { first, rings: rings.min(light_texels.ilog2().saturating_sub(first).max(1)) }
+    }
+
+    /// Number of levels of lights' views.
+    pub(super) fn count(&self) -> u32 {
+        self.first + self.rings
+    }
+}
+
+/// Pixels of the picture to a side of a texel of the finest target.
+pub(super) fn divisor(placement: &Placement, light_texels: u32, pixels_per_mm: f32) -> u32 {
+    let levels = Levels::new(placement, light_texels);
+    #[allow(clippy::cast_precision_loss, reason = "small")]
+    let sample_mm = 2.0 * placement.bounds.radius_mm / light_texels as f32 * (1_u32 << levels.first) as f32;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let divisor = (sample_mm * pixels_per_mm / TEXELS_PER_SAMPLE).clamp(1.0, 8.0) as u32;
+    // Of what is no number nothing is left.
+    divisor.max(1)
+}
+
+/// Size of a ring's target, when the finest has `size`.
+pub(super) fn ring_size(size: [u32; 2], ring: u32) -> [u32; 2] {
+    size.map(|side| side.div_ceil(1 << ring).max(1))
+}

@@ -1,0 +1,11 @@
+//! Triangle meshes: checked once, made finer, with tangents; and shapes that need no file.
+
+mod bounds;
+mod shapes;
+mod subdivide;
+mod tangents;
+mod triangles;
+
+pub use bounds::BoundingSphere;
+pub use shapes::{bowl, drapery, knot, relief, sphere, torus};
+pub use triangles::Mesh;

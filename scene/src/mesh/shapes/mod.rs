@@ -1,0 +1,15 @@
+//! Meshes that need no file.
+
+mod bowl;
+mod drapery;
+mod lattice;
+mod sphere;
+mod tube;
+
+#[cfg(test)]
+mod tests;
+
+pub use bowl::bowl;
+pub use drapery::drapery;
+pub use sphere::{relief, sphere};
+pub use tube::{knot, torus};

@@ -1,0 +1,128 @@
+//! Triangle meshes, checked once.
+
+use glam::{Vec2, Vec3};
+
+use super::bounds::BoundingSphere;
+use crate::error::{Error, Result};
+
+/// A triangle mesh.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    /// Positions of the vertices, in mm.
+    pub positions: Vec<Vec3>,
+    /// Unit normals of the vertices.
+    pub normals: Vec<Vec3>,
+    /// Texture coordinates of the vertices, v upwards, if the mesh has any.
+    pub uvs: Option<Vec<Vec2>>,
+    /// Vertices of the triangles.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    /// Checks indices and numbers, scales positions by `mm_per_unit`, and computes normals where `normals` is empty.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] if the mesh is empty, an index leads outside, or a number is not finite.
+    pub fn new(
+        mut positions: Vec<Vec3>,
+        normals: Vec<Vec3>,
+        uvs: Option<Vec<Vec2>>,
+        triangles: Vec<[u32; 3]>,
+        mm_per_unit: f32,
+    ) -> Result<Self> {
+        let wrong = |what: String| Err(Error::Mesh(what));
+        if triangles.is_empty() {
+            return wrong("no triangles".to_owned());
+        }
+        if !(mm_per_unit.is_finite() && mm_per_unit > 0.0) {
+            return wrong(format!("a scale of {mm_per_unit} mm per unit"));
+        }
+        if let Some(index) = triangles.iter().flatten().find(|&&index| index as usize >= positions.len()) {
+            return wrong(format!("a triangle names vertex {index}, but there are {}", positions.len()));
+        }
+        if let Some(at) = positions.iter().position(|position| !position.is_finite()) {
+            return wrong(format!("vertex {at} is at {}", positions[at]));
+        }
+        if uvs.as_ref().is_some_and(|uvs| uvs.len() != positions.len() || uvs.iter().any(|uv| !uv.is_finite())) {
+            return wrong("texture coordinates that are not finite, or not one for each vertex".to_owned());
+        }
+        for position in &mut positions {
+            *position *= mm_per_unit;
+        }
+        let given = normals.len() == positions.len() && normals.iter().all(|normal| normal.is_finite());
+        let normals = if given { normals } else { smooth_normals(&positions, &triangles) };
+        let normals = normals.into_iter().map(|normal| normal.try_normalize().unwrap_or(Vec3::Y)).collect();
+        Ok(Self { positions, normals, uvs, triangles })
+    }
+
+    /// Lowest and highest corner of the box around all vertices.
+    #[must_use]
+    pub fn bounds(&self) -> [Vec3; 2] {
+        let low = self.positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+        let high = self.positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+        [low, high]
+    }
+
+    /// Sphere around the middle of [`Mesh::bounds`] that holds all vertices.
+    #[must_use]
+    pub fn bounding_sphere(&self) -> BoundingSphere {
+        let [low, high] = self.bounds();
+        let centre_mm = 0.5 * (low + high);
+        let radius_mm = self.positions.iter().map(|position| position.distance(centre_mm)).fold(1e-3, f32::max);
+        BoundingSphere { centre_mm, radius_mm }
+    }
+
+    /// The mesh scaled so that its longest side is `extent_mm`, its middle at the origin.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] if it has no extent, or `extent_mm` is not positive.
+    pub fn fitted(self, extent_mm: f32) -> Result<Self> {
+        let [low, high] = self.bounds();
+        let middle = 0.5 * (low + high);
+        let positions = self.positions.iter().map(|position| *position - middle).collect();
+        let scale = extent_mm / (high - low).max_element();
+        Self::new(positions, self.normals, self.uvs, self.triangles, scale)
+    }
+
+    /// A third of the triangles around each vertex, in mm².
+    #[must_use]
+    pub fn vertex_areas(&self) -> Vec<f32> {
+        let mut areas = vec![0.0; self.positions.len()];
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|k| self.positions[k as usize]);
+            let third = (b - a).cross(c - a).length() / 6.0;
+            for &k in triangle {
+                areas[k as usize] += third;
+            }
+        }
+        areas
+    }
+}
+
+/// Normals weighted by area.
+fn smooth_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
+    let mut normals = vec![Vec3::ZERO; positions.len()];
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|k| positions[k as usize]);
+        let normal = (b - a).cross(c - a);
+        for &k in triangle {
+            normals[k as usize] += normal;
+        }
+    }
+    normals
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn broken_meshes_are_refused() {
+        let corner = || vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+        let new = |positions, triangles| Mesh::new(positions, Vec::new(), None, triangles, 1.0);
+        assert!(new(corner(), vec![]).is_err(), "no triangles");
+        assert!(new(corner(), vec![[0, 1, 3]]).is_err(), "an index outside");
+        assert!(new(vec![Vec3::NAN; 3], vec![[0, 1, 2]]).is_err(), "no number");
+        assert_eq!(new(corner(), vec![[0, 1, 2]]).unwrap().normals, [Vec3::Z; 3]);
+    }
+}

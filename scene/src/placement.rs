@@ -1,0 +1,52 @@
+//! Where a mesh is and how a material lies on it.
+
+use subsurf_decoder::bssrdf::Header;
+
+use crate::mapping::Mapping;
+use crate::mesh::{BoundingSphere, Mesh};
+
+/// Placement of a material on a mesh: all that pictures need to know of both besides their tables.
+#[derive(Clone, Copy, Debug)]
+pub struct Placement {
+    /// Where the mesh is.
+    pub bounds: BoundingSphere,
+    /// Where which pixel of the material lies on the mesh.
+    pub mapping: Mapping,
+    /// Pixels of the patch, width and height.
+    pub size: [u32; 2],
+    /// Distance of neighbouring pixels of the patch, in mm.
+    pub pitch_mm: f32,
+    /// Distance beyond which no light scatters, in mm.
+    pub r_max_mm: f32,
+    /// Refractive index against air.
+    pub eta: f32,
+}
+
+impl Placement {
+    /// Placement of a scattering material, of which `header` says the size.
+    #[must_use]
+    pub fn new(mesh: &Mesh, mapping: Mapping, header: &Header) -> Self {
+        Self {
+            bounds: mesh.bounding_sphere(),
+            mapping,
+            size: [header.width, header.height],
+            pitch_mm: header.pitch_mm,
+            r_max_mm: header.r_max_mm,
+            eta: header.eta,
+        }
+    }
+
+    /// Placement of a BTF, which has no size of its own and lets no light in: `copies` of it to the unit square of texture
+    /// coordinates, in u and in v.
+    #[must_use]
+    pub fn of_btf(mesh: &Mesh, copies: [f32; 2]) -> Self {
+        Self {
+            bounds: mesh.bounding_sphere(),
+            mapping: Mapping::Uv(copies),
+            size: [1, 1],
+            pitch_mm: 1.0,
+            r_max_mm: 1.0,
+            eta: 1.0,
+        }
+    }
+}

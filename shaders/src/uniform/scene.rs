@@ -1,0 +1,146 @@
+//! Blocks of what is drawn, from the scene's own types.
+
+use glam::camera::rh::proj::directx::{orthographic, perspective};
+use glam::camera::rh::view::look_at_mat4;
+use glam::{Mat4, Vec3};
+use subsurf_scene::{Light, LightShape, MAX_LIGHTS, Mapping, Placement, SurfacePoints};
+
+use super::{LightSource, ROW, Scene, Surface};
+use crate::cpu::diffuse_transmittance;
+
+/// Widest half angle of a light's view.
+const WIDEST: f32 = 75.0 * std::f32::consts::PI / 180.0;
+/// Views are this much wider than the scene: filters look beyond the last texel.
+const MARGIN: f32 = 1.03;
+
+impl Surface {
+    /// The block for the points of a surface.
+    #[must_use]
+    pub fn new(points: &SurfacePoints) -> Self {
+        let grid = points.grid;
+        Self { origin_mm: grid.origin_mm.into(), cell_mm: grid.cell_mm, cells: grid.cells.into(), points: grid.points }
+    }
+}
+
+impl Scene {
+    /// The uniform block for a picture of `size` of one mesh, when lights have views of `light_texels` to a side.
+    #[must_use]
+    pub fn new(scene: &subsurf_scene::Scene, placement: &Placement, size: [u32; 2], light_texels: u32) -> Self {
+        #[allow(clippy::cast_precision_loss, reason = "pictures and patches are a few thousand pixels wide")]
+        let [aspect, width, height] =
+            [size[0] as f32 / size[1] as f32, placement.size[0] as f32, placement.size[1] as f32];
+        let camera = &scene.camera;
+        let bounds = placement.bounds;
+        let forward = (camera.target_mm - camera.eye_mm).normalize_or(Vec3::NEG_Z);
+        let middle_mm = (bounds.centre_mm - camera.eye_mm).dot(forward);
+        // Near and far hold the mesh; an eye within it still sees what is further away than a hundredth of its size.
+        let near = (middle_mm - bounds.radius_mm).max(0.01 * bounds.radius_mm);
+        let far = (middle_mm + bounds.radius_mm).max(2.0 * near);
+        let clip_from_view = perspective(camera.fov_y_rad, aspect, near, far);
+        let up = if forward.y.abs() > 0.999 { Vec3::Z } else { Vec3::Y };
+        let view_from_world = look_at_mat4(camera.eye_mm, camera.eye_mm + forward, up);
+        let pitch_mm = placement.pitch_mm;
+        let mut block = Self {
+            clip_from_world: (clip_from_view * view_from_world).to_cols_array_2d(),
+            eye_mm: camera.eye_mm.into(),
+            exposure: camera.exposure,
+            forward: forward.into(),
+            middle_mm,
+            centre_mm: bounds.centre_mm.into(),
+            eta: placement.eta,
+            sky_transmittance: diffuse_transmittance(placement.eta),
+            roughness: scene.roughness.clamp(0.0, 1.0),
+            lights: u32::try_from(scene.lights.len().min(MAX_LIGHTS)).unwrap_or(0),
+            row: ROW,
+            patches_per_mm: [1.0 / (pitch_mm * width), 1.0 / (pitch_mm * height)],
+            pitch_mm,
+            is_boxed: u32::from(placement.mapping == Mapping::Box),
+            sky: [[0.0; 4]; 9],
+            light: [LightSource::default(); MAX_LIGHTS],
+        };
+        for (to, [r, g, b]) in block.sky.iter_mut().zip(scene.environment.irradiance_coefficients()) {
+            *to = [*r, *g, *b, 0.0];
+        }
+        for (to, light) in block.light.iter_mut().zip(&scene.lights) {
+            *to = LightSource::of(light, bounds.centre_mm, bounds.radius_mm, light_texels);
+        }
+        block
+    }
+}
+
+impl LightSource {
+    /// The uniform block for a scene within a sphere, when the light's view has `texels` to a side.
+    fn of(light: &Light, centre_mm: Vec3, radius_mm: f32, texels: u32) -> Self {
+        #[allow(clippy::cast_precision_loss, reason = "a thousand")]
+        let texels = texels as f32;
+        match light.shape {
+            LightShape::Directional { towards } => {
+                let towards = towards.normalize_or(Vec3::Y);
+                let half = MARGIN * radius_mm;
+                let view = looking(centre_mm + 2.0 * radius_mm * towards, -towards);
+                let clip = orthographic(-half, half, -half, half, 0.9 * radius_mm, 3.1 * radius_mm);
+                Self {
+                    clip_from_world: (clip * view).to_cols_array_2d(),
+                    place: towards.into(),
+                    irradiance: light.irradiance,
+                    axis: (-towards).into(),
+                    texel_mm: 2.0 * half / texels,
+                    ..Default::default()
+                }
+            }
+            LightShape::Point { position_mm } => {
+                let to_centre = centre_mm - position_mm;
+                let share = (MARGIN * radius_mm / to_centre.length().max(1e-6)).min(1.0);
+                // All around: no cosine is below these.
+                Self::local(light, position_mm, to_centre, share.asin(), [-3.0, -2.0], (centre_mm, radius_mm, texels))
+            }
+            LightShape::Spot { position_mm, target_mm, half_angle } => {
+                let half_angle = half_angle.clamp(0.01, WIDEST);
+                let cone = [half_angle.cos(), (0.9 * half_angle).cos()];
+                Self::local(
+                    light,
+                    position_mm,
+                    target_mm - position_mm,
+                    half_angle,
+                    cone,
+                    (centre_mm, radius_mm, texels),
+                )
+            }
+        }
+    }
+
+    fn local(
+        light: &Light,
+        position_mm: Vec3,
+        along: Vec3,
+        half_angle: f32,
+        [cos_outer, cos_inner]: [f32; 2],
+        (centre_mm, radius_mm, texels): (Vec3, f32, f32),
+    ) -> Self {
+        let axis = along.normalize_or(Vec3::NEG_Y);
+        let half_angle = half_angle.clamp(0.01, WIDEST);
+        let distance = position_mm.distance(centre_mm);
+        let middle_mm = (centre_mm - position_mm).dot(axis).max(1e-3 * radius_mm);
+        let near = (distance - MARGIN * radius_mm).max(0.02 * radius_mm);
+        let clip = perspective(2.0 * half_angle, 1.0, near * half_angle.cos(), distance + 2.0 * radius_mm);
+        let view = looking(position_mm, axis);
+        Self {
+            clip_from_world: (clip * view).to_cols_array_2d(),
+            place: position_mm.into(),
+            is_local: 1,
+            irradiance: light.irradiance.map(|value| value * distance * distance),
+            cos_outer,
+            axis: axis.into(),
+            cos_inner,
+            middle_mm,
+            texel_mm: 2.0 * half_angle.tan() * middle_mm / texels,
+            ..Default::default()
+        }
+    }
+}
+
+/// From `eye` along a unit vector.
+fn looking(eye: Vec3, along: Vec3) -> Mat4 {
+    let up = if along.y.abs() > 0.95 { Vec3::Z } else { Vec3::Y };
+    look_at_mat4(eye, eye + along, up)
+}
