@@ -4,7 +4,9 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
 use subsurf_encoder::simulate::diffusion::analytic::HalfSpace;
 use subsurf_encoder::simulate::diffusion::medium::reduced_albedo_to_diffuse;
-use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Medium, MediumMap, Sensor, Slab, Summary, simulate};
+use subsurf_encoder::simulate::diffusion::{
+    BuiltinMaterial, Finish, Medium, MediumMap, Sensor, Slab, Summary, simulate,
+};
 
 fn homogeneous(medium: Medium) -> MediumMap {
     MediumMap { size: [1, 1], media: vec![medium] }

@@ -39,4 +39,3 @@ pub fn per_pixel_of(material: &Bssrdf<'_>) -> Vec<u8> {
     }
     write_file(&header, &[(Section::LocalProfiles, values)])
 }
-

@@ -4,11 +4,11 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
-use crate::math::banded::Banded;
 use crate::bssrdf::field::Field;
-use crate::math::lanes::{self, Lanes, ZERO};
 use crate::bssrdf::normal::Normal;
+use crate::math::banded::Banded;
 use crate::math::k_means::KMeans;
+use crate::math::lanes::{self, Lanes, ZERO};
 use crate::progress::Progress;
 
 /// Rounds of Lloyd's iteration, at most.

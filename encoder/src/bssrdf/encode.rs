@@ -77,12 +77,14 @@ impl<'a> Problem<'a> {
                 (vec![song2009::section(&self.normal, profiles)], self.normal.cost(profiles))
             }
             Method::Yatagawa2020 => {
-                let model = yatagawa2020::fit(&self.normal, options.per_pixel, options.base_materials, options.seed, progress);
+                let model =
+                    yatagawa2020::fit(&self.normal, options.per_pixel, options.base_materials, options.seed, progress);
                 self.of_bases(&mut header, model, options.half_profiles)
             }
             Method::Clusters | Method::Direct => {
                 let profiles = self.profiles.get_or_insert_with(|| profiles::fit(&self.normal, progress));
-                let clusters = clusters::cluster(&self.normal, profiles, options.base_materials, options.seed, progress);
+                let clusters =
+                    clusters::cluster(&self.normal, profiles, options.base_materials, options.seed, progress);
                 let mut model = Model::of_clusters(clusters, self.normal.geometry.nodes);
                 if options.method == Method::Direct {
                     direct::refine(&self.normal, &mut model, options.per_pixel, options.coding, progress);

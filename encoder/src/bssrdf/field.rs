@@ -2,8 +2,8 @@
 
 use subsurf_decoder::bssrdf::Addressing;
 
-use crate::math::lanes::{Lanes, ZERO};
 use crate::bssrdf::window::Geometry;
+use crate::math::lanes::{Lanes, ZERO};
 
 /// Log-scale profiles `[y][x][node]` with R pixels of border on every side.
 #[derive(Clone, Debug)]

@@ -71,7 +71,9 @@ impl Options {
     pub(crate) fn check(&self) -> Result<()> {
         let model = self.model();
         let refuse = |message: String| Err(Error::Request(message));
-        if matches!(self.method, Method::Direct | Method::Yatagawa2020) && !MODELS_BMPP.map(usize::from).contains(&model) {
+        if matches!(self.method, Method::Direct | Method::Yatagawa2020)
+            && !MODELS_BMPP.map(usize::from).contains(&model)
+        {
             return refuse(format!("{model} base materials per pixel; there can be 1, 2, 3 or 5"));
         }
         if self.coding != Coding::Exact && (model != 2 || self.method != Method::Direct) {

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use crate::math::banded::Cholesky;
 use crate::bssrdf::field::Field;
-use crate::math::lanes::{self, Lanes, ZERO};
 use crate::bssrdf::normal::regulariser::regulariser;
 use crate::bssrdf::normal::{Matrix, Normal};
+use crate::math::banded::Cholesky;
+use crate::math::lanes::{self, Lanes, ZERO};
 use crate::progress::Progress;
 
 /// Largest residual of the solution, relative to the right-hand side.

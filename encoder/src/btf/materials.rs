@@ -40,11 +40,7 @@ pub(crate) fn common_tone(materials: &[Images]) -> Result<Tone> {
 ///
 /// # Errors
 /// [`Error::Request`] for no material or more than 255, and for sides of more than 65,535 texels.
-pub(crate) fn materials(
-    sizes: &[[u32; 2]],
-    names: &[String],
-    has_mipmaps: bool,
-) -> Result<(u8, Vec<Material>)> {
+pub(crate) fn materials(sizes: &[[u32; 2]], names: &[String], has_mipmaps: bool) -> Result<(u8, Vec<Material>)> {
     let count = u8::try_from(sizes.len()).ok().filter(|count| *count > 0);
     let count = count.ok_or_else(|| Error::Request(format!("{} materials in one file", sizes.len())))?;
     let all = sizes.iter().zip(names).map(|(size, name)| material(*size, name, has_mipmaps));

@@ -5,11 +5,11 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use subsurf_decoder::btf::Tone;
 
-use crate::capture::Images;
 use crate::btf::materials::common_tone;
+use crate::capture::Images;
 use crate::error::Result;
-use crate::progress::Progress;
 use crate::math::svd::{Columns, LowRank, PASSES};
+use crate::progress::Progress;
 
 /// Luma Y and chroma C of all texels at all pairs of directions, in components.
 ///

@@ -35,8 +35,7 @@ mod tests {
 
     #[test]
     fn broken_output_is_our_own_fault() {
-        let shape =
-            Shape { size: [4, 3], radius: 1, samples: 2, base_materials: 2, addressing: Addressing::Clamp };
+        let shape = Shape { size: [4, 3], radius: 1, samples: 2, base_materials: 2, addressing: Addressing::Clamp };
         let file = reread(shape.bmpp()).unwrap();
         let error = reread(file[..file.len() - 1].to_vec()).unwrap_err();
         assert!(matches!(error, Error::OwnOutput { .. }) && !error.is_callers(), "{error}");

@@ -6,8 +6,8 @@ use subsurf_decoder::container::Crc;
 use subsurf_decoder::{Btf, Factored, ReadError};
 
 use super::image::{psnr_of_mse_db, ssim_of_planes};
-use crate::capture::Images;
 use crate::btf::factored::{Memory, expanded};
+use crate::capture::Images;
 use crate::progress::Progress;
 
 /// Error of a BTF file, means over pairs of directions.

@@ -10,10 +10,10 @@ use super::insert::Pruning;
 use super::measure::Measure;
 use super::quantise::{Quantised, quantised};
 use super::similarity::{Allowed, Similarity};
-use crate::capture::Images;
 use crate::btf::mipmaps::Mipmaps;
 use crate::btf::nested::Database;
 use crate::btf::{common_tone, materials as records};
+use crate::capture::Images;
 use crate::error::Result;
 use crate::progress::Progress;
 

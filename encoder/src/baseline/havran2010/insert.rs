@@ -187,8 +187,9 @@ impl<'a> Pruning<'a> {
 
     /// A colour as an entry of C.
     fn insert_colour(&mut self, colour: [f32; 2]) -> u32 {
-        let score =
-            |k: usize, bound: f32, tally: &mut Tally| self.measure.colours(colour, self.codebooks.colours[k], bound, tally);
+        let score = |k: usize, bound: f32, tally: &mut Tally| {
+            self.measure.colours(colour, self.codebooks.colours[k], bound, tally)
+        };
         nearest(self.codebooks.colours.len(), self.allowed.colours, score)
             .map_or_else(|| self.codebooks.push_colour(colour), entry)
     }

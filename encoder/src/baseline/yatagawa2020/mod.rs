@@ -18,9 +18,9 @@ use rand_pcg::Pcg64;
 use subsurf_decoder::bssrdf::Mixture;
 
 use crate::bssrdf::model::Model;
+use crate::bssrdf::normal::Normal;
 use crate::math::lanes::Lanes;
 use crate::math::lbfgs::{self, Limits};
-use crate::bssrdf::normal::Normal;
 use crate::progress::Progress;
 use objective::{Energy, Multipliers, parameters_of, with_parameters};
 

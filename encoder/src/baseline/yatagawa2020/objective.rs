@@ -3,12 +3,12 @@
 use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Mixture;
 
+use super::EDGE;
 use crate::bssrdf::model::Model;
-use crate::math::lanes::{self, ZERO};
-use crate::math::lbfgs::{Bounds, Objective};
 use crate::bssrdf::normal::Normal;
 use crate::bssrdf::normal::regulariser::SMOOTHNESS;
-use super::EDGE;
+use crate::math::lanes::{self, ZERO};
+use crate::math::lbfgs::{Bounds, Objective};
 
 /// λ_barr and γ.
 const BARRIER: f64 = 1e-3;
@@ -198,9 +198,9 @@ fn barrier(t: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use crate::bssrdf::options::geometry;
-    use crate::baseline::yatagawa2020::random;
     use super::*;
+    use crate::baseline::yatagawa2020::random;
+    use crate::bssrdf::options::geometry;
     use crate::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
     use crate::synthetic::unit;
     use rand::SeedableRng;

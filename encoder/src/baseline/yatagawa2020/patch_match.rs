@@ -3,10 +3,10 @@
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-use crate::bssrdf::model::Model;
 use crate::bssrdf::field::Field;
-use crate::math::lanes::{self, Lanes, ZERO};
+use crate::bssrdf::model::Model;
 use crate::bssrdf::normal::Normal;
+use crate::math::lanes::{self, Lanes, ZERO};
 
 /// One pass over all pixels in order: candidates are two neighbours, left and upper ones in `odd` rounds and right and
 /// lower ones in even ones, and a random pixel; each is tried with the probability `acceptance`.

@@ -7,9 +7,9 @@
 use rayon::prelude::*;
 
 use crate::bssrdf::field::Field;
-use crate::math::lanes::{Lanes, ZERO};
 use crate::bssrdf::normal::Normal;
 use crate::bssrdf::window::Geometry;
+use crate::math::lanes::{Lanes, ZERO};
 
 /// √Rd of every pixel at the distance of every ring: Rd(i, j) is the product of two entries (eq. 1).
 pub(super) struct Albedo {

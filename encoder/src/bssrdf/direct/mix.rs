@@ -3,10 +3,10 @@
 use subsurf_decoder::bssrdf::Mixture;
 use subsurf_decoder::bssrdf::layout::MAX_PER_PIXEL;
 
+use super::albedo::Constraint;
+use crate::bssrdf::model::Model;
 use crate::math::banded::Banded;
 use crate::math::lanes::{Lanes, ZERO};
-use crate::bssrdf::model::Model;
-use super::albedo::Constraint;
 
 /// Scalar product Σ_h Σ_c p q of two profiles.
 pub(super) fn product(p: &[Lanes], q: &[Lanes]) -> f32 {

@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 
-use crate::math::banded::{Banded, Cholesky};
 use crate::bssrdf::field::Field;
-use crate::math::lanes::{self, Lanes, ZERO};
 use crate::bssrdf::model::Model;
 use crate::bssrdf::normal::Normal;
 use crate::bssrdf::normal::regulariser::regulariser;
+use crate::math::banded::{Banded, Cholesky};
+use crate::math::lanes::{self, Lanes, ZERO};
 
 /// Steps of conjugate gradients in one round; the next round goes on from there.
 const ITERATIONS: usize = 6;

@@ -47,4 +47,3 @@ pub(super) fn counts(geometry: &Geometry, rings: &[Ring], measured: &[Option<Vec
     });
     Some(counts)
 }
-

@@ -31,7 +31,13 @@ pub(super) struct Block {
 
 impl Block {
     /// Sums over the rows of a block, from row `first` on.
-    pub(super) fn read(capture: &Capture, geometry: &Geometry, rings: &[Ring], first: usize, progress: &dyn Progress) -> Self {
+    pub(super) fn read(
+        capture: &Capture,
+        geometry: &Geometry,
+        rings: &[Ring],
+        first: usize,
+        progress: &dyn Progress,
+    ) -> Self {
         let [width, height] = geometry.size;
         let rows = BLOCK_ROWS.min(height - first);
         let window_len = capture.window_len();

@@ -116,4 +116,3 @@ impl Normal {
         0.5 * (rows.iter().sum::<f64>() + self.y2)
     }
 }
-

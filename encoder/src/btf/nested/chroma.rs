@@ -4,11 +4,11 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use subsurf_decoder::btf::Grid;
 
-use crate::math::matrix::product;
-use super::luma::Built;
-use crate::math::k_means::weighted::Weighted;
-use super::scales::gain;
 use super::database::{Chroma, Item};
+use super::luma::Built;
+use super::scales::gain;
+use crate::math::k_means::weighted::Weighted;
+use crate::math::matrix::product;
 
 /// Most entries of the codebooks of chroma.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -82,4 +82,3 @@ pub fn slice_mean(values: &[u8]) -> u8 {
     let code = (255.0 + per_octave * mean.log2()).round().clamp(0.0, 255.0) as u8;
     code
 }
-

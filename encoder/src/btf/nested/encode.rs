@@ -6,13 +6,13 @@ use subsurf_decoder::btf::layout::MAX_STAGES;
 use subsurf_decoder::btf::{Grid, Header, Model, Tone};
 
 use super::chroma::{ChromaSizes, Hues};
+use super::database::Database;
 use super::luma::{STEPS, Space};
 use super::sizes::Sizes;
-use super::database::Database;
+use crate::btf::TruncatedSvd;
 use crate::btf::materials::materials;
 use crate::btf::mipmaps::Mipmaps;
 use crate::btf::resample::{Measured, Resampler};
-use crate::btf::TruncatedSvd;
 use crate::capture::Images;
 use crate::error::{Error, Result};
 use crate::progress::Progress;
@@ -54,8 +54,8 @@ impl<'a> Prepared<'a> {
         let mipmaps = Mipmaps::new(&svd.sizes, options.has_mipmaps);
         let texels = [&svd.luma.texels, &svd.chroma.texels].map(|texels| mipmaps.of(texels));
         let ratios = mipmaps.of_ratios(&svd.ratios, &svd.luma.texels);
-        let tables = [&svd.luma.basis, &svd.chroma_basis(0), &svd.chroma_basis(1)]
-            .map(|basis| fitted(&resampler, svd, basis));
+        let tables =
+            [&svd.luma.basis, &svd.chroma_basis(0), &svd.chroma_basis(1)].map(|basis| fitted(&resampler, svd, basis));
         Self { svd, options, measured, tables, texels, ratios }
     }
 

@@ -5,13 +5,13 @@ use rayon::prelude::*;
 use subsurf_decoder::btf::Grid;
 use subsurf_decoder::btf::layout::Scales;
 
-use crate::math::k_means::shape_gain::{Match, Samples};
-use crate::math::matrix::product;
+use super::database::{Chain, Item};
 use super::scales::{Fineness, code, gain, scales};
 use super::sizes::Sizes;
 use super::slices::{Slices, from_bytes, to_bytes};
-use super::database::{Chain, Item};
 use crate::btf::resample::Measured;
+use crate::math::k_means::shape_gain::{Match, Samples};
+use crate::math::matrix::product;
 use crate::progress::Progress;
 
 /// Fineness of scales of P6, P4, P3 and P2.

@@ -11,6 +11,6 @@ pub(crate) mod slices;
 mod write;
 
 pub use chroma::ChromaSizes;
+pub use database::{Chain, Chroma, Database, Item, slice_mean};
 pub use encode::{Options, Prepared};
 pub use sizes::{Extent, Sizes};
-pub use database::{Chain, Chroma, Database, Item, slice_mean};

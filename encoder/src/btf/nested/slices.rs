@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
+use super::database::slice_mean;
 use crate::math::k_means::KMeans;
 use crate::math::k_means::shape_gain::Match;
-use super::database::slice_mean;
 
 /// Slices of `nodes` values, each with weights of its own for all of them.
 pub(super) struct Slices<'a> {

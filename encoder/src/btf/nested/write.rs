@@ -2,8 +2,8 @@
 
 use subsurf_decoder::Section;
 use subsurf_decoder::bits::{PADDING_BYTES, index_bits};
-use subsurf_decoder::btf::layout::{Book, Books, ChromaBooks, MAX_STAGES, StageBooks};
 use subsurf_decoder::btf::Material;
+use subsurf_decoder::btf::layout::{Book, Books, ChromaBooks, MAX_STAGES, StageBooks};
 
 use super::database::{Chain, Database, Item};
 use super::slice_exponents::by_means;

@@ -2,9 +2,9 @@
 
 use subsurf_decoder::bssrdf::Addressing;
 
-use crate::simulate::noise::Noise;
 use super::patterns::{Pattern, blue_wax, chessboard, jade, marble, onyx, stone, yellow_wax};
 use super::slab::MediumMap;
+use crate::simulate::noise::Noise;
 
 /// A built-in, synthetic material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -32,7 +32,14 @@ const ETA: f32 = 1.5;
 impl Finish {
     /// Diffuse finish of some albedo.
     pub(super) fn matte(diffuse: Vec3) -> Self {
-        Self { diffuse, specular: Vec3::ZERO, roughness: [0.5; 2], fibre: Vec3::X, fibre_colour: Vec3::ZERO, fibre_width_rad: 1.0 }
+        Self {
+            diffuse,
+            specular: Vec3::ZERO,
+            roughness: [0.5; 2],
+            fibre: Vec3::X,
+            fibre_colour: Vec3::ZERO,
+            fibre_width_rad: 1.0,
+        }
     }
 
     /// BRDF f_r in sr⁻¹, linear Rec. 709.

@@ -4,8 +4,8 @@ use std::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3};
 
-use super::reflectance::Finish;
 use super::height_field::Relief;
+use super::reflectance::Finish;
 use crate::simulate::noise::Noise;
 
 /// A built-in, synthetic rough material.
