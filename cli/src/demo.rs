@@ -12,18 +12,18 @@ use subsurf_encoder::capture::{Capture, Overrides, Scalar};
 use subsurf_encoder::metrics::bssrdf::{Judgement, Light, judge};
 use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Request};
 use subsurf_encoder::write_bytes;
-use subsurf_runtime::{Backend, Gpu, Material, PatchLight, PatchRenderer, Region, storage_of};
+use subsurf_runtime::{Backend, Gpu, Material, PatchLight, PatchRenderer, Region, layout_of};
 use subsurf_scene::torus;
 use subsurf_shaders::cpu;
 use subsurf_viewer::{MappingChoice, RenderRequest, Scattering, human};
 
 use crate::compare::{self, db};
 use crate::devices;
-use crate::program::failure::bad_request;
+use crate::outln;
 use crate::picture::{montage, triptych, write_png};
+use crate::program::failure::bad_request;
 use crate::program::progress::Bars;
 use crate::render::{draw_mesh, draw_patch, patch_irradiance};
-use crate::outln;
 
 /// Simulate, encode, judge and draw one material, and leave pictures and a table in a folder.
 #[derive(clap::Args)]
@@ -123,7 +123,7 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
     let mut devices = Vec::new();
     for gpu in &gpus {
         let uploaded = Material::upload(gpu, material)?;
-        let renderer = PatchRenderer::new(gpu, storage_of(material))?;
+        let renderer = PatchRenderer::new(gpu, layout_of(material))?;
         let light = PatchLight::upload(gpu, [header.width, header.height], &irradiance)?;
         let found = renderer.gather(gpu, &uploaded, &light, whole)?.read(gpu)?;
         let largest = expected.iter().flatten().copied().fold(0.0, f32::max);
@@ -139,8 +139,14 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
     let gpu = gpus.first();
     let (patch, _) = draw_patch(gpu, material, Scattering::Gather, Light::Disc, [512, 512], None)?;
     write_png(&dir.join("patch.png"), &patch)?;
-    let (mesh, _) =
-        draw_mesh(gpu, material, &torus(18.0, 8.0, 64), MappingChoice::Auto, Scattering::Gather, &RenderRequest::usual([800, 600]))?;
+    let (mesh, _) = draw_mesh(
+        gpu,
+        material,
+        &torus(18.0, 8.0, 64),
+        MappingChoice::Auto,
+        Scattering::Gather,
+        &RenderRequest::usual([800, 600]),
+    )?;
     write_png(&dir.join("mesh.png"), &mesh)?;
     Ok(Drawn { devices, agreement })
 }

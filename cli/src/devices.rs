@@ -2,8 +2,8 @@
 
 use subsurf_runtime::{Backend, Gpu, devices};
 
-use crate::program::failure::bad_request;
 use crate::outln;
+use crate::program::failure::bad_request;
 
 pub(crate) fn run() -> anyhow::Result<()> {
     let mut opened = 0;

@@ -158,11 +158,7 @@ impl Host for Files<'_> {
         Ok(path.display().to_string())
     }
 
-    fn capture(
-        &mut self,
-        picture: &Picture,
-        device: &str,
-    ) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+    fn capture(&mut self, picture: &Picture, device: &str) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
         let Some(path) = self.screenshot else {
             return Ok(());
         };

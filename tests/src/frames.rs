@@ -6,13 +6,13 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::bssrdf::{Options, encode};
 use subsurf_encoder::metrics::psnr_db;
-use subsurf_encoder::simulate::diffusion::{Finish, BuiltinMaterial};
+use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish};
 use subsurf_runtime::{
     AmbientTransfer, BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, Renderer, RuntimeOptions,
     SeparableMaterial, SplatMaterial, Technique, VertexData,
 };
 use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene, SurfacePoints};
-use subsurf_shaders::separable::{Detail, Factors};
+use subsurf_shaders::separable::{BasisSize, SeparableBasis};
 
 use crate::simulated;
 
@@ -92,7 +92,7 @@ impl Loaded {
     pub fn under(gpu: &Gpu, way: Way, file: &[u8], mesh: &Mesh, mapping: Mapping, scene: &Scene) -> Self {
         let material = Bssrdf::parse(file).unwrap();
         let placement = Placement::new(mesh, mapping, material.header());
-        let factors = || Factors::of(&material, Detail::default());
+        let factors = || SeparableBasis::of(&material, BasisSize::default());
         let lit = || {
             let shares = AmbientTransfer::of(mesh, &material).unwrap();
             GpuMesh::upload(gpu, mesh, &placement, VertexData::Ambient(&shares)).unwrap()
@@ -126,8 +126,8 @@ impl Loaded {
     #[must_use]
     pub fn path(&self) -> Technique {
         match self {
-            Self::Gather(_, _, material) => Technique::Gather(material.storage()),
-            Self::Splat(_, material) => Technique::Splat(material.planes().storage()),
+            Self::Gather(_, _, material) => Technique::Gather(material.layout()),
+            Self::Splat(_, material) => Technique::Splat(material.planes().layout()),
             Self::Separable(_, material) => Technique::Separable(material.terms()),
         }
     }

@@ -3,9 +3,9 @@
 use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
+use subsurf_encoder::baseline::song2009::per_pixel_of;
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_encoder::simulate::diffusion::BuiltinMaterial;
-use subsurf_encoder::baseline::song2009::per_pixel_of;
 use subsurf_runtime::{BACKGROUND, Backend, Drawable, Error, Gpu, Renderer, RuntimeOptions, Technique};
 use subsurf_scene::{bowl, drapery, knot, torus};
 use subsurf_tests::frames::{API_TOLERANCE, Loaded, SIZE, Way, assert_close, device, material_of, scene};
@@ -109,7 +109,7 @@ fn points_of_another_surface_are_refused() {
     let (mesh, _, material) = of(&large);
     let (_, points, _) = of(&small);
     let model = Drawable::Gather { mesh: &mesh, points: &points, material: &material };
-    let renderer = Renderer::new(&gpu, Technique::Gather(material.storage()), RuntimeOptions::default()).unwrap();
+    let renderer = Renderer::new(&gpu, Technique::Gather(material.layout()), RuntimeOptions::default()).unwrap();
     match renderer.prepare(&gpu, &model, &scene(&large), SIZE) {
         Err(Error::Device(reason)) => assert!(reason.contains("another surface"), "{reason}"),
         other => panic!("{:?}", other.map(|frame| *frame.plan())),

@@ -7,8 +7,8 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::simulate::diffusion::BuiltinMaterial;
 use subsurf_runtime::wgpu::TextureFormat;
 use subsurf_runtime::{
-    BACKGROUND, Backend, Error, Gpu, Keeping, Material, PatchLight, PatchRenderer, Region, Renderer, RuntimeOptions,
-    Storage, Technique,
+    BACKGROUND, Backend, Error, Gpu, Material, MaterialLayout, PatchLight, PatchRenderer, Region, Renderer,
+    RuntimeOptions, TargetFormat, Technique,
 };
 use subsurf_scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
 use subsurf_tests::frames::{
@@ -77,29 +77,6 @@ fn targets_of_srgb_and_of_several_samples_show_the_same() {
     }
 }
 
-/// Shifted taps are grain, and no other light; on thin folds too.
-#[test]
-fn jitter_keeps_the_light() {
-    let file = material_of(BuiltinMaterial::Jade);
-    for mesh in [torus(9.0, 4.0, 32), drapery(14.0, 1.0, 5, 40)] {
-        let scene = scene(&mesh);
-        let [a, b] = Backend::ALL.map(|backend| {
-            let gpu = device(backend);
-            let loaded = Loaded::new(&gpu, Way::Separable, &file, &mesh);
-            let draw =
-                |jitters| loaded.picture_with(&gpu, &scene, SIZE, RuntimeOptions { jitters, ..Default::default() });
-            let (plain, jittered) = (draw(false), draw(true));
-            let sum = |picture: &[[u8; 3]]| picture.iter().flatten().map(|c| f64::from(*c)).sum::<f64>();
-            let db = psnr(&plain, &jittered);
-            println!("{backend}: {db:.1} dB between taps in place and shifted");
-            assert!(plain != jittered && db >= 35.0, "{backend}: {db} dB");
-            assert!((sum(&plain) / sum(&jittered) - 1.0).abs() < 5e-3, "{backend}: as bright");
-            jittered
-        });
-        assert!(share_that_differs(&a, &b) <= EDGE_PIXELS, "the same grain on both APIs");
-    }
-}
-
 /// Bits of half floats in integers give the pictures that half floats give; where they cannot, it is said.
 #[test]
 fn devices_without_half_floats_to_draw_to_draw_the_same() {
@@ -108,14 +85,14 @@ fn devices_without_half_floats_to_draw_to_draw_the_same() {
     let scene = scene(&mesh);
     for backend in Backend::ALL {
         let gpu = device(backend);
-        assert_eq!(gpu.keeping(), Keeping::Halves, "{backend}");
-        let packed = device(backend).keep(Keeping::Packed);
+        assert_eq!(gpu.target_format(), TargetFormat::Half, "{backend}");
+        let packed = device(backend).with_target_format(TargetFormat::Packed);
         // Bit for bit, but for what is rounded the other way.
         let exitance = |gpu: &Gpu| {
             let material = Material::upload(gpu, &Bssrdf::parse(&file).unwrap()).unwrap();
             let irradiance: Vec<[f32; 3]> = (0..31 * 31_u16).map(|k| [f32::from(k), 0.01, -f32::from(k)]).collect();
             let light = PatchLight::upload(gpu, [31; 2], &irradiance).unwrap();
-            let renderer = PatchRenderer::new(gpu, material.storage()).unwrap();
+            let renderer = PatchRenderer::new(gpu, material.layout()).unwrap();
             let whole = Region { origin: [0; 2], size: [31; 2] };
             renderer.gather(gpu, &material, &light, whole).unwrap().read(gpu).unwrap()
         };
@@ -128,7 +105,7 @@ fn devices_without_half_floats_to_draw_to_draw_the_same() {
             let share = share_that_differs(&draw(&gpu), &draw(&packed));
             assert!(share <= EDGE_PIXELS, "{backend}, {way:?}: {share} of pixels differ by more than {API_TOLERANCE}");
         }
-        match Renderer::new(&packed, Technique::Splat(Storage::Bmpp), RuntimeOptions::default()) {
+        match Renderer::new(&packed, Technique::Splat(MaterialLayout::Bmpp2), RuntimeOptions::default()) {
             Err(Error::NoHalfFloats { what }) => assert_eq!(what, "splats"),
             other => panic!("{other:?}"),
         }

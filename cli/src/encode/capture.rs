@@ -10,7 +10,7 @@ use subsurf_decoder::bssrdf::layout::MAX_BASE_MATERIALS;
 use subsurf_encoder::bssrdf::{Encoded, Method, Options, encode, fit_bytes};
 use subsurf_encoder::capture::{Capture, sidecar_path};
 use subsurf_encoder::metrics::bssrdf::judge;
-use subsurf_encoder::rate::bssrdf::Target;
+use subsurf_encoder::rate::Target;
 use subsurf_encoder::rate::bssrdf::{Point, search};
 use subsurf_encoder::{check_target, write_bytes};
 use subsurf_viewer::human;

@@ -10,8 +10,8 @@ use subsurf_decoder::container::{Container, Crc};
 use subsurf_decoder::{Btf, Factored, ReadError};
 
 use super::{Args, read_error};
-use subsurf_viewer::human;
 use crate::outln;
+use subsurf_viewer::human;
 
 pub(super) fn info(args: &Args, bytes: &[u8], container: &Container<'_>) -> anyhow::Result<()> {
     let parts = Parts::of(&args.file, bytes)?;

@@ -14,8 +14,8 @@ use subsurf_viewer::read;
 
 pub use btf::{CodebookSize, FactorSizes, Parts};
 
-use subsurf_viewer::human;
 use crate::outln;
+use subsurf_viewer::human;
 
 /// Show what a .subsurf file holds, or a folder of BTF images, and check all of it.
 #[derive(clap::Args)]

@@ -48,7 +48,8 @@ pub(crate) fn draw_btf(
     };
     let mut draw = |material: BtfMaterial, number: usize, scene: &mut Scene, exposure: Option<f32>, name: &str| {
         facts.insert(name.to_owned(), json!(material.gpu_bytes()));
-        let mut session = RenderSession::new(gpu, GpuAsset::btf(gpu, mesh, copies, material, number)?, scene, large, options)?;
+        let mut session =
+            RenderSession::new(gpu, GpuAsset::btf(gpu, mesh, copies, material, number)?, scene, large, options)?;
         scene.camera.exposure = match exposure {
             Some(exposure) => exposure,
             None => session.exposure(gpu, scene)?,

@@ -1,7 +1,7 @@
 //! Exposure, and pictures averaged down.
 
 use image::RgbImage;
-use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_shaders::{Rgb, cpu};
 use subsurf_viewer::light_of;
 
 /// Display value that the brightest parts get when the exposure is chosen.

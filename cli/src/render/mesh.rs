@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_runtime::{BACKGROUND, Gpu};
 use subsurf_scene::{Mesh, Placement};
-use subsurf_shaders::cpu::{self, Rgb};
 use subsurf_shaders::uniform;
+use subsurf_shaders::{Rgb, cpu};
 use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scattering, choose_mapping, points};
 
 use super::exposure::{BRIGHT, SUPERSAMPLING, average_down, exposure_for};
@@ -31,7 +31,8 @@ pub(crate) fn draw_mesh(
     facts.insert("mapping".to_owned(), json!(format!("{mapping:?}")));
     let pixels = match gpu {
         Some(gpu) => {
-            let asset = Asset::compute(material, mesh, mapping, &scene, technique, None)?.upload(gpu, material, mesh)?;
+            let asset =
+                Asset::compute(material, mesh, mapping, &scene, technique, None)?.upload(gpu, material, mesh)?;
             facts.insert("gpu_bytes".to_owned(), json!(asset.material_bytes()));
             let mut session = RenderSession::new(gpu, asset, &scene, large, request.options)?;
             scene.camera.exposure = match request.exposure {
@@ -62,11 +63,9 @@ pub(crate) fn draw_mesh(
                 visibilities: &visibilities,
                 triangles: &fine.triangles,
             };
-            let reflections = cpu::Reflections {
-                size: subsurf_scene::REFLECTION_SIZE,
-                levels: scene.environment.reflections(),
-            };
-            cpu::shade(&triangles, &block, &reflections, large, [BACKGROUND; 3])
+            let reflections =
+                cpu::Reflections { size: subsurf_scene::REFLECTION_SIZE, levels: scene.environment.reflections() };
+            cpu::shade_vertex(&triangles, &block, &reflections, large, [BACKGROUND; 3])
         }
     };
     facts.insert("exposure".to_owned(), json!(scene.camera.exposure));

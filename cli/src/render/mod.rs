@@ -15,7 +15,7 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::bssrdf::Light;
-use subsurf_runtime::{Keeping, RuntimeOptions};
+use subsurf_runtime::{RuntimeOptions, TargetFormat};
 use subsurf_scene::{Environment, load_mesh};
 use subsurf_viewer::{Content, DEFAULT_LIGHT, ROUGHNESS, RenderRequest, Scattering, human, parse, read};
 
@@ -146,7 +146,7 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, 
     let technique = Scattering::from(args.path.unwrap_or(PathArg::Gather));
     let is_separable = matches!(technique, Scattering::Separable | Scattering::Homogeneous);
     let mut gpu = args.backend.open()?;
-    let is_short_of_halves = gpu.as_ref().is_some_and(|gpu| gpu.keeping() == Keeping::Packed);
+    let is_short_of_halves = gpu.as_ref().is_some_and(|gpu| gpu.target_format() == TargetFormat::Packed);
     if is_short_of_halves && is_separable && args.mesh.is_none() && args.backend == BackendArg::Auto {
         // The CPU does what the device cannot.
         gpu = None;

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use glam::Vec3;
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_scene::{Environment, UpAxis};
-use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_shaders::{Rgb, cpu};
 use subsurf_viewer::{Angles, MappingChoice, Scattering};
 
 use crate::program::failure::bad_request;

@@ -5,9 +5,9 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_runtime::{
-    Gpu, Material, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, storage_of,
+    Gpu, Material, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, layout_of,
 };
-use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_shaders::{Rgb, cpu};
 use subsurf_viewer::{Scattering, factors};
 
 use super::exposure::exposure_for;
@@ -42,7 +42,7 @@ pub(crate) fn draw_patch(
     facts.insert("size".to_owned(), json!(size));
     let pixels = match gpu {
         Some(gpu) => {
-            let renderer = PatchRenderer::new(gpu, storage_of(material))?;
+            let renderer = PatchRenderer::new(gpu, layout_of(material))?;
             let light = PatchLight::upload(gpu, whole.size, &irradiance)?;
             let (exitance, gpu_bytes) = match technique {
                 Scattering::Splat => return Err(no_splats()),
@@ -70,7 +70,9 @@ pub(crate) fn draw_patch(
             let exitance = match technique {
                 Scattering::Splat => return Err(no_splats()),
                 Scattering::Gather => cpu::gather(material, &irradiance, whole.origin, whole.size),
-                Scattering::Separable | Scattering::Homogeneous => cpu::separable(&factors(material, technique), &irradiance),
+                Scattering::Separable | Scattering::Homogeneous => {
+                    cpu::separable(&factors(material, technique), &irradiance)
+                }
             };
             let exposure = exposure.unwrap_or_else(|| exposure_for(exitance.iter()));
             facts.insert("exposure".to_owned(), json!(exposure));

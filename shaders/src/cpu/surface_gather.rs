@@ -1,11 +1,11 @@
 //! Twin of `surface_gather.wgsl`.
 
-use glam::{UVec3, Vec3, Vec4, Vec4Swizzles};
+use glam::{UVec3, Vec3, Vec4Swizzles};
 use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
 use subsurf_scene::{PointGrid, SurfacePoints};
 
-use super::Rgb;
+use crate::rgb::Rgb;
 
 fn cell_of(grid: &PointGrid, position_mm: Vec3) -> UVec3 {
     let cell = ((position_mm - grid.origin_mm) / grid.cell_mm).floor();

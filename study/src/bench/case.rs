@@ -81,7 +81,13 @@ impl BenchCase {
 
 /// Draws `frames` frames of each under a light that turns, after one that does not count, and as many again pass by pass.
 /// Cases take turns: what else the machine does falls on all of them alike. If `frames` is 0, the first one counts.
-pub(super) fn run(gpu: &Gpu, cases: &mut [BenchCase], mesh: &Mesh, size: [u32; 2], frames: usize) -> anyhow::Result<()> {
+pub(super) fn run(
+    gpu: &Gpu,
+    cases: &mut [BenchCase],
+    mesh: &Mesh,
+    size: [u32; 2],
+    frames: usize,
+) -> anyhow::Result<()> {
     let mut scene = RenderRequest::usual(size).scene(mesh);
     scene.camera.exposure = 0.5;
     let bars = Bars::new();

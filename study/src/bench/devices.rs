@@ -1,14 +1,14 @@
 //! Devices to measure.
 
 use subsurf_cli::outln;
-use subsurf_runtime::{Backend, Gpu, Keeping};
+use subsurf_runtime::{Backend, Gpu, TargetFormat};
 
 /// The devices that draw by every path, and what they are.
 pub(super) fn to_compare() -> Vec<(Backend, Gpu)> {
     let mut gpus = Vec::new();
     for backend in Backend::ALL {
         match Gpu::open(backend) {
-            Ok(gpu) if gpu.keeping() == Keeping::Packed => {
+            Ok(gpu) if gpu.target_format() == TargetFormat::Packed => {
                 outln!(
                     "{backend}: {} has no half floats to draw to, which splats and flat patches need",
                     gpu.info().name

@@ -9,7 +9,7 @@ use flate2::write::DeflateEncoder;
 use serde::{Deserialize, Serialize};
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Model;
-use subsurf_encoder::bssrdf::{Method, Options, base_materials_within, file_bytes, self};
+use subsurf_encoder::bssrdf::{self, Method, Options, base_materials_within, file_bytes};
 use subsurf_encoder::capture::Capture;
 use subsurf_encoder::metrics::bssrdf::{Judgement, Light, judge};
 use subsurf_encoder::write_bytes;

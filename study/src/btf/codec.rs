@@ -2,11 +2,13 @@
 
 use subsurf_cli::program::progress::Bars;
 use subsurf_encoder::Error;
-use subsurf_encoder::baseline::whole_brdf::{Baseline, local_pca, local_pca_bytes, one_level, one_level_bytes, pca, pca_bytes};
+use subsurf_encoder::baseline::whole_brdf::{
+    Baseline, local_pca, local_pca_bytes, one_level, one_level_bytes, pca, pca_bytes,
+};
 use subsurf_encoder::btf::nested::Extent;
 use subsurf_encoder::btf::{Method, Options, Setup, TruncatedSvd, presets};
 use subsurf_encoder::capture::Images;
-use subsurf_encoder::rate::bssrdf::Target;
+use subsurf_encoder::rate::Target;
 use subsurf_encoder::rate::btf::search;
 
 use super::svd::{SEED, shared_svd};
@@ -138,10 +140,7 @@ impl Codec {
             Self::OneLevelAsNested | Self::OneLevelAsFactored => {
                 let grid = setup(Method::Nested)?.grid;
                 let words = most(&|words| one_level_bytes(words, texels, &grid), 2..257);
-                words
-                    .map(|words| Made::Baseline(one_level(&images[0], svd, &grid, words, SEED)))
-                    .into_iter()
-                    .collect()
+                words.map(|words| Made::Baseline(one_level(&images[0], svd, &grid, words, SEED))).into_iter().collect()
             }
             Self::Pca => {
                 let components = most(&|count| pca_bytes(count, texels, pairs), 1..65);

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use subsurf_cli::outln;
 use subsurf_cli::program::failure::bad_request;
 use subsurf_cli::program::progress::Bars;
-use subsurf_encoder::capture::Images;
 use subsurf_encoder::btf::Method;
 use subsurf_encoder::btf::nested::Extent;
+use subsurf_encoder::capture::Images;
 use subsurf_encoder::metrics::btf::judge;
 use subsurf_encoder::simulate::relief::Sample;
 use subsurf_encoder::write_bytes;
@@ -95,8 +95,7 @@ pub(super) fn shared(
         let bytes = match std::fs::read(&path) {
             Ok(bytes) => bytes,
             Err(_) => {
-                let (setup, svd) =
-                    (setup(Method::Nested, std::slice::from_ref(name), images)?, svd_of(images)?);
+                let (setup, svd) = (setup(Method::Nested, std::slice::from_ref(name), images)?, svd_of(images)?);
                 setup.nested(images, &svd).encode(&Extent::USUAL.sizes(), &Bars::new())?.to_bytes()
             }
         };

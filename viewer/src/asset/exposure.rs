@@ -1,7 +1,7 @@
 //! Exposure that suits a picture.
 
 use subsurf_runtime::BACKGROUND;
-use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_shaders::{Rgb, cpu};
 
 /// The exposure that brings all but the brightest parts of a first picture below middle values: light materials keep their
 /// colours. `draw` draws that picture at an exposure.

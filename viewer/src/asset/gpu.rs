@@ -1,7 +1,7 @@
 //! Material and mesh on a device.
 
 use subsurf_runtime::{
-    BtfMaterial, Gpu, GpuMesh, GpuPoints, Drawable, Material, Technique, VertexData, SeparableMaterial, SplatMaterial,
+    BtfMaterial, Drawable, Gpu, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial, Technique, VertexData,
 };
 use subsurf_scene::{Mesh, Placement};
 
@@ -92,10 +92,10 @@ impl GpuAsset {
     #[must_use]
     pub fn technique(&self) -> Technique {
         match self {
-            Self::Gather { material, .. } => Technique::Gather(material.storage()),
-            Self::Splat { material, .. } => Technique::Splat(material.planes().storage()),
+            Self::Gather { material, .. } => Technique::Gather(material.layout()),
+            Self::Splat { material, .. } => Technique::Splat(material.planes().layout()),
             Self::Separable { material, .. } => Technique::Separable(material.terms()),
-            Self::Btf { material, .. } => Technique::Btf(material.storage()),
+            Self::Btf { material, .. } => Technique::Btf(material.layout()),
         }
     }
 }

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use subsurf_decoder::Bssrdf;
-use subsurf_runtime::{AmbientTransfer, Gpu, GpuMesh, GpuPoints, VertexData, Material, SeparableMaterial, SplatMaterial};
+use subsurf_runtime::{
+    AmbientTransfer, Gpu, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial, VertexData,
+};
 use subsurf_scene::{Light, MAX_LIGHTS, Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
-use subsurf_shaders::separable::{Detail, Factors};
-
+use subsurf_shaders::separable::{BasisSize, SeparableBasis};
 
 use super::gpu::GpuAsset;
 use crate::error::Result;
@@ -37,8 +38,8 @@ pub struct Asset {
 
 enum Parts {
     Gather { fine: Mesh, surface: SurfacePoints },
-    Splat { sky: Arc<Vec<AmbientTransfer>>, factors: Factors },
-    Separable { sky: Arc<Vec<AmbientTransfer>>, factors: Factors },
+    Splat { sky: Arc<Vec<AmbientTransfer>>, factors: SeparableBasis },
+    Separable { sky: Arc<Vec<AmbientTransfer>>, factors: SeparableBasis },
 }
 
 impl Asset {
@@ -65,7 +66,9 @@ impl Asset {
                 let (fine, surface) = points(mesh, mapping, material, scene)?;
                 Parts::Gather { fine, surface }
             }
-            Scattering::Splat => Parts::Splat { sky: sky()?, factors: Factors::of(material, Detail::default()) },
+            Scattering::Splat => {
+                Parts::Splat { sky: sky()?, factors: SeparableBasis::of(material, BasisSize::default()) }
+            }
             Scattering::Separable | Scattering::Homogeneous => {
                 Parts::Separable { sky: sky()?, factors: factors(material, technique) }
             }
@@ -107,10 +110,10 @@ impl Asset {
 
 /// Factors of a material, or of its mean for [`Scattering::Homogeneous`].
 #[must_use]
-pub fn factors(material: &Bssrdf<'_>, technique: Scattering) -> Factors {
+pub fn factors(material: &Bssrdf<'_>, technique: Scattering) -> SeparableBasis {
     match technique {
-        Scattering::Homogeneous => Factors::homogeneous(material, Detail::default().gaussians),
-        Scattering::Gather | Scattering::Splat | Scattering::Separable => Factors::within(material, LEAST_DB),
+        Scattering::Homogeneous => SeparableBasis::homogeneous(material, BasisSize::default().gaussians),
+        Scattering::Gather | Scattering::Splat | Scattering::Separable => SeparableBasis::within(material, LEAST_DB),
     }
 }
 

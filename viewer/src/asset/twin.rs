@@ -4,7 +4,6 @@ use glam::{Vec2, Vec4};
 use subsurf_scene::{MAX_LIGHTS, Mesh};
 use subsurf_shaders::cpu;
 
-
 use crate::error::Result;
 
 /// Texture coordinates and tangents of a mesh, for the CPU twin of the BTF shaders.
@@ -25,11 +24,7 @@ impl TexturedMesh {
 
     /// Triangles for [`cpu::shade_btf`]; `visibilities` say what every vertex sees of every light, 0 to 1.
     #[must_use]
-    pub fn triangles<'a>(
-        &'a self,
-        mesh: &'a Mesh,
-        visibilities: &'a [[f32; MAX_LIGHTS]],
-    ) -> cpu::BtfTriangles<'a> {
+    pub fn triangles<'a>(&'a self, mesh: &'a Mesh, visibilities: &'a [[f32; MAX_LIGHTS]]) -> cpu::BtfTriangles<'a> {
         cpu::BtfTriangles {
             positions: &mesh.positions,
             normals: &mesh.normals,

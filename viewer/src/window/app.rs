@@ -53,12 +53,7 @@ struct Opened {
 }
 
 impl<'a> App<'a> {
-    pub(super) fn new(
-        config: Config,
-        session: Session,
-        proxy: EventLoopProxy<Event>,
-        host: &'a mut dyn Host,
-    ) -> Self {
+    pub(super) fn new(config: Config, session: Session, proxy: EventLoopProxy<Event>, host: &'a mut dyn Host) -> Self {
         let results = proxy.clone();
         let jobs = JobQueue::new(Arc::new(move |result| {
             // Where the window is closed by now, nobody wants it.
@@ -250,8 +245,7 @@ fn picture(stage: &mut Stage, shows: Shows, overlay: &Overlay) -> Result<Picture
 /// Name of a picture: material, mesh and technique.
 fn stem(session: &Session) -> String {
     let material = &session.assets.materials[session.settings.material];
-    let technique =
-        if material.is_btf() { "btf".to_owned() } else { format!("{:?}", session.settings.technique) };
+    let technique = if material.is_btf() { "btf".to_owned() } else { format!("{:?}", session.settings.technique) };
     format!("{}-{}-{technique}", material.name(), session.assets.mesh_name).to_lowercase()
 }
 

@@ -94,12 +94,7 @@ pub(super) enum Dropped {
 
 impl Assets {
     /// Opens material files and a mesh; `asked` is the one material of BTF files that is wanted.
-    pub(super) fn open(
-        materials: &[PathBuf],
-        asked: Option<&str>,
-        mesh: &Path,
-        reading: MeshReading,
-    ) -> Result<Self> {
+    pub(super) fn open(materials: &[PathBuf], asked: Option<&str>, mesh: &Path, reading: MeshReading) -> Result<Self> {
         let open = |path: &PathBuf| MaterialFile::open(path, asked);
         let files = materials.iter().map(open).collect::<Result<Vec<_>>>()?;
         Ok(Self {

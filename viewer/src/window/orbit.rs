@@ -76,7 +76,8 @@ pub(super) fn dragged(towards: Vec3, by: Vec2, view: &Camera) -> Vec3 {
 mod tests {
     use super::*;
 
-    const VIEW: Camera = Camera { eye_mm: Vec3::new(3.0, 4.0, 12.0), target_mm: Vec3::ZERO, fov_y_rad: 0.5, exposure: 1.0 };
+    const VIEW: Camera =
+        Camera { eye_mm: Vec3::new(3.0, 4.0, 12.0), target_mm: Vec3::ZERO, fov_y_rad: 0.5, exposure: 1.0 };
 
     #[test]
     fn an_orbit_begins_where_the_view_is() {

@@ -103,9 +103,7 @@ impl Session {
         match (role, self.is_btf()) {
             (Role::Shown, false) => Some(key(RenderMode::Scattering(technique))),
             (Role::Shown, true) => Some(key(RenderMode::Btf)),
-            (Role::Reference, false) => {
-                (shows_error && technique != Scattering::Gather).then(|| key(GATHER))
-            }
+            (Role::Reference, false) => (shows_error && technique != Scattering::Gather).then(|| key(GATHER)),
             (Role::Reference, true) => self.compares_images().then(|| key(RenderMode::Images)),
         }
     }

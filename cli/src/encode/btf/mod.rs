@@ -10,7 +10,7 @@ use subsurf_encoder::btf::nested::Extent;
 use subsurf_encoder::btf::{Goal, Method, Options, Size, encode};
 use subsurf_encoder::capture::{Images, load_btf};
 use subsurf_encoder::metrics::btf::judge;
-use subsurf_encoder::rate::bssrdf::Target;
+use subsurf_encoder::rate::Target;
 use subsurf_encoder::{Error, check_target, write_bytes};
 
 use super::set_threads;

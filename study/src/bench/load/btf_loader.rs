@@ -6,7 +6,7 @@ use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::Btf;
 use subsurf_encoder::capture::Folder;
 use subsurf_runtime::{
-    BtfImages, BtfMaterial, BtfStorage, Drawable, Gpu, GpuMesh, VertexData, Renderer, RuntimeOptions, Technique,
+    BtfImages, BtfLayout, BtfMaterial, Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, Technique, VertexData,
 };
 use subsurf_scene::{Mesh, Placement, Scene, relief};
 use subsurf_viewer::{RenderRequest, parse_btf};
@@ -23,7 +23,7 @@ const COPIES: [f32; 2] = [4.0; 2];
 pub(super) struct BtfLoader<'a> {
     gpu: Option<&'a Gpu>,
     path: &'a Path,
-    storage: BtfStorage,
+    layout: BtfLayout,
     size: [u32; 2],
     lights: Vec<glam::Vec3>,
     views: Vec<glam::Vec3>,
@@ -36,17 +36,20 @@ impl<'a> BtfLoader<'a> {
     pub(super) fn new(gpu: Option<&'a Gpu>, path: &'a Path, images: &Path) -> anyhow::Result<Self> {
         let folder = Folder::open(images)?;
         let is_array = path.extension().is_some_and(|extension| extension == "raw");
-        let storage = if is_array { BtfStorage::Images } else { BtfStorage::Nested };
+        let layout = if is_array { BtfLayout::Images } else { BtfLayout::Nested };
         let mesh: Mesh = relief(20.0, 8, 22);
         let draw = |gpu: &Gpu| -> anyhow::Result<_> {
-            let renderer = Renderer::new(gpu, Technique::Btf(storage), RuntimeOptions::default())?;
+            let renderer = Renderer::new(gpu, Technique::Btf(layout), RuntimeOptions::default())?;
             let tangents = mesh.tangents()?;
-            Ok((renderer, GpuMesh::upload(gpu, &mesh, &Placement::of_btf(&mesh, COPIES), VertexData::Tangents(&tangents))?))
+            Ok((
+                renderer,
+                GpuMesh::upload(gpu, &mesh, &Placement::of_btf(&mesh, COPIES), VertexData::Tangents(&tangents))?,
+            ))
         };
         Ok(Self {
             gpu,
             path,
-            storage,
+            layout,
             size: folder.size(),
             lights: folder.lights().iter().map(|light| light.unit()).collect(),
             views: folder.views().iter().map(|view| view.unit()).collect(),
@@ -61,10 +64,10 @@ impl<'a> BtfLoader<'a> {
         let bytes = std::fs::read(self.path)?;
         let read = clock.lap();
         // There is nothing to check in an array but its length.
-        let btf = match self.storage {
-            BtfStorage::Nested => Some(parse_btf(self.path, &bytes)?),
-            BtfStorage::Images if bytes.len() == self.lights.len() * self.views.len() * self.image_len() => None,
-            BtfStorage::Images => return Err(bad_request("the array has not the length of its images")),
+        let btf = match self.layout {
+            BtfLayout::Nested => Some(parse_btf(self.path, &bytes)?),
+            BtfLayout::Images if bytes.len() == self.lights.len() * self.views.len() * self.image_len() => None,
+            BtfLayout::Images => return Err(bad_request("the array has not the length of its images")),
         };
         let parse = clock.lap();
         let (upload, first_frame, gpu_bytes) = match (self.gpu, &self.drawn) {

@@ -8,8 +8,9 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
 use subsurf_decoder::bssrdf::{Coding, Header};
 use subsurf_encoder::capture::{Capture, Overrides};
-use subsurf_runtime::{Gpu, Material, PatchLight, PatchRenderer, Region, Storage as GpuStorage, storage_of};
-use subsurf_shaders::cpu::{self, Reflectance, Rgb};
+use subsurf_runtime::{Gpu, Material, MaterialLayout, PatchLight, PatchRenderer, Region, layout_of};
+use subsurf_shaders::Rgb;
+use subsurf_shaders::cpu::{self, Reflectance};
 
 use super::results::Steps;
 use crate::bench::timing::Clock;
@@ -18,14 +19,14 @@ use crate::bench::timing::Clock;
 const FRAME: u32 = 64;
 
 /// What the header says, and how the device will hold it.
-pub(super) fn describe(path: &Path, is_capture: bool) -> anyhow::Result<(Header, GpuStorage)> {
+pub(super) fn describe(path: &Path, is_capture: bool) -> anyhow::Result<(Header, MaterialLayout)> {
     if is_capture {
         let capture = Capture::open(path, &Overrides::default())?;
-        return Ok((header_of(&capture)?, GpuStorage::Capture));
+        return Ok((header_of(&capture)?, MaterialLayout::Capture));
     }
     let bytes = std::fs::read(path)?;
     let material = parse(path, &bytes)?;
-    Ok((*material.header(), storage_of(&material)))
+    Ok((*material.header(), layout_of(&material)))
 }
 
 /// A capture has no profiles; everything else is as in a file.
@@ -51,7 +52,7 @@ pub(super) struct FileLoader<'a> {
     gpu: Option<&'a Gpu>,
     path: &'a Path,
     header: Header,
-    storage: GpuStorage,
+    layout: MaterialLayout,
     /// What an application has before it loads its first material: pipelines, and light.
     renderer: Option<PatchRenderer>,
     irradiance: Vec<Rgb>,
@@ -60,15 +61,20 @@ pub(super) struct FileLoader<'a> {
 
 impl<'a> FileLoader<'a> {
     /// Compiles what an application has before it loads its first material.
-    pub(super) fn new(gpu: Option<&'a Gpu>, path: &'a Path, header: Header, storage: GpuStorage) -> anyhow::Result<Self> {
-        let renderer = gpu.map(|gpu| PatchRenderer::new(gpu, storage)).transpose()?;
+    pub(super) fn new(
+        gpu: Option<&'a Gpu>,
+        path: &'a Path,
+        header: Header,
+        layout: MaterialLayout,
+    ) -> anyhow::Result<Self> {
+        let renderer = gpu.map(|gpu| PatchRenderer::new(gpu, layout)).transpose()?;
         let size = [header.width.min(FRAME), header.height.min(FRAME)];
         let origin = [(header.width - size[0]) / 2, (header.height - size[1]) / 2];
         Ok(Self {
             gpu,
             path,
             header,
-            storage,
+            layout,
             renderer,
             irradiance: vec![[1.0; 3]; (header.width * header.height) as usize],
             region: Region { origin, size },
@@ -82,8 +88,8 @@ impl<'a> FileLoader<'a> {
         let read = clock.lap();
 
         // A capture's array starts where its header ends; there is nothing else to check.
-        let entries = match self.storage {
-            GpuStorage::Capture => Some(self.entries_of(&bytes)?),
+        let entries = match self.layout {
+            MaterialLayout::Capture => Some(self.entries_of(&bytes)?),
             _ => None,
         };
         let material = if entries.is_none() { Some(parse(self.path, &bytes)?) } else { None };

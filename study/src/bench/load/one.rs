@@ -37,8 +37,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         return report(args, baseline, || loader.once(), || Ok(BTreeMap::new()));
     }
     let is_capture = args.file.extension().is_some_and(|extension| extension == "npy");
-    let (header, storage) = describe(&args.file, is_capture)?;
-    let loader = FileLoader::new(gpu.as_ref(), &args.file, header, storage)?;
+    let (header, layout) = describe(&args.file, is_capture)?;
+    let loader = FileLoader::new(gpu.as_ref(), &args.file, header, layout)?;
     let parts =
         || Ok(if is_capture { BTreeMap::new() } else { parts_of_parse(&std::fs::read(&args.file)?, args.runs) });
     report(args, baseline, || loader.once(), parts)

@@ -45,11 +45,7 @@ impl LoadOptions {
 }
 
 /// Loads one file in a process of its own: of a BTF, with the folder of its images.
-pub(super) fn load_one(
-    file: &Path,
-    images: Option<&Path>,
-    options: &LoadOptions,
-) -> anyhow::Result<Storage> {
+pub(super) fn load_one(file: &Path, images: Option<&Path>, options: &LoadOptions) -> anyhow::Result<Storage> {
     let backend = clap::ValueEnum::to_possible_value(&options.backend).context("backends have names")?;
     let mut command = Command::new(std::env::current_exe()?);
     command.args(["bench", "load-one", "--runs", &options.runs.to_string(), "--backend", backend.get_name()]).arg(file);

@@ -171,7 +171,13 @@ impl Painter {
     }
 
     /// Paints over a target of `size` pixels.
-    pub(in crate::window) fn record(&mut self, gpu: &Gpu, pass: &mut RenderPass<'_>, overlay: &Overlay, size: [u32; 2]) {
+    pub(in crate::window) fn record(
+        &mut self,
+        gpu: &Gpu,
+        pass: &mut RenderPass<'_>,
+        overlay: &Overlay,
+        size: [u32; 2],
+    ) {
         let (mut vertices, mut indices) = (Vec::<Vertex>::new(), Vec::<u32>::new());
         let mut ranges = Vec::new();
         for ClippedPrimitive { clip_rect, primitive } in &overlay.primitives {

@@ -8,7 +8,7 @@ use subsurf_runtime::wgpu::{
     BindGroup, Color, CommandEncoderDescriptor, LoadOp, Operations, PollType, RenderPassColorAttachment,
     RenderPassDescriptor, StoreOp, TextureFormat, TextureView, TextureViewDescriptor,
 };
-use subsurf_runtime::{Backend, Frame, Gpu, Technique, PictureTarget, Plan, Renderer, RuntimeOptions};
+use subsurf_runtime::{Backend, Frame, Gpu, PictureTarget, Plan, Renderer, RuntimeOptions, Technique};
 use subsurf_scene::{Mesh, Scene};
 use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
