@@ -1,7 +1,7 @@
 //! A rough surface: images from a formula, encoded, decoded and judged.
 
 use glam::Vec3;
-use subsurf_decoder::Btf;
+use subsurf_decoder::NestedBtf;
 use subsurf_encoder::Result;
 use subsurf_encoder::btf::nested::Extent;
 use subsurf_encoder::btf::{Goal, Options, Size, encode};
@@ -56,7 +56,7 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let encoded = encode(&images, &["waves".to_owned()], &options, &(), &mut |_| ())?;
 
     // Value of a texel under light from the normal, and how far all images are from those that were measured.
-    let btf = Btf::parse(&encoded.bytes)?;
+    let btf = NestedBtf::parse(&encoded.bytes)?;
     let texel = btf.texel(0, 0, [3, 4]).ok_or("no such texel")?;
     println!("linear RGB of texel (3, 4): {:?}", btf.eval(texel, [0.0, 0.0, 1.0], [0.6, 0.0, 0.8]));
     let error = judge(&images, &encoded.bytes, &())?;

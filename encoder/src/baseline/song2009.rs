@@ -3,7 +3,7 @@
 //! The fit itself is where the direct method starts, and stands with it.
 
 use subsurf_decoder::bssrdf::layout::MODEL_PER_PIXEL;
-use subsurf_decoder::bssrdf::{Coding, Header, LocalProfile};
+use subsurf_decoder::bssrdf::{BssrdfHeader, Coding, LocalProfile};
 use subsurf_decoder::{Bssrdf, Section};
 
 use crate::bssrdf::field::Field;
@@ -24,7 +24,8 @@ pub(crate) fn section(normal: &Normal, profiles: &Field) -> (Section, Vec<u8>) {
 /// A file of per-pixel profiles with the profiles that a material's pixels have: as large as what Song et al. 2009 store.
 #[must_use]
 pub fn per_pixel_of(material: &Bssrdf<'_>) -> Vec<u8> {
-    let header = Header { model: MODEL_PER_PIXEL, coding: Coding::Exact, base_materials: 0, ..*material.header() };
+    let header =
+        BssrdfHeader { model: MODEL_PER_PIXEL, coding: Coding::Exact, base_materials: 0, ..*material.header() };
     let pixels = (0..header.height).flat_map(|y| (0..header.width).map(move |x| [x, y].map(u32::cast_signed)));
     let profiles: Vec<_> = pixels.map(|pixel| material.profile(pixel)).collect();
     let mut values = Vec::new();

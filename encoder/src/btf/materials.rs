@@ -1,7 +1,7 @@
 //! What the materials of one file have in common, and what the file says of each.
 
-use subsurf_decoder::btf::layout::NAME_BYTES;
-use subsurf_decoder::btf::{Material, Tone};
+use subsurf_decoder::btf::NAME_BYTES;
+use subsurf_decoder::btf::{ColourEncoding, Material};
 
 use crate::capture::Images;
 use crate::error::{Error, Result};
@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 ///
 /// # Errors
 /// [`Error::Request`] if there is none, or if directions or kinds of values differ.
-pub(crate) fn common_tone(materials: &[Images]) -> Result<Tone> {
+pub(crate) fn common_tone(materials: &[Images]) -> Result<ColourEncoding> {
     let Some((first, others)) = materials.split_first() else {
         return Err(Error::Request("no material".to_owned()));
     };
@@ -18,9 +18,13 @@ pub(crate) fn common_tone(materials: &[Images]) -> Result<Tone> {
     for other in others {
         tone = match (tone, other.tone()) {
             _ if other.lights() != first.lights() || other.views() != first.views() => None,
-            (Tone::Display { white }, Tone::Display { white: same }) if white.to_bits() == same.to_bits() => Some(tone),
-            (Tone::LogLuv { toe, peak }, Tone::LogLuv { toe: other_toe, peak: other_peak }) => {
-                Some(Tone::LogLuv { toe: toe.min(other_toe), peak: peak.max(other_peak) })
+            (ColourEncoding::Display { white }, ColourEncoding::Display { white: same })
+                if white.to_bits() == same.to_bits() =>
+            {
+                Some(tone)
+            }
+            (ColourEncoding::LogLuv { toe, peak }, ColourEncoding::LogLuv { toe: other_toe, peak: other_peak }) => {
+                Some(ColourEncoding::LogLuv { toe: toe.min(other_toe), peak: peak.max(other_peak) })
             }
             _ => None,
         }

@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use subsurf_decoder::btf::Tone;
+use subsurf_decoder::btf::ColourEncoding;
 
 use crate::btf::materials::common_tone;
 use crate::capture::Images;
@@ -17,7 +17,7 @@ use crate::progress::Progress;
 /// errors count as they do in structural similarity: little where an image has much contrast.
 pub struct TruncatedSvd {
     /// Encoding of the channels.
-    pub tone: Tone,
+    pub tone: ColourEncoding,
     /// Texels in x and in y of every material; their texels follow each other.
     pub sizes: Vec<[u32; 2]>,
     /// Weight w of each pair of directions.
@@ -53,7 +53,7 @@ const FOLLOWING: f32 = 0.6;
 /// All materials' images as luma and chroma.
 struct Channels<'a> {
     materials: &'a [Images],
-    tone: Tone,
+    tone: ColourEncoding,
     texels: usize,
 }
 
@@ -150,8 +150,8 @@ impl TruncatedSvd {
         progress.begin("weighing directions", 2 * pairs as u64);
         let weights = channels.weights(pairs, progress);
         let ratios = match tone {
-            Tone::Display { .. } => channels.ratios(&weights, progress),
-            Tone::LogLuv { .. } => vec![[0.0; 2]; texels],
+            ColourEncoding::Display { .. } => channels.ratios(&weights, progress),
+            ColourEncoding::LogLuv { .. } => vec![[0.0; 2]; texels],
         };
         progress.begin("components of luma", PASSES * pairs as u64);
         let fill = |pair: usize, out: &mut [f32]| {

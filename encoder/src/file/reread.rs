@@ -1,8 +1,6 @@
 //! Re-reading of files that were just made, before anybody else has to.
 
-use subsurf_decoder::btf::{Catalog, Model};
-use subsurf_decoder::container::{Container, Crc};
-use subsurf_decoder::{Bssrdf, Btf, Factored, ReadError, Section};
+use subsurf_decoder::File;
 
 use crate::error::{Error, Result};
 
@@ -11,19 +9,8 @@ use crate::error::{Error, Result};
 /// # Errors
 /// [`Error::OwnOutput`] if it refuses them.
 pub(crate) fn reread(bytes: Vec<u8>) -> Result<Vec<u8>> {
-    parse(&bytes).map_err(|source| Error::OwnOutput { source })?;
+    File::parse(&bytes).map_err(|source| Error::OwnOutput { source })?;
     Ok(bytes)
-}
-
-fn parse(bytes: &[u8]) -> std::result::Result<(), ReadError> {
-    let container = Container::parse(bytes)?;
-    if !container.entries().any(|entry| entry.section == Section::BtfHeader) {
-        return Bssrdf::parse_with(bytes, Crc::Check).map(drop);
-    }
-    match Catalog::parse(bytes, Crc::Check)?.header().model {
-        Model::Nested => Btf::parse(bytes).map(drop),
-        Model::Factored => Factored::parse(bytes).map(drop),
-    }
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ mod pca;
 mod space;
 
 use nalgebra::DMatrix;
-use subsurf_decoder::btf::{Grid, Tone};
+use subsurf_decoder::btf::{ColourEncoding, Grid};
 
 use crate::btf::{Measured, Resampler, TruncatedSvd};
 use crate::capture::Images;
@@ -19,7 +19,7 @@ use space::Whole;
 pub struct Baseline {
     /// Bytes that it takes, without any header.
     pub bytes: u64,
-    tone: Tone,
+    tone: ColourEncoding,
     parts: Vec<Part>,
     /// Number of the part that every texel belongs to.
     part_of: Vec<u8>,

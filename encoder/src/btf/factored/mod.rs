@@ -7,7 +7,6 @@ mod angles;
 mod budget;
 mod coder;
 mod encode;
-mod memory;
 mod sizes;
 mod space;
 mod streams;
@@ -16,7 +15,6 @@ mod write;
 
 pub use angles::CoreSize;
 pub use encode::{Options, Prepared};
-pub use memory::{Memory, expanded};
 pub use sizes::Sizes;
 pub use texels::StageSize;
 

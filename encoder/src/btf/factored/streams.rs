@@ -1,13 +1,13 @@
 //! Sections of numbers as streams of the range coder, by the decoder's own models of them.
 
 use nalgebra::DMatrix;
-use subsurf_decoder::btf::factored::model::{Numbers, code_core, code_words};
+use subsurf_decoder::btf::factored::model::{IntegerModel, code_core, code_words};
 
 use super::coder::Encoder;
 
 /// Section `CORE` of columns `[view axis][light axis]`.
 pub(super) fn core(columns: &[Vec<i32>], light_axes: usize) -> Vec<u8> {
-    let (mut coder, mut numbers) = (Encoder::new(), Numbers::default());
+    let (mut coder, mut numbers) = (Encoder::new(), IntegerModel::default());
     let mut usual = vec![0.0; columns.first().map_or(0, Vec::len)];
     for column in columns {
         let mut column: Vec<f32> = column.iter().map(|number| *number as f32).collect();

@@ -1,8 +1,8 @@
 //! The file of factors, through the decoder's own layout.
 
 use subsurf_decoder::Section;
-use subsurf_decoder::btf::factored::layout::{MAX_STAGES, Shape, Stage};
-use subsurf_decoder::btf::{Header, Material};
+use subsurf_decoder::btf::factored::layout::{CodewordStage, MAX_STAGES, TuckerShape};
+use subsurf_decoder::btf::{BtfHeader, Material};
 
 use super::angles::Tucker;
 use super::streams::{codewords, core};
@@ -11,7 +11,7 @@ use crate::file::container;
 
 /// Contents of a file.
 pub(super) struct Contents<'a> {
-    pub(super) header: Header,
+    pub(super) header: BtfHeader,
     pub(super) materials: &'a [Material],
     /// Components of luma and of chroma.
     pub(super) components: [usize; 2],
@@ -29,16 +29,16 @@ fn byte(number: usize) -> u8 {
 
 impl Contents<'_> {
     pub(super) fn to_bytes(&self) -> Vec<u8> {
-        let mut stages = [Stage::default(); MAX_STAGES];
+        let mut stages = [CodewordStage::default(); MAX_STAGES];
         for (stage, words) in stages.iter_mut().zip(&self.texels.words) {
-            *stage = Stage {
+            *stage = CodewordStage {
                 words: u16::try_from(words.ncols()).expect("at most 256"),
                 first: 0,
                 count: byte(words.nrows()),
             };
         }
         let [view_scales, light_scales] = &self.tucker.scales;
-        let shape = Shape {
+        let shape = TuckerShape {
             luma: byte(self.components[0]),
             chroma: byte(self.components[1]),
             view_axes: byte(view_scales.len()),
@@ -58,7 +58,7 @@ impl Contents<'_> {
         container::write([
             (Section::BtfHeader, &self.header.to_bytes()[..]),
             (Section::Materials, &materials),
-            (Section::Factors, &factors),
+            (Section::TuckerHeader, &factors),
             (Section::Axes, &axes),
             (Section::Core, &core),
             (Section::Codewords, &words),

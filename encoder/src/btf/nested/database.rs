@@ -1,13 +1,13 @@
 //! Nested codebooks as they are made, before they are packed into a file.
 
-use subsurf_decoder::btf::layout::{HEIGHTS_PER_OCTAVE, Scales};
-use subsurf_decoder::btf::{Header, Material};
+use subsurf_decoder::btf::nested::layout::{SLICE_STEPS_PER_OCTAVE, Scales};
+use subsurf_decoder::btf::{BtfHeader, Material};
 
 /// A file of nested codebooks before it is packed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Database {
     /// Grid, tone and number of materials.
-    pub header: Header,
+    pub header: BtfHeader,
     /// The materials; texels of all levels of the first stand first.
     pub materials: Vec<Material>,
     /// One to four additive stages of luma.
@@ -76,7 +76,7 @@ pub fn slice_mean(values: &[u8]) -> u8 {
     #[allow(clippy::cast_precision_loss, reason = "at most 64 nodes")]
     let mean = sum / (values.len().max(2) - 1) as f32 / 255.0;
     #[allow(clippy::cast_precision_loss, reason = "32")]
-    let per_octave = HEIGHTS_PER_OCTAVE as f32;
+    let per_octave = SLICE_STEPS_PER_OCTAVE as f32;
     // Nothing has the least mean there is.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
     let code = (255.0 + per_octave * mean.log2()).round().clamp(0.0, 255.0) as u8;

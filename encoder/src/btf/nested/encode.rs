@@ -2,8 +2,8 @@
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use subsurf_decoder::btf::layout::MAX_STAGES;
-use subsurf_decoder::btf::{Grid, Header, Model, Tone};
+use subsurf_decoder::btf::nested::layout::MAX_STAGES;
+use subsurf_decoder::btf::{BtfHeader, BtfModel, ColourEncoding, Grid};
 
 use super::chroma::{ChromaSizes, Hues};
 use super::database::Database;
@@ -96,11 +96,11 @@ impl<'a> Prepared<'a> {
             tables: [of_a, of_b],
             node_weights: &node_weights,
             energies: &energies,
-            is_relative: matches!(svd.tone, Tone::Display { .. }),
+            is_relative: matches!(svd.tone, ColourEncoding::Display { .. }),
         };
         let chroma = hues.build(&mut built[0], options.chroma);
         Ok(Database {
-            header: Header { model: Model::Nested, tone: svd.tone, materials: count, grid: options.grid },
+            header: BtfHeader { model: BtfModel::Nested, encoding: svd.tone, materials: count, grid: options.grid },
             materials,
             stages: built.into_iter().map(|stage| stage.chain).collect(),
             chroma,

@@ -1,6 +1,6 @@
 //! Logarithmic scales of codebooks: gains as codes of a few bits.
 
-use subsurf_decoder::btf::layout::{MAX_OCTAVES, STEPS_PER_OCTAVE, Scales};
+use subsurf_decoder::btf::nested::layout::{MAX_OCTAVES, STEPS_PER_OCTAVE, Scales};
 
 /// Fineness with which gains are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
