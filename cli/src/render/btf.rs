@@ -303,12 +303,7 @@ fn on_cpu(
     exposure: Option<f32>,
     size: [u32; 2],
 ) -> anyhow::Result<(Vec<[u8; 3]>, f32)> {
-    let mut visibilities = vec![[0.0; MAX_LIGHTS]; mesh.positions.len()];
-    for (k, light) in scene.lights.iter().take(MAX_LIGHTS).enumerate() {
-        for (of_vertex, seen) in visibilities.iter_mut().zip(visibility(mesh, light)) {
-            of_vertex[k] = seen;
-        }
-    }
+    let visibilities = visibility(mesh, &scene.lights);
     let textured = Textured::new(mesh, copies)?;
     let triangles = textured.triangles(mesh, &visibilities);
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };

@@ -7,7 +7,7 @@ use subsurf_runtime::{
     AmbientTransfer, BtfMaterial, Drawable, Frame, Gpu, GpuMesh, GpuPoints, Material, Renderer, RuntimeOptions,
     SeparableMaterial, SplatMaterial, Technique, VertexData,
 };
-use subsurf_scene::{MAX_LIGHTS, Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
+use subsurf_scene::{Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
 use subsurf_shaders::separable::{Detail, Factors};
 
 use super::PathArg;
@@ -101,12 +101,7 @@ pub(super) fn points(
     scene: &Scene,
 ) -> anyhow::Result<(Mesh, SurfacePoints)> {
     let fine = mesh.clone().subdivided(LONGEST_EDGE * material.header().pitch_mm)?;
-    let mut visibilities = vec![[0.0; MAX_LIGHTS]; fine.positions.len()];
-    for (k, light) in scene.lights.iter().take(MAX_LIGHTS).enumerate() {
-        for (of_vertex, seen) in visibilities.iter_mut().zip(visibility(&fine, light)) {
-            of_vertex[k] = seen;
-        }
-    }
+    let visibilities = visibility(&fine, &scene.lights);
     let surface = SurfacePoints::new(&fine, mapping, material.header(), &visibilities);
     Ok((fine, surface))
 }
