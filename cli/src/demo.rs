@@ -12,7 +12,7 @@ use subsurf_encoder::capture::{Capture, Overrides, Scalar};
 use subsurf_encoder::metrics::Light;
 use subsurf_encoder::simulate::{Finish, Scene};
 use subsurf_encoder::write_bytes;
-use subsurf_runtime::{Backend, Gpu, Material, PatchLight, PatchRenderer, Region, storage_of};
+use subsurf_runtime::{Backend, Gpu, Material, PatchLight, PatchRenderer, Region, layout_of};
 use subsurf_scene::torus;
 use subsurf_shaders::cpu;
 
@@ -140,7 +140,7 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
     let mut devices = Vec::new();
     for gpu in &gpus {
         let uploaded = Material::upload(gpu, material)?;
-        let renderer = PatchRenderer::new(gpu, storage_of(material))?;
+        let renderer = PatchRenderer::new(gpu, layout_of(material))?;
         let light = PatchLight::upload(gpu, [header.width, header.height], &irradiance)?;
         let found = renderer.gather(gpu, &uploaded, &light, whole)?.read(gpu)?;
         let largest = expected.iter().flatten().copied().fold(0.0, f32::max);

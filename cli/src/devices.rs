@@ -1,6 +1,6 @@
 //! `subsurf devices`: what there is to draw with.
 
-use subsurf_runtime::{Backend, Gpu, Keeping, devices};
+use subsurf_runtime::{Backend, Gpu, TargetFormat, devices};
 
 use crate::failure::bad_request;
 use crate::say::say;
@@ -56,7 +56,7 @@ pub(crate) fn to_compare() -> Vec<(Backend, Gpu)> {
     let mut gpus = Vec::new();
     for backend in Backend::ALL {
         match Gpu::open(backend) {
-            Ok(gpu) if gpu.keeping() == Keeping::Packed => {
+            Ok(gpu) if gpu.target_format() == TargetFormat::Packed => {
                 say!(
                     "{backend}: {} has no half floats to draw to, which splats and flat patches need",
                     gpu.info().name

@@ -7,7 +7,7 @@ use subsurf_runtime::{
     AmbientTransfer, Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, SeparableMaterial, Technique, VertexData, wgpu,
 };
 use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Placement, Scene, torus};
-use subsurf_shaders::separable::{Detail, Factors};
+use subsurf_shaders::separable::{BasisSize, SeparableBasis};
 
 const SIZE: [u32; 2] = [640, 480];
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let placement = Placement::new(&mesh, Mapping::Box, bssrdf.header());
     let sky = AmbientTransfer::of(&mesh, &bssrdf)?;
     let mesh = GpuMesh::upload(&gpu, &mesh, &placement, VertexData::Ambient(&sky))?;
-    let material = SeparableMaterial::upload(&gpu, &Factors::of(&bssrdf, Detail::default()))?;
+    let material = SeparableMaterial::upload(&gpu, &SeparableBasis::of(&bssrdf, BasisSize::default()))?;
     let model = Drawable::Separable { mesh: &mesh, material: &material };
     let options = RuntimeOptions { format: FORMAT, samples: 4, ..Default::default() };
     let renderer = Renderer::new(&gpu, Technique::Separable(material.terms()), options)?;

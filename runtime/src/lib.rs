@@ -10,14 +10,13 @@ mod technique;
 
 pub use asset::{
     AmbientTransfer, BtfImages, BtfMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial,
-    VertexData, storage_of,
+    VertexData, layout_of,
 };
 pub use error::{Error, Result};
 pub use frame::{BACKGROUND, Frame, Plan, Renderer, RuntimeOptions};
 pub use gpu::{Backend, Gpu, Ledger, OnScreen, PictureTarget, devices};
-pub use subsurf_shaders::source::Keeping;
 pub use subsurf_shaders::uniform::BtfFiltering;
-pub use subsurf_shaders::{BtfStorage, Storage};
+pub use subsurf_shaders::{BtfLayout, MaterialLayout, TargetFormat};
 pub use technique::{
     BtfAnswer, BtfOptions, BtfQueries, BtfQuery, Drawable, Exitance, HomogeneousPatch, HomogeneousRenderer, PatchLight,
     PatchRenderer, Region, SeparablePatch, SeparableRenderer, Technique,

@@ -1,11 +1,26 @@
-//! The shaders that draw `.subsurf` materials, the uniforms they share with Rust, and a CPU twin of every pass.
+//! The shaders that draw `.subsurf` materials, the uniform blocks they share with Rust, and their twins on the CPU.
 //!
-//! WGSL files are joined, not preprocessed: a pass is the constants of [`source`] that it needs, one after the other.
-//! Each pass `wgsl/NAME.wgsl` that computes something has a twin `cpu/NAME.rs` which gives the same numbers.
+//! - [`passes`]: the table of all passes. WGSL files are joined, not preprocessed: a pass is a file under `wgsl/pass/` after
+//!   the parts that its first line names, files under `wgsl/lib/` and `wgsl/material/`.
+//! - [`uniform`]: uniform blocks, laid out as in WGSL.
+//! - [`separable`]: what the separable passes draw, the basis of a material and the cascade of Gaussians.
+//! - [`fit`]: that basis from a material.
+//! - [`cpu`]: a pass `wgsl/pass/…/NAME.wgsl` has a twin `cpu/NAME.rs` that gives the same numbers, but for these:
+//!
+//! * `blur_patch_first`, `blur_patch_rows`, `blur_patch_columns`, `blur_patch_last`: stages of one sum, which
+//!   [`cpu::separable`] computes as a whole.
+//! * `homogeneous`: a baseline that is timed, not looked at.
+//! * `btf_query`: its twin is the decoder.
+//! * `tsm_render`, `tsm_reduce`, `surface_gbuffer`, `splat`, `splat_resolve`, `shade_splat`: they approximate what
+//!   [`cpu::surface_gather`] computes exactly, from what lights and the camera see; their pictures are held to its pictures.
+//! * `separable_gbuffer`, `blur_screen_rows`, `blur_screen_columns`, `shade_separable`: likewise.
 
 pub mod cpu;
+pub mod fit;
+pub mod passes;
+mod rgb;
 pub mod separable;
-pub mod source;
 pub mod uniform;
 
-pub use source::{BtfStorage, Storage};
+pub use passes::{BtfLayout, MaterialLayout, TargetFormat};
+pub use rgb::Rgb;

@@ -3,12 +3,20 @@
 use std::mem::{offset_of, size_of};
 
 use naga::TypeInner;
-use subsurf_shaders::{Storage, source, uniform};
+use subsurf_shaders::passes::{Choice, table};
+use subsurf_shaders::{MaterialLayout, TargetFormat, uniform};
 
-/// Asserts that the WGSL struct `name` has exactly `members` (name, offset), and `size` bytes.
-fn assert_layout(part: &str, name: &str, size: usize, members: &[(&str, usize)]) {
+/// Every variant of every pass for every target format: name and WGSL.
+fn all() -> Vec<(String, String)> {
+    let variants = table::ALL.into_iter().flat_map(|pass| pass.variants());
+    let texts = variants.flat_map(|variant| TargetFormat::ALL.map(|target| (variant.name(), variant.wgsl(target))));
+    texts.collect()
+}
+
+/// Asserts that the WGSL struct `name` has exactly `members` (name, offset), and `size` bytes, wherever there is one.
+fn assert_layout(name: &str, size: usize, members: &[(&str, usize)]) {
     let mut found = 0;
-    for (pass, text) in source::all().iter().filter(|(pass, _)| pass.contains(part)) {
+    for (pass, text) in &all() {
         let module = naga::front::wgsl::parse_str(text).unwrap();
         let structs = module.types.iter().filter(|(_, ty)| ty.name.as_deref() == Some(name));
         for (_, ty) in structs {
@@ -28,13 +36,8 @@ fn assert_layout(part: &str, name: &str, size: usize, members: &[(&str, usize)])
 
 macro_rules! assert_layout_of {
     ($name:ident: $($member:ident),+) => {
-        assert_layout_of!($name as $name in "": $($member),+)
-    };
-    // Two passes may call different things the same: of those, what stands in passes whose name has `$part` in it.
-    ($name:ident as $wgsl:ident in $part:literal: $($member:ident),+) => {
         assert_layout(
-            $part,
-            stringify!($wgsl),
+            stringify!($name),
             size_of::<uniform::$name>(),
             &[$((stringify!($member), offset_of!(uniform::$name, $member))),+],
         )
@@ -44,29 +47,34 @@ macro_rules! assert_layout_of {
 #[test]
 fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(Material: size, addressing, window_radius, samples, base_materials, pitch_mm, r_max_mm, nodes_per_mm, base_rows, row, rows);
-    assert_layout_of!(View: origin);
-    assert_layout_of!(Surface: origin_mm, cell_mm, cells, points);
-    assert_layout_of!(LightSource: clip_from_world, place, is_local, irradiance, cos_outer, axis, cos_inner, middle_mm, texel_mm);
+    assert_layout_of!(PatchRegion: origin);
+    assert_layout_of!(PointGrid: origin_mm, cell_mm, cells, points);
+    assert_layout_of!(LightSource: clip_from_world, position_or_direction, is_local, irradiance, cos_outer, axis, cos_inner, middle_mm, texel_mm);
     assert_layout_of!(Scene: clip_from_world, eye_mm, exposure, forward, middle_mm, centre_mm, eta, sky_transmittance, roughness, lights, row, patches_per_mm, pitch_mm, is_boxed, sky, light);
-    assert_layout_of!(Which: light);
-    assert_layout_of!(Splat: softened, clip_from_centre, fade_in, fade_out, focal, middle_mm, texel_mm, light, level, side, refines, stride, pitch_mm);
-    assert_layout_of!(Rings: count, near_mm);
+    assert_layout_of!(TsmLight: light);
+    assert_layout_of!(Splat: softening_gain, clip_from_centre, fade_in, fade_out, focal, middle_mm, texel_mm, light, level, side, refines, stride, pitch_mm);
+    assert_layout_of!(SplatRings: count, near_mm);
     assert_layout_of!(Upsampling: texels_per_pixel, near_mm);
-    assert_layout_of!(Through: weights, gaussians);
+    assert_layout_of!(Transmission: weights, gaussians);
     assert_layout_of!(Frame: size, texels, exposure);
-    assert_layout_of!(Stage as Stage in "blur": weights, axis, sigma, stride, taps, step, sparse, begun);
-    assert_layout_of!(Kernel as Stage in "homogeneous": kernel, axis, taps);
+    assert_layout_of!(BlurStage: weights, axis, sigma, stride, taps, step, sparse, has_sum);
+    assert_layout_of!(Kernel: weights, axis, taps);
     assert_layout_of!(BtfTable: start, width, row_bits, index_bits, last, code_mask, sign_at, sign_mask, step, offset);
-    assert_layout_of!(BtfBooks: chains, merged, i2, i1, p2_bytes, p1, is_signed, colours, tints, tint_count, tint_at, i2_mask, last_i2, stages, is_relative, first, step, nodes, alpha_max, sin_beta_max, theta_max, cos_light_min, tone, white, octaves, last_word);
+    assert_layout_of!(BtfCodebooks: chains, merged, i2, i1, p2_bytes, p1, is_signed, colours, tints, tint_count, tint_at, i2_mask, last_i2, stages, is_relative, first, step, nodes, alpha_max, sin_beta_max, theta_max, cos_light_min, colour_encoding, white, octaves, last_word);
     assert_layout_of!(BtfImages: light_rings, view_rings, rings, size, tiles, white, cos_light_min);
     assert_layout_of!(BtfTexture: levels, count, filtering, samples);
-    assert_layout_of!(ScreenDomain as Domain in "Screen": size, focal_texels, middle_mm, pitch_mm, jitters);
+    assert_layout_of!(ScreenDomain: size, focal_texels, middle_mm, pitch_mm);
+}
+
+/// WGSL of the reference pass for a layout.
+fn gather(layout: MaterialLayout) -> String {
+    table::GATHER.with(Choice::Material(layout)).wgsl(TargetFormat::Half)
 }
 
 #[test]
 fn palette_codes_are_those_of_the_format() {
     use subsurf_decoder::bssrdf::layout::{MAX_CODED_RATIO, MAX_PAIRS};
-    let text = source::gather(Storage::Palette);
+    let text = gather(MaterialLayout::Bmpp2Palette);
     for wanted in [format!("code % {MAX_PAIRS}u"), format!("code / {MAX_PAIRS}u) / {MAX_CODED_RATIO}.0")] {
         assert!(text.contains(&wanted), "{wanted}");
     }
@@ -78,7 +86,7 @@ fn addressing_codes_are_those_of_the_format() {
     use subsurf_decoder::bssrdf::Addressing;
     let codes = [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror].map(Addressing::code);
     assert_eq!(codes, [0, 1, 2]);
-    let text = source::gather(Storage::Bmpp);
+    let text = gather(MaterialLayout::Bmpp2);
     assert!(
         text.contains("material.addressing == 0u") && text.contains("material.addressing == 2u"),
         "clamp and mirror"

@@ -1,15 +1,41 @@
 //! Every pass against what phones take: GLSL ES 3.00, WebGL2 limits, and compilers stricter than naga.
 
+use std::borrow::Cow;
+
+use naga::back::pipeline_constants::process_overrides;
 use naga::back::{glsl, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Block, Expression, Function, MathFunction, Module, ScalarKind, ShaderStage, Statement, TypeInner};
-use subsurf_shaders::source;
+use subsurf_shaders::TargetFormat;
+use subsurf_shaders::passes::table;
 
 /// What a WebGL2-class device offers: nothing beyond the core of WGSL.
 const WEBGL2: Capabilities = Capabilities::empty();
 /// `Limits::downlevel_webgl2_defaults()`.
 const MAX_UNIFORM_BYTES: u32 = 16 << 10;
 const MAX_TEXTURES: usize = 16;
+
+/// Every variant of every pass for every target format: name and WGSL. Names for packed targets end in ", packed".
+fn all() -> Vec<(String, String)> {
+    let variants = table::ALL.into_iter().flat_map(|pass| pass.variants());
+    let both = variants.flat_map(|variant| {
+        let [half, packed] = TargetFormat::ALL.map(|target| variant.wgsl(target));
+        [(variant.name(), half), (format!("{}, packed", variant.name()), packed)]
+    });
+    both.collect()
+}
+
+/// The module with its overrides set to `value`, for one entry point.
+fn with_overrides<'a>(
+    module: &'a Module,
+    info: &'a ModuleInfo,
+    entry: (ShaderStage, &str),
+    value: f64,
+) -> (Cow<'a, Module>, Cow<'a, ModuleInfo>) {
+    let names = module.overrides.iter().filter_map(|(_, constant)| constant.name.clone());
+    let constants = names.map(|name| (name, value)).collect();
+    process_overrides(module, info, Some(entry), &constants).unwrap()
+}
 
 fn parse(name: &str, text: &str) -> Module {
     naga::front::wgsl::parse_str(text).unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(text)))
@@ -27,10 +53,15 @@ fn functions(module: &Module) -> impl Iterator<Item = &Function> {
 
 #[test]
 fn all_passes_are_valid_and_lower_to_gles_3_0_and_spir_v() {
-    for (name, text) in &source::all() {
+    for (name, text) in &all() {
         let module = parse(name, text);
         let info = validate(name, &module);
-        for entry in &module.entry_points {
+        // Overrides become constants for each pipeline, as wgpu makes them.
+        let values = if module.overrides.is_empty() { vec![0.0] } else { vec![0.0, 1.0] };
+        for (entry, value) in
+            module.entry_points.iter().flat_map(|entry| values.iter().map(move |value| (entry, *value)))
+        {
+            let (module, info) = with_overrides(&module, &info, (entry.stage, &entry.name), value);
             let options = glsl::Options { version: glsl::Version::new_gles(300), ..Default::default() };
             let pipeline =
                 glsl::PipelineOptions { shader_stage: entry.stage, entry_point: entry.name.clone(), multiview: None };
@@ -40,9 +71,9 @@ fn all_passes_are_valid_and_lower_to_gles_3_0_and_spir_v() {
                 .unwrap_or_else(|error| panic!("{name}, {}: {error}", entry.name));
             assert!(text.starts_with("#version 300 es"), "{name}, {}: {text}", entry.name);
             assert_ne!(entry.stage, ShaderStage::Compute, "{name}: GLES 3.0 has no compute");
+            spv::write_vec(&module, &info, &spv::Options::default(), None)
+                .unwrap_or_else(|error| panic!("{name}, {}: {error}", entry.name));
         }
-        spv::write_vec(&module, &info, &spv::Options::default(), None)
-            .unwrap_or_else(|error| panic!("{name}: {error}"));
     }
 }
 
@@ -71,7 +102,7 @@ fn is_refused(function: MathFunction) -> bool {
 
 #[test]
 fn no_pass_uses_what_gles_3_0_compilers_refuse() {
-    for (name, text) in &source::all() {
+    for (name, text) in &all() {
         let module = parse(name, text);
         for function in functions(&module) {
             for (_, expression) in function.expressions.iter() {
@@ -92,7 +123,7 @@ fn no_pass_uses_what_gles_3_0_compilers_refuse() {
 /// naga lowers `select` with a vector condition to `mix(.., bvec)`, which GLSL ES 3.00 has for floats only.
 #[test]
 fn selects_by_vector_are_of_floats() {
-    for (name, text) in &source::all() {
+    for (name, text) in &all() {
         let module = parse(name, text);
         let info = validate(name, &module);
         let by_index = module.functions.iter().map(|(handle, function)| (function, &info[handle]));
@@ -115,83 +146,76 @@ fn selects_by_vector_are_of_floats() {
 #[test]
 fn texture_loads_are_accounted_for() {
     let loads = |text: &str| text.matches("textureLoad(").count();
-    // How values are kept loads nothing.
-    let all: Vec<_> = source::all().into_iter().filter(|(name, _)| !name.ends_with(", packed")).collect();
+    // Target formats load nothing.
+    let all: Vec<_> = all().into_iter().filter(|(name, _)| !name.ends_with(", packed")).collect();
     let counts: Vec<(&str, usize)> = all.iter().map(|(name, text)| (&name[..], loads(text))).collect();
     assert_eq!(
         counts,
         [
             // Index or code, ratio or pair, node; irradiance at an addressed texel.
-            ("gather, Single", 3),
-            ("gather, Bmpp", 4),
-            ("gather, Palette", 4),
-            ("gather, Three", 4),
-            ("gather, Five", 4),
-            ("gather, PerPixel", 4),
-            ("gather, Capture", 2),
-            // Cell starts clamped to the number of points, pixels to the patch; the points' tables have equal sizes. Splats:
-            // samples within their level, texels of the target times its stride clamped, places wrapped into the patch.
-            ("surface gather, Single", 8),
-            ("splat, Single", 9),
-            ("surface gather, Bmpp", 9),
-            ("splat, Bmpp", 10),
-            ("surface gather, Palette", 9),
-            ("splat, Palette", 10),
-            ("surface gather, Three", 9),
-            ("splat, Three", 10),
-            ("surface gather, Five", 9),
-            ("splat, Five", 10),
-            ("surface gather, PerPixel", 9),
-            ("splat, PerPixel", 10),
-            // At the target's own texel; taps clamped to the size of the maps, or wrapped by a sampler; what lights see clamped to its size.
-            ("blur first rows, Patch, L = 1", 0),
-            ("blur last columns, Patch, L = 1", 2),
-            ("weigh mesh, L = 1", 4),
-            ("shade sums, L = 1", 3),
-            ("shade sums there, L = 1", 3),
-            ("blur rows, Patch, L = 1", 0),
-            ("blur columns, Patch, L = 1", 1),
-            ("blur rows, Screen, L = 1", 1),
-            ("blur columns, Screen, L = 1", 2),
-            ("blur first rows, Patch, L = 2", 0),
-            ("blur last columns, Patch, L = 2", 2),
-            ("weigh mesh, L = 2", 4),
-            ("shade sums, L = 2", 3),
-            ("shade sums there, L = 2", 3),
-            ("blur rows, Patch, L = 2", 0),
-            ("blur columns, Patch, L = 2", 1),
-            ("blur rows, Screen, L = 2", 1),
-            ("blur columns, Screen, L = 2", 2),
-            ("irradiance", 3),
-            ("light view", 0),
-            ("shade points", 2),
-            ("shade points there", 2),
-            ("surface view", 0),
-            ("reduce", 3),
-            ("collapse", 8),
-            ("shade splats", 2),
-            ("shade splats there", 2),
+            ("gather, Material(Bmpp1)", 3),
+            ("gather, Material(Bmpp2)", 4),
+            ("gather, Material(Bmpp2Palette)", 4),
+            ("gather, Material(Bmpp3)", 4),
+            ("gather, Material(Bmpp5)", 4),
+            ("gather, Material(PerPixel)", 4),
+            ("gather, Material(Capture)", 2),
             ("present", 1),
             ("homogeneous", 0),
-            // Words of a file, clamped to the last; lists at the target's own texel.
-            ("BTF query, Nested", 4),
-            ("shade BTF, Nested", 2),
-            ("shade BTF there, Nested", 2),
-            ("shade BTF in the dark, Nested", 2),
-            ("shade BTF in the dark there, Nested", 2),
-            // Pixels of images clamped to their size, tiles and layers to the texture's.
-            ("BTF query, Images", 4),
-            ("shade BTF, Images", 2),
-            ("shade BTF there, Images", 2),
-            ("shade BTF in the dark, Images", 2),
-            ("shade BTF in the dark there, Images", 2),
+            // At the texel of the target; taps wrapped by a sampler.
+            ("blur_patch_first, Terms(1)", 0),
+            ("blur_patch_first, Terms(2)", 0),
+            ("blur_patch_rows, Terms(1)", 0),
+            ("blur_patch_rows, Terms(2)", 0),
+            ("blur_patch_columns, Terms(1)", 1),
+            ("blur_patch_columns, Terms(2)", 1),
+            ("blur_patch_last, Terms(1)", 2),
+            ("blur_patch_last, Terms(2)", 2),
+            // Cell starts clamped to the number of points, pixels to the patch; the tables of the points have equal sizes.
+            ("irradiance", 3),
+            ("surface_gather, Material(Bmpp1)", 8),
+            ("surface_gather, Material(Bmpp2)", 9),
+            ("surface_gather, Material(Bmpp2Palette)", 9),
+            ("surface_gather, Material(Bmpp3)", 9),
+            ("surface_gather, Material(Bmpp5)", 9),
+            ("surface_gather, Material(PerPixel)", 9),
+            ("shade_vertex", 2),
+            ("tsm_render", 0),
+            ("tsm_reduce", 3),
+            // Samples within their level, texels of the target times its stride clamped, places wrapped into the patch.
+            ("surface_gbuffer", 0),
+            ("splat, Material(Bmpp1)", 9),
+            ("splat, Material(Bmpp2)", 10),
+            ("splat, Material(Bmpp2Palette)", 10),
+            ("splat, Material(Bmpp3)", 10),
+            ("splat, Material(Bmpp5)", 10),
+            ("splat, Material(PerPixel)", 10),
+            ("splat_resolve", 8),
+            ("shade_splat", 2),
+            // Taps clamped to the size of the maps; translucent shadow maps clamped to theirs.
+            ("separable_gbuffer, Terms(1)", 4),
+            ("separable_gbuffer, Terms(2)", 4),
+            ("blur_screen_rows, Terms(1)", 1),
+            ("blur_screen_rows, Terms(2)", 1),
+            ("blur_screen_columns, Terms(1)", 2),
+            ("blur_screen_columns, Terms(2)", 2),
+            ("shade_separable, Terms(1)", 3),
+            ("shade_separable, Terms(2)", 3),
+            // Words of a file, clamped to the last; lists at the texel of the target. Pixels of images clamped to their size,
+            // tiles and layers to those of the texture.
+            ("btf_query, Btf(Nested)", 4),
+            ("btf_query, Btf(Images)", 4),
+            ("shade_btf, LitBtf(Nested, true)", 2),
+            ("shade_btf, LitBtf(Nested, false)", 2),
+            ("shade_btf, LitBtf(Images, true)", 2),
+            ("shade_btf, LitBtf(Images, false)", 2),
         ]
     );
 }
 
 #[test]
 fn limits_of_webgl2_are_kept() {
-    for (name, text) in &source::all() {
+    for (name, text) in &all() {
         let module = parse(name, text);
         let mut textures = 0;
         let shared = module.global_variables.iter().filter(|(_, global)| global.space != naga::AddressSpace::Private);
@@ -224,7 +248,7 @@ fn loops_nest_at_most_three_deep() {
         });
         deepest.max().unwrap_or(0)
     }
-    for (name, text) in &source::all() {
+    for (name, text) in &all() {
         for function in functions(&parse(name, text)) {
             assert!(depth(&function.body) <= 3, "{name}: {:?}", function.name);
         }

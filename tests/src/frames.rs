@@ -12,7 +12,7 @@ use subsurf_runtime::{
     SeparableMaterial, SplatMaterial, Technique, VertexData,
 };
 use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene, SurfacePoints};
-use subsurf_shaders::separable::{Detail, Factors};
+use subsurf_shaders::separable::{BasisSize, SeparableBasis};
 
 use crate::simulated;
 
@@ -92,7 +92,7 @@ impl Loaded {
     pub fn under(gpu: &Gpu, way: Way, file: &[u8], mesh: &Mesh, mapping: Mapping, scene: &Scene) -> Self {
         let material = Bssrdf::parse(file).unwrap();
         let placement = Placement::new(mesh, mapping, material.header());
-        let factors = || Factors::of(&material, Detail::default());
+        let factors = || SeparableBasis::of(&material, BasisSize::default());
         let lit = || {
             let shares = AmbientTransfer::of(mesh, &material).unwrap();
             GpuMesh::upload(gpu, mesh, &placement, VertexData::Ambient(&shares)).unwrap()
@@ -126,8 +126,8 @@ impl Loaded {
     #[must_use]
     pub fn path(&self) -> Technique {
         match self {
-            Self::Gather(_, _, material) => Technique::Gather(material.storage()),
-            Self::Splat(_, material) => Technique::Splat(material.planes().storage()),
+            Self::Gather(_, _, material) => Technique::Gather(material.layout()),
+            Self::Splat(_, material) => Technique::Splat(material.planes().layout()),
             Self::Separable(_, material) => Technique::Separable(material.terms()),
         }
     }

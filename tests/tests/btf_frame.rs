@@ -5,7 +5,7 @@ use subsurf_decoder::Btf;
 use subsurf_decoder::btf::{Grid, Tone};
 use subsurf_encoder::synthetic::NestedShape;
 use subsurf_runtime::{
-    BACKGROUND, Backend, BtfFiltering, BtfMaterial, BtfOptions, BtfStorage, Drawable, Error, Gpu, GpuMesh, Renderer,
+    BACKGROUND, Backend, BtfFiltering, BtfLayout, BtfMaterial, BtfOptions, Drawable, Error, Gpu, GpuMesh, Renderer,
     RuntimeOptions, Technique, VertexData,
 };
 use subsurf_scene::{Camera, Environment, Light, LightShape, Mesh, Placement, REFLECTION_SIZE, Scene, sphere, torus};
@@ -65,7 +65,7 @@ fn picture(
     let model = Drawable::Btf { mesh: &on_gpu, material: &material, number: 0 };
     let renderer = Renderer::new(
         gpu,
-        Technique::Btf(BtfStorage::Nested),
+        Technique::Btf(BtfLayout::Nested),
         RuntimeOptions { btf: options, ..RuntimeOptions::default() },
     )
     .unwrap();
@@ -177,7 +177,7 @@ fn what_cannot_be_drawn_is_said() {
     let placement = Placement::of_btf(&mesh, [4.0, 2.0]);
     let tangents = mesh.tangents().unwrap();
     let material = BtfMaterial::upload(&gpu, &btf).unwrap();
-    let renderer = Renderer::new(&gpu, Technique::Btf(BtfStorage::Nested), RuntimeOptions::default()).unwrap();
+    let renderer = Renderer::new(&gpu, Technique::Btf(BtfLayout::Nested), RuntimeOptions::default()).unwrap();
     let on_gpu = GpuMesh::upload(&gpu, &mesh, &placement, VertexData::Tangents(&tangents)).unwrap();
     let prepare = |mesh, number| {
         let model = Drawable::Btf { mesh, material: &material, number };
@@ -187,7 +187,7 @@ fn what_cannot_be_drawn_is_said() {
     let bare = GpuMesh::upload(&gpu, &mesh, &placement, VertexData::Points(&vec![0; mesh.positions.len()])).unwrap();
     assert!(prepare(&bare, 0).to_string().contains("tangents"), "no tangents");
     let budget = RuntimeOptions { budget_bytes: Some(100_000), ..RuntimeOptions::default() };
-    let renderer = Renderer::new(&gpu, Technique::Btf(BtfStorage::Nested), budget).unwrap();
+    let renderer = Renderer::new(&gpu, Technique::Btf(BtfLayout::Nested), budget).unwrap();
     let model = Drawable::Btf { mesh: &on_gpu, material: &material, number: 0 };
     match renderer.prepare(&gpu, &model, &scene(1), SIZE) {
         Err(Error::OverBudget { .. }) => {}

@@ -6,7 +6,7 @@ use subsurf_decoder::btf::{Grid, Texel, Tone};
 use subsurf_decoder::container::Crc;
 use subsurf_encoder::btf::bonn;
 use subsurf_encoder::synthetic::{NestedShape, unit};
-use subsurf_runtime::{Backend, BtfAnswer, BtfImages, BtfMaterial, BtfQueries, BtfQuery, BtfStorage, Gpu};
+use subsurf_runtime::{Backend, BtfAnswer, BtfImages, BtfLayout, BtfMaterial, BtfQueries, BtfQuery, Gpu};
 use subsurf_tests::frames::device;
 use subsurf_tests::nested::{ODD_GRID, direction, single};
 
@@ -105,7 +105,7 @@ fn gles(backend: Backend) -> Gpu {
 
 fn values_and_samples(backend: Backend) {
     let gpu = gles(backend);
-    let answers = BtfQueries::new(&gpu, BtfStorage::Nested).unwrap();
+    let answers = BtfQueries::new(&gpu, BtfLayout::Nested).unwrap();
     for (name, file) in files() {
         let btf = Btf::parse(&file).unwrap();
         let before = gpu.ledger().bytes();
@@ -134,7 +134,7 @@ fn values_and_samples_on_gles_3_0() {
 /// Any bits in codebooks whose sizes are powers of two: the reader takes them, and the device says the same of them.
 fn hostile(backend: Backend) {
     let gpu = gles(backend);
-    let answers = BtfQueries::new(&gpu, BtfStorage::Nested).unwrap();
+    let answers = BtfQueries::new(&gpu, BtfLayout::Nested).unwrap();
     let shape =
         NestedShape { materials: vec![(32, 32, 1)], stages: 3, luma: [64, 128, 256, 128], ..NestedShape::typical() };
     let clean = shape.database(7).to_bytes();
@@ -178,7 +178,7 @@ fn pixel(light: usize, view: usize, texel: usize) -> [u8; 3] {
 /// At measured directions, images are what they are; between two of them, halfway between.
 fn images(backend: Backend) {
     let gpu = gles(backend);
-    let answers = BtfQueries::new(&gpu, BtfStorage::Images).unwrap();
+    let answers = BtfQueries::new(&gpu, BtfLayout::Images).unwrap();
     let directions: Vec<Vec3> = bonn().iter().map(|direction| direction.unit()).collect();
     let images = BtfImages { size: [4, 3], lights: &directions, views: &directions, white: 2.0 };
     let before = gpu.ledger().bytes();

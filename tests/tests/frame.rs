@@ -109,7 +109,7 @@ fn points_of_another_surface_are_refused() {
     let (mesh, _, material) = of(&large);
     let (_, points, _) = of(&small);
     let model = Drawable::Gather { mesh: &mesh, points: &points, material: &material };
-    let renderer = Renderer::new(&gpu, Technique::Gather(material.storage()), RuntimeOptions::default()).unwrap();
+    let renderer = Renderer::new(&gpu, Technique::Gather(material.layout()), RuntimeOptions::default()).unwrap();
     match renderer.prepare(&gpu, &model, &scene(&large), SIZE) {
         Err(Error::Device(reason)) => assert!(reason.contains("another surface"), "{reason}"),
         other => panic!("{:?}", other.map(|frame| *frame.plan())),

@@ -7,14 +7,14 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{Addressing, Coding};
 use subsurf_encoder::synthetic::{Shape, capture_row, unit};
 use subsurf_runtime::{
-    BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, PatchLight, PatchRenderer, Region, Renderer,
-    RuntimeOptions, SeparableMaterial, SeparableRenderer, Storage, Technique, VertexData, storage_of,
+    BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, MaterialLayout, PatchLight, PatchRenderer,
+    Region, Renderer, RuntimeOptions, SeparableMaterial, SeparableRenderer, Technique, VertexData, layout_of,
 };
 use subsurf_scene::{
     Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, REFLECTION_SIZE, Scene, SurfacePoints, sphere,
     torus,
 };
-use subsurf_shaders::separable::{Detail, Factors};
+use subsurf_shaders::separable::{BasisSize, SeparableBasis};
 use subsurf_shaders::{cpu, uniform};
 use subsurf_tests::shape;
 
@@ -56,22 +56,28 @@ fn assert_close(found: &[[f32; 3]], expected: &[[f32; 3]], targets: f32, what: &
     println!("{what}: largest relative difference {worst:.2e}");
 }
 
-fn file(storage: Storage, shape: &Shape) -> Vec<u8> {
-    match storage {
-        Storage::Single => shape.k_bmpp(1, Coding::Exact, false),
-        Storage::Bmpp => shape.bmpp(),
-        Storage::Palette => shape.k_bmpp(2, Coding::Palette, false),
-        Storage::Three => shape.k_bmpp(3, Coding::Exact, false),
-        Storage::Five => shape.k_bmpp(5, Coding::Exact, false),
-        Storage::PerPixel => shape.per_pixel(),
-        Storage::Capture => panic!("captures are not files"),
+fn file(layout: MaterialLayout, shape: &Shape) -> Vec<u8> {
+    match layout {
+        MaterialLayout::Bmpp1 => shape.k_bmpp(1, Coding::Exact, false),
+        MaterialLayout::Bmpp2 => shape.bmpp(),
+        MaterialLayout::Bmpp2Palette => shape.k_bmpp(2, Coding::Palette, false),
+        MaterialLayout::Bmpp3 => shape.k_bmpp(3, Coding::Exact, false),
+        MaterialLayout::Bmpp5 => shape.k_bmpp(5, Coding::Exact, false),
+        MaterialLayout::PerPixel => shape.per_pixel(),
+        MaterialLayout::Capture => panic!("captures are not files"),
     }
 }
 
-const FITTED: [Storage; 6] =
-    [Storage::Single, Storage::Bmpp, Storage::Palette, Storage::Three, Storage::Five, Storage::PerPixel];
+const FITTED: [MaterialLayout; 6] = [
+    MaterialLayout::Bmpp1,
+    MaterialLayout::Bmpp2,
+    MaterialLayout::Bmpp2Palette,
+    MaterialLayout::Bmpp3,
+    MaterialLayout::Bmpp5,
+    MaterialLayout::PerPixel,
+];
 
-/// Kinds that share a storage with others: 8-bit ratios, half floats, and more base materials than a column holds.
+/// Kinds that share a layout with others: 8-bit ratios, half floats, and more base materials than a column holds.
 fn variants(shape: &Shape) -> [Vec<u8>; 3] {
     let many = Shape { base_materials: 2_500, ..*shape };
     [
@@ -90,14 +96,14 @@ fn patch(backend: Backend) {
     let gpu = open(backend);
     let size = [23, 17];
     let irradiance = patterned_light(size);
-    for storage in FITTED {
-        let renderer = PatchRenderer::new(&gpu, storage).unwrap();
+    for layout in FITTED {
+        let renderer = PatchRenderer::new(&gpu, layout).unwrap();
         for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
             // The second window is wider than the patch: it wraps more than once.
             for radius in [4, 20] {
-                let file = file(storage, &shape(size, radius, addressing));
+                let file = file(layout, &shape(size, radius, addressing));
                 let material = Bssrdf::parse(&file).unwrap();
-                let what = format!("{backend}, {storage:?}, {addressing:?}, radius {radius}");
+                let what = format!("{backend}, {layout:?}, {addressing:?}, radius {radius}");
                 let uploaded = Material::upload(&gpu, &material).unwrap();
                 let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
                 let region = Region { origin: [2, 1], size: [21, 16] };
@@ -127,7 +133,7 @@ fn separable(backend: Backend) {
         for (radius, terms, gaussians) in [(4, 2, 4), (20, 2, 2), (4, 1, 6)] {
             let file = shape(size, radius, addressing).bmpp();
             let material = Bssrdf::parse(&file).unwrap();
-            let factors = Factors::of(&material, Detail { terms, gaussians });
+            let factors = SeparableBasis::of(&material, BasisSize { terms, gaussians });
             let uploaded = SeparableMaterial::upload(&gpu, &factors).unwrap();
             let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
             let renderer = SeparableRenderer::new(&gpu, terms).unwrap();
@@ -163,7 +169,7 @@ fn patch_variants(backend: Backend) {
     let irradiance = patterned_light(size);
     for (number, file) in variants(&shape(size, 4, Addressing::Clamp)).iter().enumerate() {
         let material = Bssrdf::parse(file).unwrap();
-        let renderer = PatchRenderer::new(&gpu, storage_of(&material)).unwrap();
+        let renderer = PatchRenderer::new(&gpu, layout_of(&material)).unwrap();
         let uploaded = Material::upload(&gpu, &material).unwrap();
         let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
         let found = renderer.gather(&gpu, &uploaded, &light, Region { origin: [0, 0], size }).unwrap();
@@ -201,7 +207,7 @@ fn capture_patch(backend: Backend) {
     let entries = (0..size[1]).flat_map(|y| capture_row(&material, y));
     let entries: Vec<u8> = entries.flat_map(f32::to_le_bytes).collect();
     let irradiance = patterned_light(size);
-    let renderer = PatchRenderer::new(&gpu, Storage::Capture).unwrap();
+    let renderer = PatchRenderer::new(&gpu, MaterialLayout::Capture).unwrap();
     let uploaded = Material::upload_capture(&gpu, material.header(), &entries).unwrap();
     let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
     let region = Region { origin: [0, 0], size };
@@ -239,11 +245,11 @@ fn scene() -> Scene {
     }
 }
 
-fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, storage: Storage, what: &str) {
+fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, layout: MaterialLayout, what: &str) {
     let gpu = open(backend);
-    let file = file(storage, &shape([31, 31], 6, Addressing::Clamp));
+    let file = file(layout, &shape([31, 31], 6, Addressing::Clamp));
     let material = Bssrdf::parse(&file).unwrap();
-    let what = format!("{backend}, {what}, {storage:?}");
+    let what = format!("{backend}, {what}, {layout:?}");
     // Shadows over half of it, with soft edges.
     let soft = |x: f32| (0.5 + 0.2 * x).clamp(0.0, 1.0);
     let visibilities: Vec<[f32; 4]> = mesh.positions.iter().map(|p| [soft(p.x), soft(-p.y), soft(p.z), 1.0]).collect();
@@ -253,7 +259,7 @@ fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, storage: Storage,
     let placement = Placement::new(mesh, mapping, material.header());
 
     let options = RuntimeOptions::default();
-    let renderer = Renderer::new(&gpu, Technique::Gather(storage), options).unwrap();
+    let renderer = Renderer::new(&gpu, Technique::Gather(layout), options).unwrap();
     let points = GpuPoints::upload(&gpu, &surface).unwrap();
     let uploaded = Material::upload(&gpu, &material).unwrap();
     let on_gpu = GpuMesh::upload(&gpu, mesh, &placement, VertexData::Points(&surface.point_of)).unwrap();
@@ -276,7 +282,7 @@ fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, storage: Storage,
         triangles: &mesh.triangles,
     };
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };
-    let expected = cpu::shade(&triangles, &block, &reflections, size, [BACKGROUND; 3]);
+    let expected = cpu::shade_vertex(&triangles, &block, &reflections, size, [BACKGROUND; 3]);
     let different = different(&picture, &expected, DISPLAY_TOLERANCE);
     let covered = expected.iter().filter(|pixel| **pixel != [BACKGROUND; 3]).count();
     println!("{what}: {different} of {} pixels differ, {covered} are covered", picture.len());
@@ -292,10 +298,10 @@ fn different(a: &[[u8; 3]], b: &[[u8; 3]], tolerance: u8) -> usize {
 
 fn meshes(backend: Backend) {
     let ball = sphere(5.0, 24);
-    mesh_scene(backend, &ball, Mapping::Box, Storage::Bmpp, "sphere, box mapping");
-    mesh_scene(backend, &ball, Mapping::Uv([2.0, 1.0]), Storage::PerPixel, "sphere, texture coordinates");
-    for storage in [Storage::Bmpp, Storage::Single, Storage::Palette, Storage::Five] {
-        mesh_scene(backend, &torus(5.0, 2.0, 20), Mapping::Uv([4.0, 2.0]), storage, "torus");
+    mesh_scene(backend, &ball, Mapping::Box, MaterialLayout::Bmpp2, "sphere, box mapping");
+    mesh_scene(backend, &ball, Mapping::Uv([2.0, 1.0]), MaterialLayout::PerPixel, "sphere, texture coordinates");
+    for layout in [MaterialLayout::Bmpp2, MaterialLayout::Bmpp1, MaterialLayout::Bmpp2Palette, MaterialLayout::Bmpp5] {
+        mesh_scene(backend, &torus(5.0, 2.0, 20), Mapping::Uv([4.0, 2.0]), layout, "torus");
     }
 }
 
@@ -322,11 +328,11 @@ fn ledger(backend: Backend) {
     drop(uploaded);
     assert_eq!(gpu.ledger().bytes(), 0, "all gone");
 
-    let other = PatchRenderer::new(&gpu, Storage::PerPixel).unwrap();
+    let other = PatchRenderer::new(&gpu, MaterialLayout::PerPixel).unwrap();
     let uploaded = Material::upload(&gpu, &material).unwrap();
     let light = PatchLight::upload(&gpu, [40, 30], &patterned_light([40, 30])).unwrap();
     let region = Region { origin: [0, 0], size: [4, 4] };
-    assert!(other.gather(&gpu, &uploaded, &light, region).is_err(), "a renderer for another storage");
+    assert!(other.gather(&gpu, &uploaded, &light, region).is_err(), "a renderer for another layout");
 }
 
 #[test]

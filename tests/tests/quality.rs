@@ -10,7 +10,7 @@ use subsurf_encoder::capture::Capture;
 use subsurf_encoder::metrics::{Light, compare, psnr_db};
 use subsurf_encoder::simulate::{Finish, Scene};
 use subsurf_shaders::cpu;
-use subsurf_shaders::separable::{Detail, Factors};
+use subsurf_shaders::separable::{BasisSize, SeparableBasis};
 use subsurf_tests::simulated;
 
 struct Quality {
@@ -35,7 +35,7 @@ fn quality(capture: &Capture, method: Method, base_materials: usize) -> Quality 
 }
 
 /// PSNR of the separable path against the reference gather of the same file, under each light.
-fn separable_db(material: &Bssrdf<'_>, factors: &Factors) -> [(Light, f64); 3] {
+fn separable_db(material: &Bssrdf<'_>, factors: &SeparableBasis) -> [(Light, f64); 3] {
     let header = material.header();
     let size = [header.width, header.height];
     Light::ALL.map(|light| {
@@ -80,11 +80,11 @@ fn judge(scene: Scene, share: f64) {
     let material = Bssrdf::parse(&direct.file).unwrap();
     // The usual factors, and the cheapest that are close enough on some columns: the whole patch may be a little further.
     for (factors, least_db) in
-        [(Factors::of(&material, Detail::default()), 44.0), (Factors::within(&material, 40.0), 38.0)]
+        [(SeparableBasis::of(&material, BasisSize::default()), 44.0), (SeparableBasis::within(&material, 40.0), 38.0)]
     {
         for (light, db) in separable_db(&material, &factors) {
-            println!("  separable path, {:?}, against the gather: {db:.1} dB, {}", factors.detail, light.name());
-            assert!(db >= least_db, "{scene:?}, {:?}, {light:?}: {db} dB", factors.detail);
+            println!("  separable path, {:?}, against the gather: {db:.1} dB, {}", factors.size, light.name());
+            assert!(db >= least_db, "{scene:?}, {:?}, {light:?}: {db} dB", factors.size);
         }
     }
     let reached = direct.relative_error / clusters.relative_error;

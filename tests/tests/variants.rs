@@ -7,8 +7,8 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::simulate::Scene as Recipe;
 use subsurf_runtime::wgpu::TextureFormat;
 use subsurf_runtime::{
-    BACKGROUND, Backend, Error, Gpu, Keeping, Material, PatchLight, PatchRenderer, Region, Renderer, RuntimeOptions,
-    Storage, Technique,
+    BACKGROUND, Backend, Error, Gpu, Material, MaterialLayout, PatchLight, PatchRenderer, Region, Renderer,
+    RuntimeOptions, TargetFormat, Technique,
 };
 use subsurf_scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
 use subsurf_tests::frames::{
@@ -85,14 +85,14 @@ fn devices_without_half_floats_to_draw_to_draw_the_same() {
     let scene = scene(&mesh);
     for backend in Backend::ALL {
         let gpu = device(backend);
-        assert_eq!(gpu.keeping(), Keeping::Halves, "{backend}");
-        let packed = device(backend).keep(Keeping::Packed);
+        assert_eq!(gpu.target_format(), TargetFormat::Half, "{backend}");
+        let packed = device(backend).with_target_format(TargetFormat::Packed);
         // Bit for bit, but for what is rounded the other way.
         let exitance = |gpu: &Gpu| {
             let material = Material::upload(gpu, &Bssrdf::parse(&file).unwrap()).unwrap();
             let irradiance: Vec<[f32; 3]> = (0..31 * 31_u16).map(|k| [f32::from(k), 0.01, -f32::from(k)]).collect();
             let light = PatchLight::upload(gpu, [31; 2], &irradiance).unwrap();
-            let renderer = PatchRenderer::new(gpu, material.storage()).unwrap();
+            let renderer = PatchRenderer::new(gpu, material.layout()).unwrap();
             let whole = Region { origin: [0; 2], size: [31; 2] };
             renderer.gather(gpu, &material, &light, whole).unwrap().read(gpu).unwrap()
         };
@@ -105,7 +105,7 @@ fn devices_without_half_floats_to_draw_to_draw_the_same() {
             let share = share_that_differs(&draw(&gpu), &draw(&packed));
             assert!(share <= EDGE_PIXELS, "{backend}, {way:?}: {share} of pixels differ by more than {API_TOLERANCE}");
         }
-        match Renderer::new(&packed, Technique::Splat(Storage::Bmpp), RuntimeOptions::default()) {
+        match Renderer::new(&packed, Technique::Splat(MaterialLayout::Bmpp2), RuntimeOptions::default()) {
             Err(Error::NoHalfFloats { what }) => assert_eq!(what, "splats"),
             other => panic!("{other:?}"),
         }

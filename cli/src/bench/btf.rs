@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use subsurf_decoder::Btf;
 use subsurf_encoder::Progress as _;
 use subsurf_encoder::btf::Images;
-use subsurf_runtime::{BACKGROUND, Backend, BtfFiltering, BtfMaterial, BtfOptions, BtfStorage, Gpu, RuntimeOptions};
+use subsurf_runtime::{BACKGROUND, Backend, BtfFiltering, BtfLayout, BtfMaterial, BtfOptions, Gpu, RuntimeOptions};
 use subsurf_scene::{Light, LightShape, Mesh, Placement, REFLECTION_SIZE, Scene, relief, sphere};
 use subsurf_shaders::{cpu, uniform};
 
@@ -77,7 +77,7 @@ fn subjects() -> anyhow::Result<Vec<Subject>> {
 /// What is timed.
 struct Row {
     device: String,
-    storage: BtfStorage,
+    layout: BtfLayout,
     filtering: BtfFiltering,
     /// Frames in ms.
     times: Vec<f64>,
@@ -90,9 +90,9 @@ impl Row {
     }
 
     fn line(&self) -> String {
-        let what = match self.storage {
-            BtfStorage::Nested => "codebooks",
-            BtfStorage::Images => "images",
+        let what = match self.layout {
+            BtfLayout::Nested => "codebooks",
+            BtfLayout::Images => "images",
         };
         format!(
             "  {:<10} {:<9} {:<9} {:>8.2} frames/s, {:>7.1} ms (p95 {:.1}), material {}",
@@ -109,7 +109,7 @@ impl Row {
     fn json(&self, subject: &Subject) -> Value {
         json!({
             "mesh": subject.name, "triangles": subject.mesh.triangles.len(), "device": self.device,
-            "storage": format!("{:?}", self.storage).to_lowercase(), "filtering": format!("{:?}", self.filtering).to_lowercase(),
+            "storage": format!("{:?}", self.layout).to_lowercase(), "filtering": format!("{:?}", self.filtering).to_lowercase(),
             "frames_per_second": self.fps(), "frame_median_ms": median(&self.times),
             "frame_p95_ms": quantile(&self.times, 0.95), "material_bytes": self.material_bytes,
             "published": { "mesh": subject.stands_for, "cpu_fps": subject.published_fps[0],
@@ -162,8 +162,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let copies = texels.map(|side| TEXTURE / side as f32);
     let subjects = subjects()?;
     let gpus = to_compare();
-    let storages = 1 + usize::from(images.is_some());
-    let rows = subjects.len() * (2 * storages * gpus.len() + 1);
+    let layouts = 1 + usize::from(images.is_some());
+    let rows = subjects.len() * (2 * layouts * gpus.len() + 1);
     let (bars, mut report) = (Bars::new(), Vec::new());
     bars.begin("frames", (rows * (args.frames + 1)) as u64);
     for subject in &subjects {
@@ -218,7 +218,7 @@ impl Setting<'_> {
 
     fn time(&self, filtering: BtfFiltering, (material, number): (BtfMaterial, usize)) -> anyhow::Result<Row> {
         let (gpu, size) = (self.gpu, self.args.size.0);
-        let (storage, material_bytes) = (material.storage(), material.gpu_bytes());
+        let (layout, material_bytes) = (material.layout(), material.gpu_bytes());
         let options = RuntimeOptions { btf: BtfOptions { filtering, samples: 0 }, ..RuntimeOptions::default() };
         let prepared = prepare_btf(gpu, &self.subject.mesh, self.copies, material, number)?;
         let mut scene = self.scene.clone();
@@ -229,7 +229,7 @@ impl Setting<'_> {
             renderer.draw(gpu, &mut frame, &prepared.model(), &scene, target.view())?;
             Ok(gpu.finish()?)
         })?;
-        Ok(Row { device: self.backend.to_string(), storage, filtering, times, material_bytes })
+        Ok(Row { device: self.backend.to_string(), layout, filtering, times, material_bytes })
     }
 }
 
@@ -259,6 +259,6 @@ fn on_cpu(
         std::hint::black_box(picture);
         Ok(())
     })?;
-    let storage = BtfStorage::Nested;
-    Ok(Row { device: "CPU, 1 core".to_owned(), storage, filtering, times, material_bytes: btf.file().len() as u64 })
+    let layout = BtfLayout::Nested;
+    Ok(Row { device: "CPU, 1 core".to_owned(), layout, filtering, times, material_bytes: btf.file().len() as u64 })
 }

@@ -9,7 +9,7 @@ use subsurf_encoder::Progress as _;
 use subsurf_encoder::Unfinished;
 use subsurf_encoder::btf::{Folder, Images};
 use subsurf_runtime::{
-    BtfImages, BtfMaterial, BtfStorage, Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, Technique, VertexData,
+    BtfImages, BtfLayout, BtfMaterial, Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, Technique, VertexData,
 };
 use subsurf_scene::{Mesh, Placement, Scene, relief};
 
@@ -53,7 +53,7 @@ pub(super) fn run(args: &load::Args, file: &Path, images: &Path) -> anyhow::Resu
     if args.json {
         let value = json!({
             "runs": args.runs, "device": load::device(args.backend)?, "width": size[0], "height": size[1], "pairs": pairs,
-            "storage": { "images": raw, "file": compressed },
+            "layout": { "images": raw, "file": compressed },
             "images_over_file": { "bytes": bytes, "load_warm": warm, "load_cold": cold },
         });
         say!("{value:#}");
@@ -69,10 +69,10 @@ pub(super) fn run(args: &load::Args, file: &Path, images: &Path) -> anyhow::Resu
     let size_of = |value: f64| human(value as u64);
     #[allow(clippy::cast_precision_loss, reason = "bytes for people")]
     let bytes_of = |bytes: u64| Some(bytes as f64);
-    row("file", &|storage| bytes_of(storage.bytes), size_of);
-    row("on the device", &|storage| bytes_of(storage.gpu_bytes), size_of);
-    row("peak resident memory", &|storage| bytes_of(storage.peak_rss_bytes), size_of);
-    row("of it before loading", &|storage| bytes_of(storage.baseline_rss_bytes), size_of);
+    row("file", &|layout| bytes_of(layout.bytes), size_of);
+    row("on the device", &|layout| bytes_of(layout.gpu_bytes), size_of);
+    row("peak resident memory", &|layout| bytes_of(layout.peak_rss_bytes), size_of);
+    row("of it before loading", &|layout| bytes_of(layout.baseline_rss_bytes), size_of);
     type Step = (&'static str, fn(&Steps) -> f64);
     let steps: [Step; 5] = [
         ("read", |steps| steps.read),
@@ -82,10 +82,10 @@ pub(super) fn run(args: &load::Args, file: &Path, images: &Path) -> anyhow::Resu
         ("total", |steps| steps.total),
     ];
     for (name, of) in steps {
-        row(&format!("warm: {name}"), &|storage| Some(of(&storage.warm_us)), micros);
+        row(&format!("warm: {name}"), &|layout| Some(of(&layout.warm_us)), micros);
     }
     for (name, of) in steps {
-        row(&format!("cold: {name}"), &|storage| storage.cold_us.as_ref().map(of), micros);
+        row(&format!("cold: {name}"), &|layout| layout.cold_us.as_ref().map(of), micros);
     }
     let cold = cold.map_or("-".to_owned(), |ratio| format!("{ratio:.0}"));
     say!(
@@ -111,7 +111,7 @@ fn write_array(path: &Path, images: &Images) -> anyhow::Result<()> {
 pub(super) struct Bench<'a> {
     gpu: Option<&'a Gpu>,
     path: &'a Path,
-    storage: BtfStorage,
+    layout: BtfLayout,
     size: [u32; 2],
     lights: Vec<glam::Vec3>,
     views: Vec<glam::Vec3>,
@@ -123,10 +123,10 @@ impl<'a> Bench<'a> {
     pub(super) fn new(gpu: Option<&'a Gpu>, path: &'a Path, images: &Path) -> anyhow::Result<Self> {
         let folder = Folder::open(images)?;
         let is_array = path.extension().is_some_and(|extension| extension == "raw");
-        let storage = if is_array { BtfStorage::Images } else { BtfStorage::Nested };
+        let layout = if is_array { BtfLayout::Images } else { BtfLayout::Nested };
         let mesh: Mesh = relief(20.0, 8, 22);
         let draw = |gpu: &Gpu| -> anyhow::Result<_> {
-            let renderer = Renderer::new(gpu, Technique::Btf(storage), RuntimeOptions::default())?;
+            let renderer = Renderer::new(gpu, Technique::Btf(layout), RuntimeOptions::default())?;
             let tangents = mesh.tangents()?;
             Ok((
                 renderer,
@@ -136,7 +136,7 @@ impl<'a> Bench<'a> {
         Ok(Self {
             gpu,
             path,
-            storage,
+            layout,
             size: folder.size(),
             lights: folder.lights().iter().map(|light| light.unit()).collect(),
             views: folder.views().iter().map(|view| view.unit()).collect(),
@@ -151,10 +151,10 @@ impl<'a> Bench<'a> {
         let bytes = std::fs::read(self.path)?;
         let read = clock.lap();
         // There is nothing to check in an array but its length.
-        let btf = match self.storage {
-            BtfStorage::Nested => Some(parse_btf(self.path, &bytes)?),
-            BtfStorage::Images if bytes.len() == self.lights.len() * self.views.len() * self.image_len() => None,
-            BtfStorage::Images => return Err(bad_request("the array has not the length of its images")),
+        let btf = match self.layout {
+            BtfLayout::Nested => Some(parse_btf(self.path, &bytes)?),
+            BtfLayout::Images if bytes.len() == self.lights.len() * self.views.len() * self.image_len() => None,
+            BtfLayout::Images => return Err(bad_request("the array has not the length of its images")),
         };
         let parse = clock.lap();
         let (upload, first_frame, gpu_bytes) = match (self.gpu, &self.drawn) {

@@ -11,8 +11,9 @@ use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
 use subsurf_decoder::bssrdf::{Coding, Header};
 use subsurf_decoder::container::{Container, Crc, crc32};
 use subsurf_encoder::capture::{Capture, Overrides};
-use subsurf_runtime::{Gpu, Material, PatchLight, PatchRenderer, Region, Storage as GpuStorage, storage_of};
-use subsurf_shaders::cpu::{self, Reflectance, Rgb};
+use subsurf_runtime::{Gpu, Material, MaterialLayout, PatchLight, PatchRenderer, Region, layout_of};
+use subsurf_shaders::Rgb;
+use subsurf_shaders::cpu::{self, Reflectance};
 
 use super::load_btf;
 use super::timing::{Steps, Storage, median, medians};
@@ -45,8 +46,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         return report(args, baseline, || bench.once(), || Ok(BTreeMap::new()));
     }
     let is_capture = args.file.extension().is_some_and(|extension| extension == "npy");
-    let (header, storage) = describe(&args.file, is_capture)?;
-    let bench = Bench::new(gpu.as_ref(), &args.file, header, storage)?;
+    let (header, layout) = describe(&args.file, is_capture)?;
+    let bench = Bench::new(gpu.as_ref(), &args.file, header, layout)?;
     let parts =
         || Ok(if is_capture { BTreeMap::new() } else { parts_of_parse(&std::fs::read(&args.file)?, args.runs) });
     report(args, baseline, || bench.once(), parts)
@@ -85,14 +86,14 @@ fn report(
 }
 
 /// What the header says, and how the device will hold it.
-fn describe(path: &Path, is_capture: bool) -> anyhow::Result<(Header, GpuStorage)> {
+fn describe(path: &Path, is_capture: bool) -> anyhow::Result<(Header, MaterialLayout)> {
     if is_capture {
         let capture = Capture::open(path, &Overrides::default())?;
-        return Ok((header_of(&capture)?, GpuStorage::Capture));
+        return Ok((header_of(&capture)?, MaterialLayout::Capture));
     }
     let bytes = std::fs::read(path)?;
     let material = crate::info::parse(path, &bytes)?;
-    Ok((*material.header(), storage_of(&material)))
+    Ok((*material.header(), layout_of(&material)))
 }
 
 /// A capture has no profiles; everything else is as in a file.
@@ -117,7 +118,7 @@ struct Bench<'a> {
     gpu: Option<&'a Gpu>,
     path: &'a Path,
     header: Header,
-    storage: GpuStorage,
+    layout: MaterialLayout,
     /// What an application has before it loads its first material: pipelines, and light.
     renderer: Option<PatchRenderer>,
     irradiance: Vec<Rgb>,
@@ -125,15 +126,15 @@ struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    fn new(gpu: Option<&'a Gpu>, path: &'a Path, header: Header, storage: GpuStorage) -> anyhow::Result<Self> {
-        let renderer = gpu.map(|gpu| PatchRenderer::new(gpu, storage)).transpose()?;
+    fn new(gpu: Option<&'a Gpu>, path: &'a Path, header: Header, layout: MaterialLayout) -> anyhow::Result<Self> {
+        let renderer = gpu.map(|gpu| PatchRenderer::new(gpu, layout)).transpose()?;
         let size = [header.width.min(FRAME), header.height.min(FRAME)];
         let origin = [(header.width - size[0]) / 2, (header.height - size[1]) / 2];
         Ok(Self {
             gpu,
             path,
             header,
-            storage,
+            layout,
             renderer,
             irradiance: vec![[1.0; 3]; (header.width * header.height) as usize],
             region: Region { origin, size },
@@ -147,8 +148,8 @@ impl<'a> Bench<'a> {
         let read = clock.lap();
 
         // A capture's array starts where its header ends; there is nothing else to check.
-        let entries = match self.storage {
-            GpuStorage::Capture => Some(self.entries_of(&bytes)?),
+        let entries = match self.layout {
+            MaterialLayout::Capture => Some(self.entries_of(&bytes)?),
             _ => None,
         };
         let material = if entries.is_none() { Some(crate::info::parse(self.path, &bytes)?) } else { None };

@@ -8,9 +8,10 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::synthetic::Shape;
 use subsurf_runtime::{
     Backend, Gpu, HomogeneousRenderer, Material, PatchLight, PatchRenderer, Region, SeparableMaterial,
-    SeparableRenderer, storage_of,
+    SeparableRenderer, layout_of,
 };
-use subsurf_shaders::separable::{Detail, Factors, Stage, mean_kernel};
+use subsurf_shaders::fit::mean_kernel;
+use subsurf_shaders::separable::{BasisSize, CascadeStage, SeparableBasis};
 
 use super::timing::median;
 use crate::devices::to_compare;
@@ -66,12 +67,12 @@ fn measure(gpu: &Gpu, backend: Backend, side: u32, args: &Args) -> anyhow::Resul
     let light = PatchLight::upload(gpu, [side; 2], &vec![[1.0; 3]; (side * side) as usize])?;
 
     let uploaded = Material::upload(gpu, &material)?;
-    let renderer = PatchRenderer::new(gpu, storage_of(&material))?;
+    let renderer = PatchRenderer::new(gpu, layout_of(&material))?;
     let whole = Region { origin: [0, 0], size: [side; 2] };
     // A gather takes long enough to be timed a few times only.
     let gather = times(gpu, args.frames.min(3), || renderer.gather(gpu, &uploaded, &light, whole).map(|_| ()))?;
 
-    let factors = Factors::of(&material, Detail::default());
+    let factors = SeparableBasis::of(&material, BasisSize::default());
     let uploaded = SeparableMaterial::upload(gpu, &factors)?;
     let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
     let patch = renderer.prepare(gpu, &uploaded, &light)?;
@@ -82,7 +83,7 @@ fn measure(gpu: &Gpu, backend: Backend, side: u32, args: &Args) -> anyhow::Resul
     let patch = renderer.prepare(gpu, material.header(), &kernel, &light)?;
     let homogeneous = times(gpu, args.frames, || renderer.draw(gpu, &patch).map(|_| ()))?;
 
-    let taps: i32 = Stage::cascade(&factors.sigmas).iter().map(|stage| 2 * stage.taps + 1).sum();
+    let taps: i32 = CascadeStage::cascade(&factors.sigmas).iter().map(|stage| 2 * stage.taps + 1).sum();
     let [gather, separable, homogeneous] = [gather, separable, homogeneous].map(|times| median(&times));
     say!(
         "  {side}x{side}: gather {gather:.1} ms, separable {separable:.2} ms ({taps} taps an axis), one kernel \

@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_runtime::{BACKGROUND, Frame, Gpu, Renderer, RuntimeOptions};
 use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene};
-use subsurf_shaders::cpu::{self, Rgb};
 use subsurf_shaders::uniform;
+use subsurf_shaders::{Rgb, cpu};
 
 use super::prepared::{Ingredients, Prepared, Ready, points};
 use super::{Angles, BRIGHT, MappingArg, PathArg, exposure_for};
@@ -112,7 +112,7 @@ pub(crate) fn draw_mesh(
             };
             let reflections =
                 cpu::Reflections { size: subsurf_scene::REFLECTION_SIZE, levels: scene.environment.reflections() };
-            cpu::shade(&triangles, &block, &reflections, large, [BACKGROUND; 3])
+            cpu::shade_vertex(&triangles, &block, &reflections, large, [BACKGROUND; 3])
         }
     };
     facts.insert("exposure".to_owned(), json!(scene.camera.exposure));

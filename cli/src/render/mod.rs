@@ -15,9 +15,9 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::Light;
-use subsurf_runtime::{Keeping, RuntimeOptions};
+use subsurf_runtime::{RuntimeOptions, TargetFormat};
 use subsurf_scene::{Environment, load_mesh};
-use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_shaders::{Rgb, cpu};
 
 use crate::devices::{self, BackendArg, check_picture};
 use crate::failure::bad_request;
@@ -214,7 +214,7 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, 
     let path = args.path.unwrap_or(PathArg::Gather);
     let is_separable = matches!(path, PathArg::Separable | PathArg::Homogeneous);
     let mut gpu = args.backend.open()?;
-    let is_short_of_halves = gpu.as_ref().is_some_and(|gpu| gpu.keeping() == Keeping::Packed);
+    let is_short_of_halves = gpu.as_ref().is_some_and(|gpu| gpu.target_format() == TargetFormat::Packed);
     if is_short_of_halves && is_separable && args.mesh.is_none() && args.backend == BackendArg::Auto {
         // The CPU does what the device cannot.
         gpu = None;

@@ -5,9 +5,9 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::Light;
 use subsurf_runtime::{
-    Gpu, Material, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, storage_of,
+    Gpu, Material, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, layout_of,
 };
-use subsurf_shaders::cpu::{self, Rgb};
+use subsurf_shaders::{Rgb, cpu};
 
 use super::prepared::factors;
 use super::{PathArg, exposure_for};
@@ -42,7 +42,7 @@ pub(crate) fn draw_patch(
     facts.insert("size".to_owned(), json!(size));
     let pixels = match gpu {
         Some(gpu) => {
-            let renderer = PatchRenderer::new(gpu, storage_of(material))?;
+            let renderer = PatchRenderer::new(gpu, layout_of(material))?;
             let light = PatchLight::upload(gpu, whole.size, &irradiance)?;
             let (exitance, gpu_bytes) = match path {
                 PathArg::Splat => return Err(no_splats()),

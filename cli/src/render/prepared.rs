@@ -8,7 +8,7 @@ use subsurf_runtime::{
     SeparableMaterial, SplatMaterial, Technique, VertexData,
 };
 use subsurf_scene::{Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
-use subsurf_shaders::separable::{Detail, Factors};
+use subsurf_shaders::separable::{BasisSize, SeparableBasis};
 
 use super::PathArg;
 use super::mesh::chosen_exposure;
@@ -26,8 +26,8 @@ pub(crate) struct Ingredients {
 
 enum OfPath {
     Gather { fine: Mesh, surface: SurfacePoints },
-    Splat { sky: Arc<Vec<AmbientTransfer>>, factors: Factors },
-    Separable { sky: Arc<Vec<AmbientTransfer>>, factors: Factors },
+    Splat { sky: Arc<Vec<AmbientTransfer>>, factors: SeparableBasis },
+    Separable { sky: Arc<Vec<AmbientTransfer>>, factors: SeparableBasis },
 }
 
 impl Ingredients {
@@ -49,7 +49,9 @@ impl Ingredients {
                 let (fine, surface) = points(mesh, mapping, material, scene)?;
                 OfPath::Gather { fine, surface }
             }
-            PathArg::Splat => OfPath::Splat { sky: sky()?, factors: Factors::of(material, Detail::default()) },
+            PathArg::Splat => {
+                OfPath::Splat { sky: sky()?, factors: SeparableBasis::of(material, BasisSize::default()) }
+            }
             PathArg::Separable | PathArg::Homogeneous => {
                 OfPath::Separable { sky: sky()?, factors: factors(material, path) }
             }
@@ -85,11 +87,11 @@ impl Ingredients {
     }
 }
 
-/// Factors of a material, or of its mean.
-pub(super) fn factors(material: &Bssrdf<'_>, path: PathArg) -> Factors {
+/// SeparableBasis of a material, or of its mean.
+pub(super) fn factors(material: &Bssrdf<'_>, path: PathArg) -> SeparableBasis {
     match path {
-        PathArg::Homogeneous => Factors::homogeneous(material, Detail::default().gaussians),
-        PathArg::Gather | PathArg::Splat | PathArg::Separable => Factors::within(material, LEAST_DB),
+        PathArg::Homogeneous => SeparableBasis::homogeneous(material, BasisSize::default().gaussians),
+        PathArg::Gather | PathArg::Splat | PathArg::Separable => SeparableBasis::within(material, LEAST_DB),
     }
 }
 
@@ -137,10 +139,10 @@ impl Prepared {
     /// The renderer's name for the path.
     pub(crate) fn path(&self) -> Technique {
         match self {
-            Self::Gather { material, .. } => Technique::Gather(material.storage()),
-            Self::Splat { material, .. } => Technique::Splat(material.planes().storage()),
+            Self::Gather { material, .. } => Technique::Gather(material.layout()),
+            Self::Splat { material, .. } => Technique::Splat(material.planes().layout()),
             Self::Separable { material, .. } => Technique::Separable(material.terms()),
-            Self::Btf { material, .. } => Technique::Btf(material.storage()),
+            Self::Btf { material, .. } => Technique::Btf(material.layout()),
         }
     }
 

@@ -7,8 +7,8 @@ use glam::{IVec3, Vec3};
 use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
 use subsurf_scene::Mesh;
-use subsurf_shaders::cpu::Rgb;
-use subsurf_shaders::separable::mean_profile;
+use subsurf_shaders::Rgb;
+use subsurf_shaders::fit::mean_profile;
 
 use crate::error::Result;
 

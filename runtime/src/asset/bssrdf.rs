@@ -2,43 +2,32 @@
 
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{BaseMaterials, Header, Mixtures, Model, Profiles};
-use subsurf_shaders::Storage;
+use subsurf_shaders::MaterialLayout;
 use subsurf_shaders::uniform::{self, BASE_ROWS, ROW};
 use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
 
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Slot, Surface2d, TextureSpec, Tracked, layers_of};
+use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked, layers_of};
 
 /// Layout of a file on the device.
 #[must_use]
-pub fn storage_of(material: &Bssrdf<'_>) -> Storage {
+pub fn layout_of(material: &Bssrdf<'_>) -> MaterialLayout {
     let Model::BaseMaterials(planes) = material.model() else {
-        return Storage::PerPixel;
+        return MaterialLayout::PerPixel;
     };
     match planes.mixtures {
-        Mixtures::One(_) | Mixtures::OneOfMany(_) => Storage::Single,
-        Mixtures::Two { .. } | Mixtures::TwoSmall { .. } => Storage::Bmpp,
-        Mixtures::Palette { .. } => Storage::Palette,
-        Mixtures::Several { count: 3, .. } => Storage::Three,
-        Mixtures::Several { .. } => Storage::Five,
-    }
-}
-
-/// Bindings of a material's group.
-pub(crate) fn slots(storage: Storage) -> &'static [Slot] {
-    match storage {
-        Storage::Single => &[Slot::Uniform, Slot::Float, Slot::Uint],
-        Storage::Bmpp => &[Slot::Uniform, Slot::Float, Slot::Float, Slot::Uint],
-        Storage::Palette => &[Slot::Uniform, Slot::Float, Slot::Uint, Slot::Uint],
-        Storage::Three | Storage::Five => &[Slot::Uniform, Slot::Float, Slot::FloatLayers, Slot::UintLayers],
-        Storage::PerPixel | Storage::Capture => &[Slot::Uniform, Slot::FloatLayers],
+        Mixtures::One(_) | Mixtures::OneOfMany(_) => MaterialLayout::Bmpp1,
+        Mixtures::Two { .. } | Mixtures::TwoSmall { .. } => MaterialLayout::Bmpp2,
+        Mixtures::Palette { .. } => MaterialLayout::Bmpp2Palette,
+        Mixtures::Several { count: 3, .. } => MaterialLayout::Bmpp3,
+        Mixtures::Several { .. } => MaterialLayout::Bmpp5,
     }
 }
 
 /// Scattering material on the device, in one of the layouts.
 #[derive(Debug)]
 pub struct Material {
-    storage: Storage,
+    layout: MaterialLayout,
     header: Header,
     uniform: Tracked<Buffer>,
     textures: Vec<Surface2d>,
@@ -54,7 +43,7 @@ impl Material {
     pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>) -> Result<Self> {
         let header = material.header();
         let size = [header.width, header.height];
-        let storage = storage_of(material);
+        let layout = layout_of(material);
         let mut planes = Planes { gpu, size, all: Vec::new() };
         match material.model() {
             Model::PerPixel(profiles) => {
@@ -67,7 +56,7 @@ impl Material {
             }
         }
         let (textures, views) = planes.all.into_iter().unzip();
-        Ok(Self::new(gpu, storage, header, [ROW; 2], textures, views))
+        Ok(Self::new(gpu, layout, header, [ROW; 2], textures, views))
     }
 
     /// Uploads an uncompressed capture, `[y][x][dy][dx][rgb]` of little-endian f32, for comparison: sizes, pitch and
@@ -89,25 +78,25 @@ impl Material {
             gpu.finish()?;
         }
         let views = vec![layers_of(&texture)];
-        Ok(Self::new(gpu, Storage::Capture, header, [ROW, rows], vec![texture], views))
+        Ok(Self::new(gpu, MaterialLayout::Capture, header, [ROW, rows], vec![texture], views))
     }
 
     fn new(
         gpu: &Gpu,
-        storage: Storage,
+        layout: MaterialLayout,
         header: &Header,
         layer: [u32; 2],
         textures: Vec<Surface2d>,
         views: Vec<TextureView>,
     ) -> Self {
         let block = uniform::Material::new(header, layer);
-        Self { storage, header: *header, uniform: gpu.uniform("material", &block), textures, views }
+        Self { layout, header: *header, uniform: gpu.uniform("material", &block), textures, views }
     }
 
     /// Layout of the material on the device.
     #[must_use]
-    pub fn storage(&self) -> Storage {
-        self.storage
+    pub fn layout(&self) -> MaterialLayout {
+        self.layout
     }
 
     /// Header of the file: size, pitch and window of the patch.
@@ -122,22 +111,22 @@ impl Material {
         self.textures.iter().map(|surface| surface.texture.bytes()).sum::<u64>() + self.uniform.bytes()
     }
 
-    /// Resources of the material's group, in the order of [`slots`].
+    /// Resources of the material's group, in the order of [`MaterialLayout::bindings`].
     pub(crate) fn resources(&self) -> Vec<BindingResource<'_>> {
         let uniform = std::iter::once(self.uniform.as_entire_binding());
         uniform.chain(self.views.iter().map(BindingResource::TextureView)).collect()
     }
 
     /// Refuses a material of another layout than a pass was built for.
-    pub(crate) fn expect(&self, storage: Storage) -> Result<()> {
-        if self.storage == storage {
+    pub(crate) fn expect(&self, layout: MaterialLayout) -> Result<()> {
+        if self.layout == layout {
             return Ok(());
         }
-        Err(Error::Device(format!("this renderer draws {storage:?}, the material is stored as {:?}", self.storage)))
+        Err(Error::Device(format!("this renderer draws {layout:?}, the material is stored as {:?}", self.layout)))
     }
 }
 
-/// Textures of a file, in the order of [`slots`], each with the view that shaders take.
+/// Textures of a file, in the order of [`MaterialLayout::bindings`], each with the view that shaders take.
 struct Planes<'a> {
     gpu: &'a Gpu,
     /// Width and height of the patch in pixels.

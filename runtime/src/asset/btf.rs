@@ -1,30 +1,22 @@
 //! BTFs on the device: the file as it is.
 
 use subsurf_decoder::Btf;
-use subsurf_shaders::BtfStorage;
-use subsurf_shaders::uniform::{BtfBooks, BtfTexture};
+use subsurf_shaders::BtfLayout;
+use subsurf_shaders::uniform::{BtfCodebooks, BtfTexture};
 use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
 
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Slot, Surface2d, TextureSpec, Tracked};
+use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked};
 
 /// BTF on the device: its file, word by word, and a block that says where its codebooks are; or its images.
 #[derive(Debug)]
 pub struct BtfMaterial {
-    storage: BtfStorage,
+    layout: BtfLayout,
     /// Mipmap levels of each material.
     textures: Vec<BtfTexture>,
     texture: Surface2d,
     view: TextureView,
     block: Tracked<Buffer>,
-}
-
-/// Bindings of a BTF's group, but for the last, the block of the material that is drawn.
-pub(crate) fn slots(storage: BtfStorage) -> [Slot; 2] {
-    match storage {
-        BtfStorage::Nested => [Slot::Uniform, Slot::Uint],
-        BtfStorage::Images => [Slot::Uniform, Slot::FloatLayers],
-    }
 }
 
 impl BtfMaterial {
@@ -36,7 +28,7 @@ impl BtfMaterial {
     pub fn upload(gpu: &Gpu, btf: &Btf<'_>) -> Result<Self> {
         let file = btf.file();
         let too_large = || Error::Unsupported { what: "bytes of a BTF", need: file.len() as u64, have: 512 << 20 };
-        let books = BtfBooks::of(btf).ok_or_else(too_large)?;
+        let books = BtfCodebooks::of(btf).ok_or_else(too_large)?;
         // Of the last word, zeros are missing.
         let mut bytes = file.to_vec();
         bytes.resize(file.len().next_multiple_of(4), 0);
@@ -45,31 +37,31 @@ impl BtfMaterial {
         let textures = (0..materials).filter_map(|number| BtfTexture::of(btf, number)).collect();
         let words = gpu.filled(&words, &bytes)?;
         let view = words.view.clone();
-        Ok(Self::new(BtfStorage::Nested, textures, words, view, gpu.uniform("codebooks", &books)))
+        Ok(Self::new(BtfLayout::Nested, textures, words, view, gpu.uniform("codebooks", &books)))
     }
 
     pub(super) fn new(
-        storage: BtfStorage,
+        layout: BtfLayout,
         textures: Vec<BtfTexture>,
         texture: Surface2d,
         view: TextureView,
         block: Tracked<Buffer>,
     ) -> Self {
-        Self { storage, textures, texture, view, block }
+        Self { layout, textures, texture, view, block }
     }
 
     /// Layout of the BTF on the device.
     #[must_use]
-    pub fn storage(&self) -> BtfStorage {
-        self.storage
+    pub fn layout(&self) -> BtfLayout {
+        self.layout
     }
 
     /// Refuses a BTF of another layout than a pass was built for.
-    pub(crate) fn expect(&self, storage: BtfStorage) -> Result<()> {
-        if self.storage == storage {
+    pub(crate) fn expect(&self, layout: BtfLayout) -> Result<()> {
+        if self.layout == layout {
             return Ok(());
         }
-        Err(Error::Device(format!("this draws BTFs as {storage:?}, the material is stored as {:?}", self.storage)))
+        Err(Error::Device(format!("this draws BTFs as {layout:?}, the material is stored as {:?}", self.layout)))
     }
 
     /// Bytes of textures and blocks on the device.
@@ -83,7 +75,7 @@ impl BtfMaterial {
         &self.textures
     }
 
-    /// Resources of its group, in the order of [`slots`].
+    /// Resources of its group, in the order of [`BtfLayout::bindings`].
     pub(crate) fn resources(&self) -> [BindingResource<'_>; 2] {
         [self.block.as_entire_binding(), BindingResource::TextureView(&self.view)]
     }

@@ -1,7 +1,7 @@
 //! BTFs on the device, uncompressed: every image. What a compressed BTF is compared with.
 
 use glam::Vec3;
-use subsurf_shaders::BtfStorage;
+use subsurf_shaders::BtfLayout;
 use subsurf_shaders::uniform::{self, BtfTexture, MAX_RINGS_OF_DIRECTIONS};
 use wgpu::TextureFormat;
 
@@ -144,7 +144,7 @@ impl BtfMaterial {
         };
         let all = layers_of(&texture);
         let textures = vec![BtfTexture::plain(images.size)];
-        Ok(Self::new(BtfStorage::Images, textures, texture, all, gpu.uniform("images", &block)))
+        Ok(Self::new(BtfLayout::Images, textures, texture, all, gpu.uniform("images", &block)))
     }
 }
 

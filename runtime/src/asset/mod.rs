@@ -11,10 +11,8 @@ mod separable;
 mod splat;
 
 pub use ambient::AmbientTransfer;
-pub(crate) use bssrdf::slots;
-pub use bssrdf::{Material, storage_of};
+pub use bssrdf::{Material, layout_of};
 pub use btf::BtfMaterial;
-pub(crate) use btf::slots as btf_slots;
 pub use btf_images::BtfImages;
 pub use mesh::{GpuMesh, VertexData};
 pub(crate) use mesh::{TANGENTS, VERTICES};

@@ -2,7 +2,7 @@
 
 use half::f16;
 use subsurf_decoder::bssrdf::{Addressing, Header};
-use subsurf_shaders::cpu::Rgb;
+use subsurf_shaders::Rgb;
 use wgpu::{AddressMode, FilterMode, MipmapFilterMode, Sampler, SamplerDescriptor, TextureFormat, TextureView};
 
 use crate::error::Result;
@@ -10,7 +10,7 @@ use crate::gpu::{Gpu, Surface2d, TextureSpec, layers_of};
 
 /// Array of filtered values over a patch, rgb, with mipmap levels.
 ///
-/// Indices of base materials cannot be filtered; albedos and factors can.
+/// Indices of base materials cannot be filtered; albedos and coefficients can.
 #[derive(Debug)]
 pub(crate) struct PatchLayers {
     surface: Surface2d,

@@ -29,11 +29,12 @@ impl GpuPoints {
     /// [`Error::Unsupported`] if the device takes no textures of that size.
     pub fn upload(gpu: &Gpu, surface: &SurfacePoints) -> Result<Self> {
         let table = |label, len, format, bytes: &[u8]| gpu.filled(&TextureSpec::array(label, len, format), bytes);
-        let target = |label| gpu.texture(&TextureSpec::target(label, array_size(surface.len()), gpu.kept()));
+        let target =
+            |label| gpu.texture(&TextureSpec::target(label, array_size(surface.len()), gpu.target_texture_format()));
         let count = surface.len();
         let float = TextureFormat::Rgba32Float;
         Ok(Self {
-            grid: gpu.uniform("grid", &uniform::Surface::new(surface)),
+            grid: gpu.uniform("grid", &uniform::PointGrid::new(surface)),
             positions: table("positions", count, float, bytemuck::cast_slice(&surface.positions))?,
             normals: table("normals", count, float, bytemuck::cast_slice(&surface.normals))?,
             visibilities: table("visibilities", count, float, bytemuck::cast_slice(&surface.visibilities))?,

@@ -1,9 +1,9 @@
 //! Materials for separable blurs on the device.
 
 use subsurf_decoder::bssrdf::Header;
-use subsurf_shaders::cpu::{self, Rgb};
-use subsurf_shaders::separable::Factors;
+use subsurf_shaders::separable::SeparableBasis;
 use subsurf_shaders::uniform;
+use subsurf_shaders::{Rgb, cpu};
 use wgpu::Buffer;
 
 use super::patch_layers::PatchLayers;
@@ -11,18 +11,18 @@ use crate::error::{Error, Result};
 use crate::gpu::{Gpu, Tracked};
 
 /// Refuses a basis whose tables are not as long as it says.
-pub(super) fn whole(factors: &Factors) -> Result<()> {
-    let detail = factors.detail;
-    let error = || Error::Device(format!("factors that are not as many as {detail:?} and the patch take"));
-    factors.is_whole().then_some(()).ok_or_else(error)
+pub(super) fn whole(basis: &SeparableBasis) -> Result<()> {
+    let size = basis.size;
+    let error = || Error::Device(format!("a basis that has not as many numbers as {size:?} and the patch take"));
+    basis.is_whole().then_some(()).ok_or_else(error)
 }
 
 /// Albedo of every pixel under uniform light.
-pub(super) fn albedo(factors: &Factors) -> Vec<Rgb> {
-    cpu::separable(factors, &vec![[1.0; 3]; factors.coefficients_of(0).len()])
+pub(super) fn albedo(basis: &SeparableBasis) -> Vec<Rgb> {
+    cpu::separable(basis, &vec![[1.0; 3]; basis.coefficients_of(0).len()])
 }
 
-/// Separable material on the device: factors c_l and albedo over the patch, and blocks of the cascade of Gaussians.
+/// Separable material on the device: coefficients c_l and albedo over the patch, and blocks of the cascade of Gaussians.
 #[derive(Debug)]
 pub struct SeparableMaterial {
     header: Header,
@@ -31,26 +31,26 @@ pub struct SeparableMaterial {
     pub(crate) layers: PatchLayers,
     /// Blocks along rows and along columns, for each Gaussian a.
     stages: Vec<[Tracked<Buffer>; 2]>,
-    through: Tracked<Buffer>,
+    transmission: Tracked<Buffer>,
     narrowest_pixels: f32,
 }
 
 impl SeparableMaterial {
-    /// Uploads a basis; factors become half floats.
+    /// Uploads a basis; coefficients become half floats.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if some are missing.
-    pub fn upload(gpu: &Gpu, factors: &Factors) -> Result<Self> {
-        whole(factors)?;
-        let terms = factors.detail.terms;
-        let layers = (0..terms).map(|l| factors.coefficients_of(l).to_vec()).chain([albedo(factors)]);
-        let stages = uniform::Stage::cascade(factors);
+    pub fn upload(gpu: &Gpu, basis: &SeparableBasis) -> Result<Self> {
+        whole(basis)?;
+        let terms = basis.size.terms;
+        let layers = (0..terms).map(|l| basis.coefficients_of(l).to_vec()).chain([albedo(basis)]);
+        let stages = uniform::BlurStage::cascade(basis);
         Ok(Self {
-            header: factors.header,
+            header: basis.header,
             terms,
-            layers: PatchLayers::upload(gpu, &factors.header, layers.collect())?,
-            through: gpu.uniform("through", &uniform::Through::new(factors)),
-            narrowest_pixels: factors.sigmas.first().copied().unwrap_or(1.0),
+            layers: PatchLayers::upload(gpu, &basis.header, layers.collect())?,
+            transmission: gpu.uniform("transmission", &uniform::Transmission::new(basis)),
+            narrowest_pixels: basis.sigmas.first().copied().unwrap_or(1.0),
             stages: stages.iter().map(|axes| axes.map(|block| gpu.uniform("stage", &block))).collect(),
         })
     }
@@ -78,12 +78,12 @@ impl SeparableMaterial {
     /// Bytes of layers and blocks on the device.
     #[must_use]
     pub fn gpu_bytes(&self) -> u64 {
-        self.layers.bytes() + self.stages.iter().flatten().chain([&self.through]).map(Tracked::bytes).sum::<u64>()
+        self.layers.bytes() + self.stages.iter().flatten().chain([&self.transmission]).map(Tracked::bytes).sum::<u64>()
     }
 
     /// Block of the weights of all Gaussians, for light that passes through thin parts.
-    pub(crate) fn through(&self) -> &Buffer {
-        &self.through
+    pub(crate) fn transmission(&self) -> &Buffer {
+        &self.transmission
     }
 
     /// Standard deviation of the narrowest Gaussian, in pixels of the patch.

@@ -1,8 +1,9 @@
 //! Materials for splats on the device.
 
 use subsurf_decoder::Bssrdf;
-use subsurf_shaders::cpu::Rgb;
-use subsurf_shaders::separable::{Factors, softened};
+use subsurf_shaders::Rgb;
+use subsurf_shaders::fit::softening_gain;
+use subsurf_shaders::separable::SeparableBasis;
 
 use super::bssrdf::Material;
 use super::patch_layers::PatchLayers;
@@ -17,21 +18,21 @@ pub struct SplatMaterial {
     pub(crate) planes: Material,
     /// One layer: albedo under uniform light.
     pub(crate) albedo: PatchLayers,
-    /// Factors that give back the light that softened distances take, by [`softened`].
-    pub(crate) softened: [Rgb; 8],
+    /// SeparableBasis that give back the light that softened distances take, by [`softening_gain`].
+    pub(crate) softening_gain: [Rgb; 8],
 }
 
 impl SplatMaterial {
     /// Uploads the planes of a file as they stand in it, and the albedo that its separable basis gives.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if some factors are missing.
-    pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>, factors: &Factors) -> Result<Self> {
-        whole(factors)?;
+    /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if some numbers of the basis are missing.
+    pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>, basis: &SeparableBasis) -> Result<Self> {
+        whole(basis)?;
         Ok(Self {
             planes: Material::upload(gpu, material)?,
-            softened: softened(material),
-            albedo: PatchLayers::upload(gpu, material.header(), vec![albedo(factors)])?,
+            softening_gain: softening_gain(material),
+            albedo: PatchLayers::upload(gpu, material.header(), vec![albedo(basis)])?,
         })
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use subsurf_scene::Scene;
-use subsurf_shaders::{Storage, uniform};
+use subsurf_shaders::{MaterialLayout, uniform};
 use wgpu::{BindGroup, BindingResource, CommandEncoder, CommandEncoderDescriptor, TextureView};
 
 use super::options::RuntimeOptions;
@@ -57,14 +57,14 @@ impl Renderer {
                 "light_texels is {light_texels}; it must be a power of two, at least {LEAST_LIGHT_TEXELS}"
             )));
         }
-        if let Technique::Gather(Storage::Capture) | Technique::Splat(Storage::Capture) = technique {
+        if let Technique::Gather(MaterialLayout::Capture) | Technique::Splat(MaterialLayout::Capture) = technique {
             return Err(Error::Device("captures are drawn flat, not on meshes".to_owned()));
         }
         let pipelines: Arc<dyn Pipelines> = match technique {
-            Technique::Gather(storage) => Arc::new(gather::Passes::new(gpu, storage, format, samples)?),
-            Technique::Splat(storage) => Arc::new(splat::Passes::new(gpu, storage, format, samples)?),
+            Technique::Gather(layout) => Arc::new(gather::Passes::new(gpu, layout, format, samples)?),
+            Technique::Splat(layout) => Arc::new(splat::Passes::new(gpu, layout, format, samples)?),
             Technique::Separable(terms) => Arc::new(separable::Passes::new(gpu, terms, format, samples)?),
-            Technique::Btf(storage) => Arc::new(btf::Passes::new(gpu, storage, options.btf, format, samples)?),
+            Technique::Btf(layout) => Arc::new(btf::Passes::new(gpu, layout, options.btf, format, samples)?),
         };
         Ok(Self { options, technique, light_view: light_views::pass(gpu)?, pipelines })
     }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use half::f16;
 use pollster::block_on;
-use subsurf_shaders::source::Keeping;
+use subsurf_shaders::TargetFormat;
 use wgpu::rwh::HasDisplayHandle;
 use wgpu::{
     Adapter, AdapterInfo, Color, Device, DeviceDescriptor, ErrorFilter, ExperimentalFeatures, Extent3d, Features,
@@ -21,7 +21,7 @@ use crate::error::{Error, Result};
 pub struct Gpu {
     pub(crate) device: Device,
     pub(crate) queue: Queue,
-    keeping: Keeping,
+    target_format: TargetFormat,
     info: AdapterInfo,
     ledger: Ledger,
 }
@@ -40,7 +40,7 @@ pub struct OnScreen<'w> {
 }
 
 /// Format of targets: half floats where they can be drawn to, which takes GL_EXT_color_buffer_half_float or GL_EXT_color_buffer_float.
-fn keeping_of(device: &Device) -> Keeping {
+fn target_format_of(device: &Device) -> TargetFormat {
     let scope = device.push_error_scope(ErrorFilter::Validation);
     let _ = device.create_texture(&TextureDescriptor {
         label: Some("probe"),
@@ -52,7 +52,7 @@ fn keeping_of(device: &Device) -> Keeping {
         usage: TextureUsages::RENDER_ATTACHMENT,
         view_formats: &[],
     });
-    if block_on(scope.pop()).is_some() { Keeping::Packed } else { Keeping::Halves }
+    if block_on(scope.pop()).is_some() { TargetFormat::Packed } else { TargetFormat::Half }
 }
 
 impl Gpu {
@@ -101,34 +101,34 @@ impl Gpu {
     /// Wraps a device that the caller owns; `info` is what its adapter says. `Limits::downlevel_webgl2_defaults()` are enough.
     #[must_use]
     pub fn from_device(device: Device, queue: Queue, info: AdapterInfo) -> Self {
-        Self { keeping: keeping_of(&device), device, queue, info, ledger: Ledger::default() }
+        Self { target_format: target_format_of(&device), device, queue, info, ledger: Ledger::default() }
     }
 
-    /// How passes keep values for later ones.
+    /// Storage of intermediate targets.
     #[must_use]
-    pub fn keeping(&self) -> Keeping {
-        self.keeping
+    pub fn target_format(&self) -> TargetFormat {
+        self.target_format
     }
 
-    /// The same device, with values kept in another way: for drivers that claim to draw to half floats and fail.
+    /// The same device with another layout of intermediate targets: for drivers that claim to draw to half floats and fail.
     #[must_use]
-    pub fn keep(self, keeping: Keeping) -> Self {
-        Self { keeping, ..self }
+    pub fn with_target_format(self, target_format: TargetFormat) -> Self {
+        Self { target_format, ..self }
     }
 
-    /// Format of what passes keep.
-    pub(crate) fn kept(&self) -> TextureFormat {
-        match self.keeping {
-            Keeping::Halves => TextureFormat::Rgba16Float,
-            Keeping::Packed => TextureFormat::Rgba16Uint,
+    /// Texture format of intermediate targets.
+    pub(crate) fn target_texture_format(&self) -> TextureFormat {
+        match self.target_format {
+            TargetFormat::Half => TextureFormat::Rgba16Float,
+            TargetFormat::Packed => TextureFormat::Rgba16Uint,
         }
     }
 
-    /// What to clear a target of that format with.
-    pub(crate) fn kept_colour(&self, colour: Color) -> Color {
-        match self.keeping {
-            Keeping::Halves => colour,
-            Keeping::Packed => {
+    /// Colour to clear an intermediate target with.
+    pub(crate) fn clear_colour(&self, colour: Color) -> Color {
+        match self.target_format {
+            TargetFormat::Half => colour,
+            TargetFormat::Packed => {
                 let bits = |value: f64| f16::from_f64(value).to_bits().into();
                 Color { r: bits(colour.r), g: bits(colour.g), b: bits(colour.b), a: bits(colour.a) }
             }
@@ -136,10 +136,10 @@ impl Gpu {
     }
 
     /// Refuses to do what takes half floats that can be drawn to.
-    pub(crate) fn expect_halves(&self, what: &'static str) -> Result<()> {
-        match self.keeping {
-            Keeping::Halves => Ok(()),
-            Keeping::Packed => Err(Error::NoHalfFloats { what }),
+    pub(crate) fn expect_half_targets(&self, what: &'static str) -> Result<()> {
+        match self.target_format {
+            TargetFormat::Half => Ok(()),
+            TargetFormat::Packed => Err(Error::NoHalfFloats { what }),
         }
     }
 

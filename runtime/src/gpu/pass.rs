@@ -1,5 +1,6 @@
-//! Passes without a mesh: one triangle over the whole target, or squares that are added up.
+//! Passes without a mesh: one triangle over the whole target, or quads that are added up.
 
+use subsurf_shaders::passes::Variant;
 use wgpu::{
     BindGroup, BindingResource, BlendComponent, BlendFactor, BlendOperation, BlendState, Color, CommandEncoder,
     CommandEncoderDescriptor, LoadOp, PrimitiveTopology, TextureFormat, TextureView,
@@ -7,24 +8,16 @@ use wgpu::{
 
 use super::device::Gpu;
 use super::pipeline::{Drawing, Pipeline, Program, attachment};
-use super::slot::Slot;
 use crate::error::Result;
 
 /// Pass that covers its whole target with one triangle.
 #[derive(Debug)]
-pub(crate) struct CoverPass(Pipeline);
+pub(crate) struct FullscreenPass(Pipeline);
 
-impl CoverPass {
-    /// Builds the pipeline of a shader with the entry points `cover` and `fragment`, bind groups of these slots, and
-    /// targets of these formats.
-    pub(crate) fn new(
-        gpu: &Gpu,
-        shader: &str,
-        fragment: &str,
-        groups: &[&[Slot]],
-        targets: &[TextureFormat],
-    ) -> Result<Self> {
-        let program = Program { shader, vertex: "cover", fragment, groups, targets };
+impl FullscreenPass {
+    /// Compiles a variant of a full-screen pass for targets of these formats.
+    pub(crate) fn new(gpu: &Gpu, variant: Variant, targets: &[TextureFormat]) -> Result<Self> {
+        let program = Program { variant, constants: &[], targets };
         Ok(Self(Pipeline::new(gpu, &program, Drawing::default())?))
     }
 
@@ -61,24 +54,18 @@ impl CoverPass {
 
 /// Pass that adds instances of a square to its target.
 #[derive(Debug)]
-pub(crate) struct SquarePass(Pipeline);
+pub(crate) struct QuadPass(Pipeline);
 
-impl SquarePass {
-    /// Builds the pipeline of a shader with the entry points `spread` and `fragment`; values are added to the target.
-    pub(crate) fn new(
-        gpu: &Gpu,
-        shader: &str,
-        fragment: &str,
-        groups: &[&[Slot]],
-        target: TextureFormat,
-    ) -> Result<Self> {
+impl QuadPass {
+    /// Compiles a variant of a pass whose vertices are corners of a quad.
+    pub(crate) fn new(gpu: &Gpu, variant: Variant, target: TextureFormat) -> Result<Self> {
         let add = BlendComponent {
             src_factor: BlendFactor::One,
             dst_factor: BlendFactor::One,
             operation: BlendOperation::Add,
         };
         let blend = Some(BlendState { color: add, alpha: add });
-        let program = Program { shader, vertex: "spread", fragment, groups, targets: &[target] };
+        let program = Program { variant, constants: &[], targets: &[target] };
         let drawing = Drawing { topology: PrimitiveTopology::TriangleStrip, blend, ..Default::default() };
         Ok(Self(Pipeline::new(gpu, &program, drawing)?))
     }
@@ -88,7 +75,7 @@ impl SquarePass {
         self.0.bind(gpu, group, resources)
     }
 
-    /// Adds squares to a target that is cleared to 0; of each draw, bind group 1 and the number of squares.
+    /// Adds quads to a target that is cleared to 0; of each draw, bind group 1 and the number of quads.
     pub(crate) fn record(
         &self,
         encoder: &mut CommandEncoder,
@@ -98,9 +85,9 @@ impl SquarePass {
     ) {
         let attachments = [Some(attachment(target, LoadOp::Clear(Color::TRANSPARENT)))];
         let mut pass = self.0.begin(encoder, &attachments, None, &[group]);
-        for (of_draw, squares) in draws {
+        for (of_draw, quads) in draws {
             pass.set_bind_group(1, *of_draw, &[]);
-            pass.draw(0..4, 0..*squares);
+            pass.draw(0..4, 0..*quads);
         }
     }
 }

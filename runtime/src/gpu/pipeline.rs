@@ -1,16 +1,17 @@
 //! Render pipelines: a shader compiled for its targets, its bind groups, and the beginning of a pass.
 
+use subsurf_shaders::passes::{Binding, Variant};
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindingResource,
     BlendState, Color, ColorTargetState, ColorWrites, CommandEncoder, DepthStencilState, FragmentState, LoadOp,
-    MultisampleState, Operations, PipelineLayoutDescriptor, PrimitiveState, PrimitiveTopology, RenderPass,
-    RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor, RenderPipeline,
-    RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp, TextureFormat, TextureView,
-    VertexBufferLayout, VertexState,
+    MultisampleState, Operations, PipelineCompilationOptions, PipelineLayoutDescriptor, PrimitiveState,
+    PrimitiveTopology, RenderPass, RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor,
+    RenderPipeline, RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp, TextureFormat,
+    TextureView, VertexBufferLayout, VertexState,
 };
 
 use super::device::Gpu;
-use super::slot::{Slot, layout_entries};
+use super::layout::layout_entries;
 use crate::error::Result;
 
 /// Render pipeline, and the layouts of its bind groups.
@@ -22,15 +23,11 @@ pub(crate) struct Pipeline {
 
 /// Shader of a pipeline, what it reads and what it draws to.
 pub(crate) struct Program<'a> {
-    /// WGSL, without what says how targets hold values.
-    pub(crate) shader: &'a str,
-    /// Entry point of the vertex stage.
-    pub(crate) vertex: &'a str,
-    /// Entry point of the fragment stage.
-    pub(crate) fragment: &'a str,
-    /// Bindings of each bind group.
-    pub(crate) groups: &'a [&'a [Slot]],
-    /// Format of each colour target.
+    /// Pass, with what it leaves open chosen.
+    pub(crate) variant: Variant,
+    /// Values of its overrides.
+    pub(crate) constants: &'a [(&'a str, f64)],
+    /// Formats of the colour targets.
     pub(crate) targets: &'a [TextureFormat],
 }
 
@@ -51,13 +48,14 @@ impl Pipeline {
     /// # Errors
     /// [`crate::Error::Device`] if the driver refuses it.
     pub(crate) fn new(gpu: &Gpu, program: &Program<'_>, drawing: Drawing<'_>) -> Result<Self> {
-        let label = Some(program.fragment);
+        let pass = program.variant.pass;
+        let label = Some(pass.name());
         gpu.checked(|| {
-            let groups: Vec<BindGroupLayout> =
-                program.groups.iter().map(|slots| bind_group_layout(gpu, slots)).collect();
+            let groups = program.variant.groups();
+            let groups: Vec<BindGroupLayout> = groups.iter().map(|bindings| bind_group_layout(gpu, bindings)).collect();
             let module = gpu.device.create_shader_module(ShaderModuleDescriptor {
                 label,
-                source: ShaderSource::Wgsl(gpu.keeping().complete(program.shader).into()),
+                source: ShaderSource::Wgsl(program.variant.wgsl(gpu.target_format()).into()),
             });
             let bind_group_layouts: Vec<Option<&BindGroupLayout>> = groups.iter().map(Some).collect();
             let target = |format: &TextureFormat| {
@@ -69,14 +67,15 @@ impl Pipeline {
                 bind_group_layouts: &bind_group_layouts,
                 immediate_size: 0,
             });
+            let compilation_options = PipelineCompilationOptions { constants: program.constants, ..Default::default() };
             let vertices: Vec<_> = drawing.vertices.iter().cloned().map(Some).collect();
             let pipeline = gpu.device.create_render_pipeline(&RenderPipelineDescriptor {
                 label,
                 layout: Some(&layout),
                 vertex: VertexState {
                     module: &module,
-                    entry_point: Some(program.vertex),
-                    compilation_options: Default::default(),
+                    entry_point: Some(pass.vertex),
+                    compilation_options: compilation_options.clone(),
                     buffers: &vertices,
                 },
                 primitive: PrimitiveState { topology: drawing.topology, ..Default::default() },
@@ -85,7 +84,7 @@ impl Pipeline {
                 fragment: Some(FragmentState {
                     module: &module,
                     entry_point: label,
-                    compilation_options: Default::default(),
+                    compilation_options: compilation_options.clone(),
                     targets: &targets,
                 }),
                 multiview_mask: None,
@@ -142,7 +141,7 @@ pub(crate) fn attachment<'a>(view: &'a TextureView, load: LoadOp<Color>) -> Rend
     }
 }
 
-fn bind_group_layout(gpu: &Gpu, slots: &[Slot]) -> BindGroupLayout {
-    let entries = layout_entries(slots, gpu.keeping());
+fn bind_group_layout(gpu: &Gpu, bindings: &[Binding]) -> BindGroupLayout {
+    let entries = layout_entries(bindings, gpu.target_format());
     gpu.device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: None, entries: &entries })
 }

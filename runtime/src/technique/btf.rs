@@ -3,19 +3,19 @@
 use std::sync::Arc;
 
 use subsurf_scene::Scene;
+use subsurf_shaders::BtfLayout;
+use subsurf_shaders::passes::{Choice, table};
 use subsurf_shaders::uniform::{self, BtfFiltering};
-use subsurf_shaders::{BtfStorage, source};
 use wgpu::{BindGroup, Buffer, TextureFormat};
 
-use super::common::{COMMON, Common, encoding_of};
+use super::common::Common;
 use super::drawable::Drawable;
 use super::light_views::LightViews;
 use super::mesh_pass::MeshPass;
 use super::pipelines::{Bindings, Pipelines, wrong_drawable};
-use crate::asset::btf_slots;
 use crate::error::{Error, Result};
 use crate::frame::plan::Plan;
-use crate::gpu::{Gpu, Slot, Tracked};
+use crate::gpu::{Gpu, Tracked};
 
 /// Filtering and sampling of BTFs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +39,7 @@ impl Default for BtfOptions {
 /// Pipeline of BTFs of one layout.
 #[derive(Debug)]
 pub(crate) struct Passes {
-    storage: BtfStorage,
+    layout: BtfLayout,
     options: BtfOptions,
     shade: MeshPass,
 }
@@ -55,16 +55,14 @@ struct Bound {
 impl Passes {
     pub(crate) fn new(
         gpu: &Gpu,
-        storage: BtfStorage,
+        layout: BtfLayout,
         options: BtfOptions,
         format: TextureFormat,
         samples: u32,
     ) -> Result<Self> {
-        let [block, texture] = btf_slots(storage);
-        let of_btf = [block, texture, Slot::Uniform];
-        let shader = source::shade_btf(encoding_of(format), storage, options.samples > 0);
-        let shade = MeshPass::textured(gpu, shader, "shade", &[&COMMON, &of_btf], &[format], samples)?;
-        Ok(Self { storage, options, shade })
+        let variant = table::SHADE_BTF.with(Choice::LitBtf(layout, options.samples > 0));
+        let shade = MeshPass::textured_picture(gpu, variant, format, samples)?;
+        Ok(Self { layout, options, shade })
     }
 }
 
@@ -85,13 +83,13 @@ impl Pipelines for Passes {
             return Err(wrong_drawable());
         };
         mesh.expect_tangents()?;
-        material.expect(self.storage)?;
+        material.expect(self.layout)?;
         let count = material.textures().len();
         let missing = || Error::Device(format!("material {number} of a BTF of {count}; they are counted from 0"));
         let samples = self.options.samples.min(MAX_SAMPLES)
-            * match self.storage {
-                BtfStorage::Nested => 1,
-                BtfStorage::Images => 4,
+            * match self.layout {
+                BtfLayout::Nested => 1,
+                BtfLayout::Images => 4,
             };
         let block = material.textures().get(*number).ok_or_else(missing)?.drawn(self.options.filtering, samples);
         let texture = gpu.uniform("BTF texture", &block);

@@ -1,12 +1,13 @@
 //! Values and samples of BTFs for lists of directions, as the device computes them.
 
 use subsurf_decoder::btf::Sample;
-use subsurf_shaders::{BtfStorage, source};
+use subsurf_shaders::BtfLayout;
+use subsurf_shaders::passes::{Choice, table};
 use wgpu::{BindingResource, CommandEncoderDescriptor, TextureFormat};
 
-use crate::asset::{BtfMaterial, btf_slots};
+use crate::asset::BtfMaterial;
 use crate::error::Result;
-use crate::gpu::{CoverPass, Gpu, Rows, Slot, Surface2d, TextureSpec, array_size};
+use crate::gpu::{FullscreenPass, Gpu, Rows, Surface2d, TextureSpec, array_size};
 
 /// Texel and directions for which a BTF is evaluated and sampled. Directions are unit vectors: x along the rows, y down the columns, z the normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,8 +36,8 @@ pub struct BtfAnswer {
 /// Pipeline that answers queries about BTFs of one layout; made once.
 #[derive(Debug)]
 pub struct BtfQueries {
-    storage: BtfStorage,
-    pass: CoverPass,
+    layout: BtfLayout,
+    pass: FullscreenPass,
 }
 
 /// Bits of floats: every GLES 3.0 device draws to integers, but not every one to floats.
@@ -47,10 +48,9 @@ impl BtfQueries {
     ///
     /// # Errors
     /// [`crate::Error::Device`] if the driver refuses it.
-    pub fn new(gpu: &Gpu, storage: BtfStorage) -> Result<Self> {
-        let groups: [&[Slot]; 2] = [&[Slot::Float; 3], &btf_slots(storage)];
-        let pass = CoverPass::new(gpu, source::btf_query(storage), "answer", &groups, &[BITS; 2])?;
-        Ok(Self { storage, pass })
+    pub fn new(gpu: &Gpu, layout: BtfLayout) -> Result<Self> {
+        let pass = FullscreenPass::new(gpu, table::BTF_QUERY.with(Choice::Btf(layout)), &[BITS; 2])?;
+        Ok(Self { layout, pass })
     }
 
     /// Answers all queries about a material, in f32 of the device.
@@ -58,7 +58,7 @@ impl BtfQueries {
     /// # Errors
     /// [`crate::Error::Device`], or [`crate::Error::Unsupported`] for more queries than a texture holds.
     pub fn answer(&self, gpu: &Gpu, material: &BtfMaterial, queries: &[BtfQuery]) -> Result<Vec<BtfAnswer>> {
-        material.expect(self.storage)?;
+        material.expect(self.layout)?;
         let size = array_size(queries.len());
         // Halves of the texel's number, which floats hold.
         let halves = |q: &BtfQuery| [q.texel & 0xFFFF, q.texel >> 16].map(|half| half as f32);

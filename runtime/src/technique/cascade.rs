@@ -1,11 +1,11 @@
 //! Cascade of Gaussian blurs over weighted irradiance maps.
 
-use subsurf_shaders::source::{self, Domain};
+use subsurf_shaders::passes::{Choice, Pass};
 use wgpu::{BindGroup, BindingResource, CommandEncoder, TextureView};
 
 use crate::asset::SeparableMaterial;
 use crate::error::Result;
-use crate::gpu::{CoverPass, Gpu, HALF, Rows, Slot, Surface2d, TextureSpec, layer_of, layers_of};
+use crate::gpu::{FullscreenPass, Gpu, HALF, Rows, Surface2d, TextureSpec, layer_of, layers_of};
 
 /// L maps in one array.
 #[derive(Debug)]
@@ -20,7 +20,7 @@ pub(crate) struct Maps {
 impl Maps {
     pub(crate) fn new(gpu: &Gpu, label: &'static str, size: [u32; 2], terms: usize) -> Result<Self> {
         let count = u32::try_from(terms).unwrap_or(u32::MAX);
-        let target = TextureSpec::target(label, size, gpu.kept());
+        let target = TextureSpec::target(label, size, gpu.target_texture_format());
         let surface = gpu
             .texture(&TextureSpec { usage: target.usage, ..TextureSpec::layered(label, size, count, target.format) })?;
         let layers = (0..count).map(|layer| layer_of(&surface, layer)).collect();
@@ -42,24 +42,18 @@ impl Maps {
 #[derive(Debug)]
 pub(crate) struct BlurPasses {
     terms: usize,
-    rows: CoverPass,
-    columns: CoverPass,
+    rows: FullscreenPass,
+    columns: FullscreenPass,
 }
 
 impl BlurPasses {
-    pub(crate) fn new(gpu: &Gpu, domain: Domain, terms: usize) -> Result<Self> {
-        // Maps of a patch are sampled.
-        let (of_domain, of_maps) = match domain {
-            Domain::Patch => (Slot::Nearest, Slot::FloatLayers),
-            Domain::Screen => (Slot::Uniform, Slot::KeptLayers),
-        };
-        let of_rows = [Slot::Uniform, of_domain, of_maps];
-        let of_columns = [Slot::Uniform, of_domain, of_maps, Slot::KeptLayers];
-        let targets = vec![gpu.kept(); 2 * terms];
+    /// Compiles the passes along rows and along columns for L = `terms`.
+    pub(crate) fn new(gpu: &Gpu, [rows, columns]: [&'static Pass; 2], terms: usize) -> Result<Self> {
+        let targets = vec![gpu.target_texture_format(); 2 * terms];
         Ok(Self {
             terms,
-            rows: CoverPass::new(gpu, source::blur_rows(domain, terms), "blur", &[&of_rows], &targets[..terms])?,
-            columns: CoverPass::new(gpu, source::blur_columns(domain, terms), "blur", &[&of_columns], &targets)?,
+            rows: FullscreenPass::new(gpu, rows.with(Choice::Terms(terms)), &targets[..terms])?,
+            columns: FullscreenPass::new(gpu, columns.with(Choice::Terms(terms)), &targets)?,
         })
     }
 }
@@ -147,7 +141,7 @@ impl Cascade {
 /// Passes in place of the first along rows and the last along columns, with their bind groups and the last's target.
 #[derive(Clone, Copy)]
 pub(crate) struct Ends<'a> {
-    pub(crate) first: (&'a CoverPass, &'a BindGroup),
-    pub(crate) last: (&'a CoverPass, &'a BindGroup),
+    pub(crate) first: (&'a FullscreenPass, &'a BindGroup),
+    pub(crate) last: (&'a FullscreenPass, &'a BindGroup),
     pub(crate) target: &'a TextureView,
 }

@@ -2,14 +2,13 @@
 
 use half::f16;
 use subsurf_scene::{REFLECTION_LEVELS, REFLECTION_SIZE, Scene};
-use subsurf_shaders::source::Encoding;
 use subsurf_shaders::uniform;
 use wgpu::{
     AddressMode, Buffer, CommandEncoder, FilterMode, MipmapFilterMode, Sampler, SamplerDescriptor, TextureFormat,
 };
 
 use crate::error::Result;
-use crate::gpu::{Gpu, Slot, Surface2d, TextureSpec, Tracked};
+use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked};
 
 /// Callback after each pass: is told its name, and gives back an encoder to go on with.
 pub(crate) type Lap<'a> = &'a mut dyn FnMut(&'static str, CommandEncoder) -> CommandEncoder;
@@ -22,9 +21,6 @@ pub(crate) struct Common {
     /// Levels of the environment that `reflections` shows.
     shown: Vec<Vec<[f32; 3]>>,
 }
-
-/// Bindings of group 0 of passes that shade: the scene, positions that lights see, reflections and their sampler.
-pub(crate) const COMMON: [Slot; 4] = [Slot::Uniform, Slot::KeptLayers, Slot::Filtered, Slot::Sampler];
 
 impl Common {
     /// Bytes on the device.
@@ -75,8 +71,4 @@ pub(crate) fn reflection_sampler(gpu: &Gpu) -> Sampler {
         mipmap_filter: MipmapFilterMode::Linear,
         ..Default::default()
     })
-}
-
-pub(crate) fn encoding_of(format: TextureFormat) -> Encoding {
-    if format.is_srgb() { Encoding::There } else { Encoding::Here }
 }

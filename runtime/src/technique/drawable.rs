@@ -1,6 +1,6 @@
 //! Choice of a technique, and what it draws.
 
-use subsurf_shaders::{BtfStorage, Storage};
+use subsurf_shaders::{BtfLayout, MaterialLayout};
 
 use crate::asset::{BtfMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial};
 
@@ -8,13 +8,13 @@ use crate::asset::{BtfMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial,
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Technique {
     /// Gather: every vertex sums the light of all others within reach. The reference, and slow.
-    Gather(Storage),
+    Gather(MaterialLayout),
     /// Multiresolution splats: every sample that a light sees is spread over what lies around it.
-    Splat(Storage),
+    Splat(MaterialLayout),
     /// Separable blurs on the screen, of L weighted irradiance maps by shared Gaussians; L is 1 or 2.
     Separable(usize),
     /// BTF: light leaves where it enters, as the texture function says; nothing scatters between pixels.
-    Btf(BtfStorage),
+    Btf(BtfLayout),
 }
 
 /// Mesh and material on the device, as one technique takes them.

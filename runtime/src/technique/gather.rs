@@ -3,19 +3,19 @@
 use std::sync::Arc;
 
 use subsurf_scene::Scene;
+use subsurf_shaders::passes::{Choice, table};
 use subsurf_shaders::uniform::ROW;
-use subsurf_shaders::{Storage, source, uniform};
+use subsurf_shaders::{MaterialLayout, uniform};
 use wgpu::{BindGroup, BindingResource, TextureFormat};
 
-use super::common::{COMMON, Common, encoding_of};
+use super::common::Common;
 use super::drawable::Drawable;
 use super::light_views::LightViews;
 use super::mesh_pass::MeshPass;
 use super::pipelines::{Bindings, Pipelines, wrong_drawable};
-use crate::asset::slots;
 use crate::error::Result;
 use crate::frame::plan::Plan;
-use crate::gpu::{CoverPass, Gpu, Rows, Slot, array_size};
+use crate::gpu::{FullscreenPass, Gpu, Rows, array_size};
 
 /// Points within reach of a point, seldom more.
 const NEIGHBOURS: u64 = 4_096;
@@ -23,9 +23,9 @@ const NEIGHBOURS: u64 = 4_096;
 /// Pipelines for materials of one layout.
 #[derive(Debug)]
 pub(crate) struct Passes {
-    storage: Storage,
-    irradiance: CoverPass,
-    gather: CoverPass,
+    layout: MaterialLayout,
+    irradiance: FullscreenPass,
+    gather: FullscreenPass,
     shade: MeshPass,
 }
 
@@ -43,17 +43,14 @@ struct Bound {
 }
 
 impl Passes {
-    pub(crate) fn new(gpu: &Gpu, storage: Storage, format: TextureFormat, samples: u32) -> Result<Self> {
-        let of_points = [Slot::Uniform, Slot::Float, Slot::Uint, Slot::Uint, Slot::Kept];
-        let of_irradiance: [&[Slot]; 2] = [&[Slot::Uniform], &[Slot::Float, Slot::Float, Slot::Float]];
-        let of_shade = [Slot::Kept, Slot::Float];
-        let gather = source::surface_gather(storage);
-        let shade = source::shade_points(encoding_of(format));
+    pub(crate) fn new(gpu: &Gpu, layout: MaterialLayout, format: TextureFormat, samples: u32) -> Result<Self> {
+        let targets = [gpu.target_texture_format()];
+        let gather = table::SURFACE_GATHER.with(Choice::Material(layout));
         Ok(Self {
-            storage,
-            irradiance: CoverPass::new(gpu, source::IRRADIANCE, "irradiance", &of_irradiance, &[gpu.kept()])?,
-            gather: CoverPass::new(gpu, gather, "surface_gather", &[slots(storage), &of_points], &[gpu.kept()])?,
-            shade: MeshPass::new(gpu, shade, "shade", &[&COMMON, &of_shade], &[format], samples)?,
+            layout,
+            irradiance: FullscreenPass::new(gpu, table::IRRADIANCE.only(), &targets)?,
+            gather: FullscreenPass::new(gpu, gather, &targets)?,
+            shade: MeshPass::picture(gpu, table::SHADE_VERTEX.only(), format, samples)?,
         })
     }
 }
@@ -74,7 +71,7 @@ impl Pipelines for Passes {
         let Drawable::Gather { mesh, points, material } = drawable else {
             return Err(wrong_drawable());
         };
-        material.expect(self.storage)?;
+        material.expect(self.layout)?;
         points.expect(mesh, points.count)?;
         let texture = BindingResource::TextureView;
         let of_irradiance =

@@ -1,5 +1,7 @@
 //! Passes that draw meshes.
 
+use subsurf_shaders::passes::Variant;
+use subsurf_shaders::passes::table::ENCODE_SRGB;
 use wgpu::{
     BindGroup, BindingResource, Color, CommandEncoder, CompareFunction, DepthStencilState, LoadOp, MultisampleState,
     RenderPassColorAttachment, TextureFormat, TextureView, VertexBufferLayout,
@@ -7,7 +9,7 @@ use wgpu::{
 
 use crate::asset::{GpuMesh, TANGENTS, VERTICES};
 use crate::error::Result;
-use crate::gpu::{DEPTH, Drawing, Gpu, Pipeline, Program, Slot, attachment};
+use crate::gpu::{DEPTH, Drawing, Gpu, Pipeline, Program, attachment};
 
 /// Pass that draws a mesh, with depth.
 #[derive(Debug)]
@@ -28,29 +30,21 @@ impl<'a> Target<'a> {
 }
 
 impl MeshPass {
-    /// Builds the pipeline of a shader with the entry points `project` and `fragment`.
-    pub(crate) fn new(
-        gpu: &Gpu,
-        shader: &str,
-        fragment: &str,
-        groups: &[&[Slot]],
-        targets: &[TextureFormat],
-        samples: u32,
-    ) -> Result<Self> {
-        let program = Program { shader, vertex: "project", fragment, groups, targets };
+    /// Compiles a variant of a pass for targets of these formats, of one sample to a texel.
+    pub(crate) fn new(gpu: &Gpu, variant: Variant, targets: &[TextureFormat]) -> Result<Self> {
+        let program = Program { variant, constants: &[], targets };
+        Self::with(gpu, &program, &[VERTICES], 1)
+    }
+
+    /// Compiles a variant of a pass that draws a picture of `format`, with so many samples to a pixel.
+    pub(crate) fn picture(gpu: &Gpu, variant: Variant, format: TextureFormat, samples: u32) -> Result<Self> {
+        let program = Program { variant, constants: &display_constants(format), targets: &[format] };
         Self::with(gpu, &program, &[VERTICES], samples)
     }
 
-    /// Builds the pipeline of a shader that takes tangents too; it draws meshes that have them.
-    pub(crate) fn textured(
-        gpu: &Gpu,
-        shader: &str,
-        fragment: &str,
-        groups: &[&[Slot]],
-        targets: &[TextureFormat],
-        samples: u32,
-    ) -> Result<Self> {
-        let program = Program { shader, vertex: "project", fragment, groups, targets };
+    /// The same for a pass that takes tangents; it draws meshes that have them.
+    pub(crate) fn textured_picture(gpu: &Gpu, variant: Variant, format: TextureFormat, samples: u32) -> Result<Self> {
+        let program = Program { variant, constants: &display_constants(format), targets: &[format] };
         Self::with(gpu, &program, &[VERTICES, TANGENTS], samples)
     }
 
@@ -88,4 +82,9 @@ impl MeshPass {
         let mut pass = self.0.begin(encoder, &attachments, Some(depth), groups);
         mesh.draw(&mut pass);
     }
+}
+
+/// Values of the overrides of a picture: the shader encodes for the display, unless the target does.
+fn display_constants(format: TextureFormat) -> [(&'static str, f64); 1] {
+    [(ENCODE_SRGB, f64::from(!format.is_srgb()))]
 }

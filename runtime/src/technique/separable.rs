@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use subsurf_scene::{Placement, Scene};
+use subsurf_shaders::passes::{Choice, table};
 use subsurf_shaders::separable::MAX_TERMS;
-use subsurf_shaders::source::{self, Domain};
 use subsurf_shaders::uniform::{self, ScreenDomain, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureFormat};
 
 use super::cascade::{BlurPasses, Cascade};
-use super::common::{COMMON, Common, Lap, encoding_of};
+use super::common::{Common, Lap};
 use super::drawable::Drawable;
 use super::light_views::{FAR, LightViews};
 use super::mesh_pass::{MeshPass, Target};
@@ -17,7 +17,7 @@ use super::pipelines::{Bindings, Pipelines, wrong_drawable};
 use crate::asset::GpuMesh;
 use crate::error::{Error, Result};
 use crate::frame::plan::Plan;
-use crate::gpu::{DEPTH, Gpu, Slot, Surface2d, TextureSpec, Tracked};
+use crate::gpu::{DEPTH, Gpu, Surface2d, TextureSpec, Tracked};
 
 /// Texels of the narrowest Gaussian, σ, at the middle of the scene: maps are made as coarse as that.
 const NARROWEST_TEXELS: f32 = 0.8;
@@ -26,7 +26,7 @@ const NARROWEST_TEXELS: f32 = 0.8;
 #[derive(Debug)]
 pub(crate) struct Passes {
     terms: usize,
-    weigh: MeshPass,
+    gbuffer: MeshPass,
     blur: BlurPasses,
     shade: MeshPass,
 }
@@ -39,7 +39,7 @@ struct Bound {
     depth: Surface2d,
     domain: Tracked<Buffer>,
     upsampling: Tracked<Buffer>,
-    weigh: [BindGroup; 2],
+    gbuffer: [BindGroup; 2],
     shade: BindGroup,
     /// What maps hold where nothing is seen.
     far: Color,
@@ -48,17 +48,15 @@ struct Bound {
 impl Passes {
     pub(crate) fn new(gpu: &Gpu, terms: usize, format: TextureFormat, samples: u32) -> Result<Self> {
         if !(1..=MAX_TERMS).contains(&terms) {
-            return Err(Error::Device(format!("L = {terms}; factors have 1 to {MAX_TERMS} terms")));
+            return Err(Error::Device(format!("L = {terms}; a basis has 1 to {MAX_TERMS} terms")));
         }
-        let through = [Slot::FilteredLayers, Slot::Sampler, Slot::Uniform, Slot::KeptLayers, Slot::KeptLayers];
-        let of_weigh: [&[Slot]; 2] = [&COMMON[..2], &through];
-        let of_shade = [Slot::FilteredLayers, Slot::Sampler, Slot::Uniform, Slot::KeptLayers];
-        let shader = source::shade_sums(encoding_of(format), terms);
+        let choice = Choice::Terms(terms);
+        let maps = vec![gpu.target_texture_format(); 2 * terms];
         Ok(Self {
             terms,
-            weigh: MeshPass::new(gpu, source::weigh_mesh(terms), "weigh", &of_weigh, &vec![gpu.kept(); 2 * terms], 1)?,
-            blur: BlurPasses::new(gpu, Domain::Screen, terms)?,
-            shade: MeshPass::new(gpu, shader, "shade", &[&COMMON, &of_shade], &[format], samples)?,
+            gbuffer: MeshPass::new(gpu, table::SEPARABLE_GBUFFER.with(choice), &maps)?,
+            blur: BlurPasses::new(gpu, [&table::BLUR_SCREEN_ROWS, &table::BLUR_SCREEN_COLUMNS], terms)?,
+            shade: MeshPass::picture(gpu, table::SHADE_SEPARABLE.with(choice), format, samples)?,
         })
     }
 }
@@ -102,22 +100,22 @@ impl Pipelines for Passes {
         let cascade = Cascade::new(gpu, &self.blur, material, &domain.as_entire_binding(), size)?;
         let upsampling = gpu.uniform("upsampling", &Upsampling::default());
         let texture = BindingResource::TextureView;
-        let factors = [texture(&material.layers.all), BindingResource::Sampler(&material.layers.sampler)];
-        let of_weigh = [
-            factors[0].clone(),
-            factors[1].clone(),
-            material.through().as_entire_binding(),
+        let basis = [texture(&material.layers.all), BindingResource::Sampler(&material.layers.sampler)];
+        let of_gbuffer = [
+            basis[0].clone(),
+            basis[1].clone(),
+            material.transmission().as_entire_binding(),
             texture(&lights.all[1]),
             texture(&lights.all[2]),
         ];
         let of_scene = [common.block.as_entire_binding(), texture(&lights.all[0])];
         let of_shade =
-            [factors[0].clone(), factors[1].clone(), upsampling.as_entire_binding(), texture(&cascade.sums().all)];
+            [basis[0].clone(), basis[1].clone(), upsampling.as_entire_binding(), texture(&cascade.sums().all)];
         Ok(Box::new(Bound {
-            weigh: [self.weigh.bind(gpu, 0, &of_scene)?, self.weigh.bind(gpu, 1, &of_weigh)?],
+            gbuffer: [self.gbuffer.bind(gpu, 0, &of_scene)?, self.gbuffer.bind(gpu, 1, &of_gbuffer)?],
             shade: self.shade.bind(gpu, 1, &of_shade)?,
             depth: gpu.texture(&TextureSpec::attachment("map depth", size, DEPTH))?,
-            far: gpu.kept_colour(FAR),
+            far: gpu.clear_colour(FAR),
             cascade,
             domain,
             upsampling,
@@ -144,8 +142,7 @@ impl Bindings for Bound {
             focal_texels: plan.texels_per_tangent(&scene.camera) * block.pitch_mm,
             middle_mm: block.middle_mm,
             pitch_mm: block.pitch_mm,
-            jitters: 0,
-            pad: [0; 2],
+            pad: [0; 3],
         };
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
         let upsampling = plan.upsampling(&scene.camera, block.middle_mm);
@@ -163,9 +160,9 @@ impl Bindings for Bound {
     ) -> CommandEncoder {
         let layers = self.cascade.maps[0].layers.iter().chain(&self.cascade.begun_sums().layers);
         let targets: Vec<_> = layers.map(|view| Target { view, clear: self.far, resolved: None }).collect();
-        let [scene, factors] = &self.weigh;
-        self.passes.weigh.record(&mut encoder, &targets, &self.depth.view, &[scene, factors], mesh);
-        encoder = lap("weigh", encoder);
+        let [scene, basis] = &self.gbuffer;
+        self.passes.gbuffer.record(&mut encoder, &targets, &self.depth.view, &[scene, basis], mesh);
+        encoder = lap("gbuffer", encoder);
         self.cascade.record(&mut encoder, &self.passes.blur, None);
         lap("blur", encoder)
     }

@@ -4,15 +4,16 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 
-use super::{Rgb, fresnel_transmittance};
+use super::fresnel_transmittance;
+use crate::rgb::Rgb;
 use crate::uniform::Scene;
 
-/// The environment in mirrors of rising roughness: equirectangular pictures, each half as large as the one before.
+/// Environment prefiltered by GGX of rising roughness: equirectangular pictures, each half as large as the one before.
 #[derive(Clone, Copy, Debug)]
 pub struct Reflections<'a> {
-    /// Texels of the first level.
+    /// Texels of the first level, columns and rows.
     pub size: [u32; 2],
-    /// Linear rgb, row by row.
+    /// Radiance of every level, linear Rec. 709, row by row.
     pub levels: &'a [Vec<Rgb>],
 }
 
@@ -32,7 +33,7 @@ impl Reflections<'_> {
         self.sample(lower, around, down).lerp(self.sample(upper, around, down), part)
     }
 
-    /// Repeated around, drawn out beyond the poles.
+    /// Bilinear sample of a level, repeated around, clamped beyond the poles.
     #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "a hundred texels")]
     fn sample(&self, level: usize, around: f32, down: f32) -> Vec3 {
         let [width, height] = self.size.map(|side| (side >> level).max(1).cast_signed());
@@ -48,9 +49,9 @@ impl Reflections<'_> {
     }
 }
 
-/// Microfacets of one light: D V F (Walter et al. 2007, eq. 33; Heitz 2014, eq. 99), α = roughness².
+/// Specular BRDF of microfacets times cosine for one light, in sr⁻¹: D V F (Walter et al. 2007, eq. 33; Heitz 2014, eq. 99), α = roughness².
 #[must_use]
-pub fn glint(scene: &Scene, normal: Vec3, to_eye: Vec3, towards: Vec3) -> f32 {
+pub fn specular_direct(scene: &Scene, normal: Vec3, to_eye: Vec3, towards: Vec3) -> f32 {
     let nl = normal.dot(towards);
     let nv = normal.dot(to_eye).max(1e-3);
     if nl <= 0.0 {
@@ -67,10 +68,10 @@ pub fn glint(scene: &Scene, normal: Vec3, to_eye: Vec3, towards: Vec3) -> f32 {
     a2 / (PI * d * d) * 0.5 / shadowing * reflected * nl
 }
 
-/// Share of the environment that a rough coat reflects: Fresnel reflectance, which roughness flattens towards the edge
+/// Reflectance of a rough coat under the environment, 0 to 1: Fresnel reflectance, which roughness flattens at grazing angles
 /// (after Karis 2014, "Physically based shading on mobile").
 #[must_use]
-pub fn sheen(scene: &Scene, cosine: f32) -> f32 {
+pub fn specular_ambient(scene: &Scene, cosine: f32) -> f32 {
     let facing = 1.0 - fresnel_transmittance(1.0, scene.eta);
     let at_angle = 1.0 - fresnel_transmittance(cosine, scene.eta);
     facing + (at_angle - facing) * (1.0 - scene.roughness) * (1.0 - 0.5 * scene.roughness)

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Header;
 
-use super::Rgb;
+use crate::rgb::Rgb;
 
 /// Rd of a patch from the pixel x_i to the pixel x_o, in mm⁻²; x_i may lie beyond the border.
 pub trait Reflectance: Sync {

@@ -2,7 +2,8 @@
 
 use subsurf_scene::SurfacePoints;
 
-use super::{Rgb, entering, incident, sky_irradiance};
+use super::{entering, incident, sky_irradiance};
+use crate::rgb::Rgb;
 use crate::uniform::Scene;
 
 /// Irradiance that enters at each point of a surface:

@@ -1,6 +1,7 @@
 //! Twin of `present.wgsl`.
 
-use super::{Rgb, display, neutral, srgb};
+use super::{display, neutral, srgb};
+use crate::rgb::Rgb;
 
 /// The picture of a flat patch: exitance times `exposure`, tone-mapped, `size` pixels for `texels` texels.
 ///

@@ -1,30 +1,31 @@
-//! The rasteriser that the GPU has built in.
+//! Rasteriser, which the GPU has built in.
 
 use std::ops::{Add, Mul};
 
 use glam::{Mat4, Vec2, Vec3, Vec4, Vec4Swizzles};
 
-/// A pixel and the triangle that is seen there.
+/// Pixel and the triangle that is seen there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Covered {
-    /// Vertices of the triangle.
+    /// Numbers of the vertices of the triangle.
     corners: [usize; 3],
-    /// Column and row.
+    /// Column and row of the pixel.
     pub(super) pixel: [u32; 2],
-    /// Of the corners, in pixels, y down.
+    /// Positions of the vertices in pixels, y down.
     screen: [Vec2; 3],
+    /// w of the vertices in clip space.
     clip_w: [f32; 3],
-    /// Of the values of the corners.
+    /// Weights of the values of the vertices, of sum 1.
     weights: [f32; 3],
 }
 
-/// Shares of three corners at a place on the screen, or beyond the triangle.
+/// Barycentric coordinates of a place on the screen, inside the triangle or beyond it.
 fn shares([a, b, c]: [Vec2; 3], at: Vec2) -> [f32; 3] {
     let area = (b - a).perp_dot(c - a);
     [(c - b).perp_dot(at - b) / area, (a - c).perp_dot(at - c) / area, (b - a).perp_dot(at - a) / area]
 }
 
-/// The same in space: what corners have is linear on the screen after division by w.
+/// Barycentric coordinates in space from those on the screen: values are linear on the screen after division by w.
 fn in_space(shares: [f32; 3], clip_w: [f32; 3]) -> [f32; 3] {
     let perspective = [0, 1, 2].map(|k| shares[k] / clip_w[k]);
     let sum: f32 = perspective.iter().sum();
@@ -37,13 +38,13 @@ fn centre([x, y]: [u32; 2]) -> Vec2 {
 }
 
 impl Covered {
-    /// What the vertices have, at the pixel.
+    /// Interpolated value at the pixel.
     pub(super) fn blend<T: Copy + Mul<f32, Output = T> + Add<Output = T>>(&self, values: &[T]) -> T {
         let [a, b, c] = [0, 1, 2].map(|k| values[self.corners[k]] * self.weights[k]);
         a + b + c
     }
 
-    /// How that changes from pixel to pixel along rows and along columns, within blocks of two by two pixels.
+    /// Screen-space derivatives of the interpolated value along rows and columns, within blocks of two by two pixels.
     pub(super) fn slopes<T>(&self, values: &[T]) -> [T; 2]
     where
         T: Copy + Mul<f32, Output = T> + Add<Output = T>,
@@ -59,8 +60,8 @@ impl Covered {
     }
 }
 
-/// Draws triangles in front of a `background` of display values, `size` pixels, row by row from the top; `colour` is
-/// called for whatever is nearer than all before it.
+/// Picture of triangles in display values, `size` pixels, row by row from the top, in front of a `background`; `colour` is called
+/// for each pixel of a triangle that is nearer than all before it.
 ///
 /// # Panics
 /// If an index leads outside the vertices.

@@ -2,14 +2,15 @@
 
 use glam::Vec3;
 
-use super::{Rgb, fresnel_transmittance};
+use super::fresnel_transmittance;
+use crate::rgb::Rgb;
 use crate::uniform::Scene;
 
 /// Light of one source at a point: unit vector towards it, and irradiance on a plane that faces it.
 #[must_use]
 pub fn incident(scene: &Scene, light: usize, position_mm: Vec3) -> (Vec3, Vec3) {
     let source = &scene.light[light];
-    let (place, irradiance) = (Vec3::from(source.place), Vec3::from(source.irradiance));
+    let (place, irradiance) = (Vec3::from(source.position_or_direction), Vec3::from(source.irradiance));
     if source.is_local == 0 {
         return (place, irradiance);
     }

@@ -1,30 +1,30 @@
-//! Twin of the separable passes on a flat patch.
+//! Twin of the separable passes on a flat patch, `blur_patch_*.wgsl`, all together.
 
 use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Header;
 
-use super::Rgb;
-use crate::separable::{Factors, Stage};
+use crate::rgb::Rgb;
+use crate::separable::{CascadeStage, SeparableBasis};
 
 /// Exitance of the whole patch, row by row, for `irradiance` of the whole patch.
 ///
 /// # Panics
 /// If `irradiance` is shorter than the patch.
 #[must_use]
-pub fn separable(factors: &Factors, irradiance: &[Rgb]) -> Vec<Rgb> {
-    let header = &factors.header;
-    let terms = factors.detail.terms;
+pub fn separable(basis: &SeparableBasis, irradiance: &[Rgb]) -> Vec<Rgb> {
+    let header = &basis.header;
+    let terms = basis.size.terms;
     let area = header.pitch_mm * header.pitch_mm;
     let mut exitance = vec![[0.0; 3]; irradiance.len()];
     for l in 0..terms {
         // c_l E, then what every stage of the cascade makes of it.
         let mut map: Vec<Rgb> =
-            factors.coefficients_of(l).iter().zip(irradiance).map(|(c, e)| multiply(*c, *e)).collect();
-        for (a, stage) in Stage::cascade(&factors.sigmas).iter().enumerate() {
+            basis.coefficients_of(l).iter().zip(irradiance).map(|(c, e)| multiply(*c, *e)).collect();
+        for (a, stage) in CascadeStage::cascade(&basis.sigmas).iter().enumerate() {
             map = blur(&map, header, stage);
             for m in 0..terms {
-                let weight = factors.weights_of(l, m)[a].map(|weight| weight * area);
-                let coefficients = factors.coefficients_of(m);
+                let weight = basis.weights_of(l, m)[a].map(|weight| weight * area);
+                let coefficients = basis.coefficients_of(m);
                 for ((sum, blurred), c) in exitance.iter_mut().zip(&map).zip(coefficients) {
                     let light = multiply(multiply(*c, weight), *blurred);
                     for k in 0..3 {
@@ -37,12 +37,13 @@ pub fn separable(factors: &Factors, irradiance: &[Rgb]) -> Vec<Rgb> {
     exitance
 }
 
+/// Product by channels.
 fn multiply(a: Rgb, b: Rgb) -> Rgb {
     [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
 }
 
 /// One stage along rows and then along columns.
-fn blur(image: &[Rgb], header: &Header, stage: &Stage) -> Vec<Rgb> {
+fn blur(image: &[Rgb], header: &Header, stage: &CascadeStage) -> Vec<Rgb> {
     let [width, height] = [header.width, header.height];
     let taps = stage.weights();
     let beside = |x: u32, k: i32, n: u32| header.addressing.map(x.cast_signed() + k, n);

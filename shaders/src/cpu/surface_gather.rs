@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
 use subsurf_scene::{PointGrid, SurfacePoints};
 
-use super::Rgb;
+use crate::rgb::Rgb;
 
 fn cell_of(grid: &PointGrid, position_mm: Vec3) -> UVec3 {
     let cell = ((position_mm - grid.origin_mm) / grid.cell_mm).floor();

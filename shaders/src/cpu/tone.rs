@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::Rgb;
+use crate::rgb::Rgb;
 
 /// Khronos PBR Neutral tone mapper (2024): base colours below 0.8 stay as they are, highlights lose saturation smoothly.
 #[must_use]

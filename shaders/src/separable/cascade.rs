@@ -1,28 +1,28 @@
-//! Gaussians one after another: each blurs what the one before left, with taps further and further apart.
+//! The cascade of Gaussians: each stage blurs what the one before left, with taps further and further apart.
 
-/// One step of the cascade along one axis: taps at k · stride pixels, |k| ≤ taps, weighted by exp(−½ (k · stride / σ)²).
+/// Stage of the cascade along one axis: taps at k · stride pixels, |k| ≤ taps, weighted by exp(−½ (k · stride / σ)²).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stage {
+pub struct CascadeStage {
     /// Standard deviation σ in pixels.
     pub sigma: f32,
-    /// Pixels from one tap to the next.
+    /// Distance of neighbouring taps in pixels.
     pub stride: i32,
-    /// Taps to each side.
+    /// Number of taps to each side.
     pub taps: i32,
     /// Standard deviation that the stage adds, in pixels: σ where taps are close.
     pub step: f32,
-    /// Distance of taps that what is blurred already allows, in pixels; 0 for the first stage.
+    /// Distance of taps in pixels that the blur so far allows; 0 for the first stage.
     pub sparse: f32,
 }
 
-/// Pixels between taps, in standard deviations of what is blurred already: frequencies that such taps mistake for others
+/// Distance of taps, in standard deviations of the blur so far: frequencies that such taps mistake for others
 /// are down to exp(−2π² / SPARSE²) = 0.2 %.
 const SPARSE: f64 = 1.8;
-/// Where a Gaussian is cut, in standard deviations.
+/// Cut of a Gaussian, in standard deviations.
 const CUT: f64 = 3.2;
 
-impl Stage {
-    /// Stages whose first a have the variance of a Gaussian of σ_a pixels that is sampled at whole pixels.
+impl CascadeStage {
+    /// CascadeStages whose first a have the variance of a Gaussian of σ_a pixels that is sampled at whole pixels.
     #[must_use]
     pub fn cascade(sigmas: &[f32]) -> Vec<Self> {
         let mut reached = 0.0_f64;
@@ -90,7 +90,7 @@ mod tests {
         // What a point becomes, step by step.
         let mut line = vec![0.0_f64; 129];
         line[64] = 1.0;
-        for (stage, sigma) in Stage::cascade(&sigmas).iter().zip(sigmas) {
+        for (stage, sigma) in CascadeStage::cascade(&sigmas).iter().zip(sigmas) {
             let weights = stage.weights();
             let at = |line: &[f64], x: i32| usize::try_from(x).ok().and_then(|x| line.get(x)).copied().unwrap_or(0.0);
             let blur = |x: i32| weights.iter().map(|(offset, w)| f64::from(*w) * at(&line, x + offset)).sum();
@@ -102,7 +102,7 @@ mod tests {
                 assert!(error < 0.025, "σ = {sigma}: {error} of the peak at {x}");
             }
         }
-        let taps: Vec<i32> = Stage::cascade(&sigmas).iter().map(|stage| stage.taps).collect();
+        let taps: Vec<i32> = CascadeStage::cascade(&sigmas).iter().map(|stage| stage.taps).collect();
         assert!(taps.iter().all(|taps| *taps <= 7), "{taps:?}");
     }
 }

@@ -9,47 +9,47 @@ use subsurf_decoder::btf::{Codebooks, PackedTable, Tone};
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub struct BtfTable {
-    /// First bit in the file.
+    /// First bit of the table in the file.
     pub start: u32,
-    /// Bits of an item.
+    /// Number of bits of an item.
     pub width: u32,
-    /// Bits of a row.
+    /// Number of bits of a row.
     pub row_bits: u32,
-    /// Bits of an index.
+    /// Number of bits of an index.
     pub index_bits: u32,
-    /// The largest index.
+    /// Largest valid index.
     pub last: u32,
-    /// Bits of a code that are not its sign.
+    /// Mask of a code without its sign.
     pub code_mask: u32,
-    /// Where the sign of a code is.
+    /// Bit of the sign of a code.
     pub sign_at: u32,
     /// 1 if codes have signs.
     pub sign_mask: u32,
-    /// Code c stands for 2^((offset + (c << step)) / 64).
+    /// Shift of codes: the scale of code c is 2^((offset + (c << step)) / 64).
     pub step: u32,
-    /// See `step`.
+    /// Exponent of code 0 in 1/64 octaves.
     pub offset: i32,
     #[doc(hidden)]
     pub pad: [u32; 2],
 }
 
-/// `BtfBooks` of `btf_words.wgsl`.
+/// `BtfCodebooks` of `btf_words.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct BtfBooks {
-    /// P6, P4, P3 and P2 of each stage.
+pub struct BtfCodebooks {
+    /// Tables P6, P4, P3 and P2 of each stage; shape `[stage][4]`.
     pub chains: [BtfTable; 4 * MAX_STAGES],
-    /// M: index of P2 and, above it, one of I2.
+    /// Table M: index of P2 and, above it, one of I2.
     pub merged: BtfTable,
-    /// I2: indices of I1.
+    /// Table I2: indices of I1.
     pub i2: BtfTable,
-    /// I1: indices of C.
+    /// Table I1: indices of C.
     pub i1: BtfTable,
-    /// Of each stage, first bit of the lowest eight bits of the codes of P2.
+    /// First bit of the low bytes of the codes of P2, for each stage.
     pub p2_bytes: [u32; MAX_STAGES],
-    /// Of each stage, first bit of P1.
+    /// First bit of P1, for each stage.
     pub p1: [u32; MAX_STAGES],
-    /// Of each stage, 1 if values of P1 have signs.
+    /// 1 if values of P1 have signs, for each stage.
     pub is_signed: [u32; MAX_STAGES],
     /// First bit of C.
     pub colours: u32,
@@ -57,11 +57,11 @@ pub struct BtfBooks {
     pub tints: u32,
     /// Number of tints.
     pub tint_count: u32,
-    /// First bit of a tint in items of P6 of the first stage.
+    /// First bit of the number of a tint in items of P6 of the first stage.
     pub tint_at: u32,
-    /// Of the index of I2 in M.
+    /// Mask of the index of I2 in M.
     pub i2_mask: u32,
-    /// The largest index of I2.
+    /// Largest valid index of I2.
     pub last_i2: u32,
     /// Additive stages, 1 to 4.
     pub stages: u32,
@@ -71,28 +71,28 @@ pub struct BtfBooks {
     pub first: [f32; 2],
     /// Chroma of a step of a code.
     pub step: [f32; 2],
-    /// n_α, n_β, n_θ, n_φ.
+    /// Nodes of the grid: n_α, n_β, n_θ, n_φ.
     pub nodes: [u32; 4],
-    /// Of the grid, in rad.
+    /// Largest α of the grid in rad.
     pub alpha_max: f32,
-    /// Of the grid.
+    /// Largest sin β of the grid.
     pub sin_beta_max: f32,
-    /// Of the grid, in rad.
+    /// Largest θ of the grid in rad.
     pub theta_max: f32,
-    /// Of the grid.
+    /// Cosine of the angle from the normal of the lowest measured light.
     pub cos_light_min: f32,
-    /// 1 display, 2 LogLuv.
-    pub tone: u32,
-    /// Linear value of display white, or the toe of LogLuv.
+    /// 1 display values, 2 LogLuv.
+    pub colour_encoding: u32,
+    /// Radiance value of display white, linear, or the toe of LogLuv.
     pub white: f32,
-    /// log2(1 + peak / toe); 0 for displays.
+    /// log2(1 + peak / toe) of LogLuv; 0 for display values.
     pub octaves: f32,
-    /// The last word of the file.
+    /// Number of the last word of the file.
     pub last_word: u32,
 }
 
-impl BtfBooks {
-    /// Of a file of nested codebooks; `None` if its bits are more than 32-bit numbers count, which takes 512 MiB.
+impl BtfCodebooks {
+    /// Block for a file of nested codebooks; `None` if its bits are more than 32-bit numbers count, which takes 512 MiB.
     #[must_use]
     pub fn of(btf: &Btf<'_>) -> Option<Self> {
         let codebooks = Codebooks::of(btf);
@@ -109,7 +109,7 @@ impl BtfBooks {
             books.is_signed[stage] = u32::from(of_books.is_signed);
         }
         let [p6, ..] = &codebooks.stages[0].tables;
-        let (tone, white, octaves) = match btf.header().tone {
+        let (colour_encoding, white, octaves) = match btf.header().tone {
             Tone::Display { white } => (1, white, 0.0),
             Tone::LogLuv { toe, peak } => (2, toe, (1.0 + peak / toe).log2()),
         };
@@ -132,7 +132,7 @@ impl BtfBooks {
             sin_beta_max: grid.sin_beta_max,
             theta_max: grid.theta_max,
             cos_light_min: grid.cos_light_min,
-            tone,
+            colour_encoding,
             white,
             octaves,
             last_word: u32::try_from(btf.file().len().div_ceil(4) - 1).ok()?,
@@ -161,7 +161,7 @@ impl BtfTable {
     }
 }
 
-/// The lowest `width` bits, of at most 31.
+/// Mask of the lowest `width` bits, at most 31.
 fn mask(width: u32) -> u32 {
     (1 << width) - 1
 }
@@ -171,18 +171,18 @@ fn bit(byte: u64) -> u32 {
     u32::try_from(8 * byte).unwrap_or(0)
 }
 
-/// Which texels a pixel shows.
+/// Filter of the texels of a BTF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BtfFiltering {
-    /// The nearest one, of the nearest mipmap level.
+    /// Nearest texel of the nearest mipmap level.
     Nearest,
-    /// Four, linearly, of the nearest mipmap level.
+    /// Four texels of the nearest mipmap level, linearly.
     Bilinear,
-    /// Four of each of both levels around, linearly.
+    /// Four texels of each of the two levels around, linearly.
     Trilinear,
 }
 
-/// Most mipmap levels of a material.
+/// Largest number of mipmap levels of a material.
 pub const MAX_LEVELS: usize = 16;
 
 /// `BtfTexture` of `btf_texture.wgsl`.
@@ -193,16 +193,16 @@ pub struct BtfTexture {
     pub levels: [[u32; 4]; MAX_LEVELS],
     /// Number of levels.
     pub count: u32,
-    /// 0 nearest, 1 bilinear, 2 trilinear.
+    /// 0 nearest texel, 1 bilinear in the nearest level, 2 trilinear.
     pub filtering: u32,
-    /// Samples of light from all around, for a pixel.
+    /// Number of samples of the environment for a pixel of the picture.
     pub samples: u32,
     #[doc(hidden)]
     pub pad: u32,
 }
 
 impl BtfTexture {
-    /// Of one material of a file, filtered; `None` if there is no such material.
+    /// Block for one material of a file, trilinear; `None` if there is no such material.
     #[must_use]
     pub fn of(btf: &Btf<'_>, material: usize) -> Option<Self> {
         let of = btf.materials().nth(material)?;
@@ -214,7 +214,7 @@ impl BtfTexture {
         Some(Self { levels, count: of.levels.into(), filtering: 2, samples: 0, pad: 0 })
     }
 
-    /// Of a texture of one level, its texels row by row.
+    /// Block for a texture of one level, its texels row by row.
     #[must_use]
     pub fn plain([width, height]: [u32; 2]) -> Self {
         let mut levels = [[0; 4]; MAX_LEVELS];
@@ -222,7 +222,7 @@ impl BtfTexture {
         Self { levels, count: 1, filtering: 2, samples: 0, pad: 0 }
     }
 
-    /// The same, filtered in another way, with so many samples of light from all around for a pixel.
+    /// The block with another filter and number of samples of the environment for a pixel.
     #[must_use]
     pub fn drawn(self, filtering: BtfFiltering, samples: u32) -> Self {
         let filtering = match filtering {
@@ -234,26 +234,26 @@ impl BtfTexture {
     }
 }
 
-/// Most rings of measured directions.
+/// Largest number of rings of measured directions.
 pub const MAX_RINGS_OF_DIRECTIONS: usize = 16;
 
 /// `BtfImages` of `btf_images.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct BtfImages {
-    /// Rings of lights: angle from the normal in rad, number of directions, number of the first.
+    /// Rings of directions of lights: angle from the normal in rad, number of directions, number of the first.
     pub light_rings: [[f32; 4]; MAX_RINGS_OF_DIRECTIONS],
-    /// Likewise of views.
+    /// Rings of directions of views, likewise.
     pub view_rings: [[f32; 4]; MAX_RINGS_OF_DIRECTIONS],
-    /// Rings of lights and of views.
+    /// Numbers of rings of lights and of views.
     pub rings: [u32; 2],
-    /// Pixels of an image.
+    /// Pixels of an image, columns and rows.
     pub size: [u32; 2],
-    /// Images to a row of a layer.
+    /// Images to a row of a layer, which holds those of all lights.
     pub tiles: u32,
-    /// Linear value of display white.
+    /// Radiance value of display white, linear.
     pub white: f32,
-    /// cos θ of the lowest light.
+    /// Cosine of the angle from the normal of the lowest light.
     pub cos_light_min: f32,
     #[doc(hidden)]
     pub pad: u32,

@@ -1,11 +1,12 @@
 //! Blocks of what is drawn, from the scene's own types.
 
+use bytemuck::{Pod, Zeroable};
 use glam::camera::rh::proj::directx::{orthographic, perspective};
 use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec3};
 use subsurf_scene::{Light, LightShape, MAX_LIGHTS, Mapping, Placement, SurfacePoints};
 
-use super::{LightSource, ROW, Scene, Surface};
+use super::material::ROW;
 use crate::cpu::diffuse_transmittance;
 
 /// Widest half angle of a light's view.
@@ -13,7 +14,85 @@ const WIDEST: f32 = 75.0 * std::f32::consts::PI / 180.0;
 /// Views are this much wider than the scene: filters look beyond the last texel.
 const MARGIN: f32 = 1.03;
 
-impl Surface {
+/// `PointGrid` of `surface_gather.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct PointGrid {
+    /// Lowest corner of the grid in mm.
+    pub origin_mm: [f32; 3],
+    /// Edge of a cell in mm.
+    pub cell_mm: f32,
+    /// Numbers of cells in x, y and z.
+    pub cells: [u32; 3],
+    /// Number of points.
+    pub points: u32,
+}
+
+/// `LightSource` of `scene.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct LightSource {
+    /// Projection of the light's own view; column-major, depth 0 to 1.
+    pub clip_from_world: [[f32; 4]; 4],
+    /// Unit vector towards the light, or its position in mm.
+    pub position_or_direction: [f32; 3],
+    /// 0 for a direction, 1 for a position.
+    pub is_local: u32,
+    /// Irradiance on a plane that faces the light: of a direction anywhere, of a position 1 mm away; linear Rec. 709.
+    pub irradiance: [f32; 3],
+    /// Cosine of the angle from the axis beyond which there is no light.
+    pub cos_outer: f32,
+    /// Unit vector along the axis of the light, away from it.
+    pub axis: [f32; 3],
+    /// Cosine of the angle from the axis where light begins to fade.
+    pub cos_inner: f32,
+    /// Distance along the axis from the light to depth 0 in mm; 0 for a direction.
+    pub middle_mm: f32,
+    /// Edge of a texel of its translucent shadow map at depth 0, in mm.
+    pub texel_mm: f32,
+    #[doc(hidden)]
+    pub pad: [u32; 2],
+}
+
+/// `Scene` of `scene.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Scene {
+    /// Projection of the camera; column-major, depth 0 to 1.
+    pub clip_from_world: [[f32; 4]; 4],
+    /// Position of the eye in mm.
+    pub eye_mm: [f32; 3],
+    /// Factor of radiance before tone mapping.
+    pub exposure: f32,
+    /// Unit vector along which the eye looks.
+    pub forward: [f32; 3],
+    /// Distance along it to depth 0 in mm.
+    pub middle_mm: f32,
+    /// Middle of the scene in mm, where depth is 0.
+    pub centre_mm: [f32; 3],
+    /// Refractive index of the material against air.
+    pub eta: f32,
+    /// 1 − F_dr from outside: share of light from all around that enters.
+    pub sky_transmittance: f32,
+    /// GGX roughness of the coat, 0 to 1.
+    pub roughness: f32,
+    /// Number of lights, 0 to 4.
+    pub lights: u32,
+    /// Texels to a row of textures that hold plain arrays.
+    pub row: u32,
+    /// Box mapping: copies of the patch to a mm, in x and y.
+    pub patches_per_mm: [f32; 2],
+    /// Pitch of the pixels of the material in mm.
+    pub pitch_mm: f32,
+    /// 0 texture coordinates, 1 box mapping.
+    pub is_boxed: u32,
+    /// Irradiance of the environment on a normal (x, y, z): coefficients of 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y².
+    pub sky: [[f32; 4]; 9],
+    /// Lights, of which the first `lights` count.
+    pub light: [LightSource; MAX_LIGHTS],
+}
+
+impl PointGrid {
     /// The block for the points of a surface.
     #[must_use]
     pub fn new(points: &SurfacePoints) -> Self {
@@ -81,7 +160,7 @@ impl LightSource {
                 let clip = orthographic(-half, half, -half, half, 0.9 * radius_mm, 3.1 * radius_mm);
                 Self {
                     clip_from_world: (clip * view).to_cols_array_2d(),
-                    place: towards.into(),
+                    position_or_direction: towards.into(),
                     irradiance: light.irradiance,
                     axis: (-towards).into(),
                     texel_mm: 2.0 * half / texels,
@@ -126,7 +205,7 @@ impl LightSource {
         let view = looking(position_mm, axis);
         Self {
             clip_from_world: (clip * view).to_cols_array_2d(),
-            place: position_mm.into(),
+            position_or_direction: position_mm.into(),
             is_local: 1,
             irradiance: light.irradiance.map(|value| value * distance * distance),
             cos_outer,

@@ -1,19 +1,20 @@
 //! Gather on flat patches: the reference.
 
-use subsurf_shaders::{Storage, source, uniform};
+use subsurf_shaders::passes::{Choice, table};
+use subsurf_shaders::{MaterialLayout, uniform};
 use wgpu::{BindingResource, TextureFormat};
 
 use super::surface::{Exitance, PatchLight, Region};
-use crate::asset::{Material, slots};
+use crate::asset::Material;
 use crate::error::Result;
-use crate::gpu::{CoverPass, Gpu, Rows, Slot, TextureSpec};
+use crate::gpu::{FullscreenPass, Gpu, Rows, TextureSpec};
 
 /// Pipelines of the gather on flat patches of one layout; made once.
 #[derive(Debug)]
 pub struct PatchRenderer {
-    storage: Storage,
-    gather: CoverPass,
-    present: CoverPass,
+    layout: MaterialLayout,
+    gather: FullscreenPass,
+    present: FullscreenPass,
 }
 
 impl PatchRenderer {
@@ -21,13 +22,12 @@ impl PatchRenderer {
     ///
     /// # Errors
     /// [`crate::Error::Device`] if the driver refuses them.
-    pub fn new(gpu: &Gpu, storage: Storage) -> Result<Self> {
-        let gather_groups = [slots(storage), &[Slot::Uniform, Slot::Float]];
-        let present_groups: [&[Slot]; 1] = [&[Slot::Uniform, Slot::Kept]];
+    pub fn new(gpu: &Gpu, layout: MaterialLayout) -> Result<Self> {
+        let gather = table::GATHER.with(Choice::Material(layout));
         Ok(Self {
-            storage,
-            gather: CoverPass::new(gpu, source::gather(storage), "gather", &gather_groups, &[gpu.kept()])?,
-            present: CoverPass::new(gpu, source::PRESENT, "present", &present_groups, &[TextureFormat::Rgba8Unorm])?,
+            layout,
+            gather: FullscreenPass::new(gpu, gather, &[gpu.target_texture_format()])?,
+            present: FullscreenPass::new(gpu, table::PRESENT.only(), &[TextureFormat::Rgba8Unorm])?,
         })
     }
 
@@ -36,17 +36,17 @@ impl PatchRenderer {
     /// # Errors
     /// [`crate::Error::Device`] if material or light are for another layout or size, or the device is lost.
     pub fn gather(&self, gpu: &Gpu, material: &Material, light: &PatchLight, region: Region) -> Result<Exitance> {
-        material.expect(self.storage)?;
+        material.expect(self.layout)?;
         light.expect([material.header().width, material.header().height])?;
-        let spec = TextureSpec::target("exitance", region.size, gpu.kept());
+        let spec = TextureSpec::target("exitance", region.size, gpu.target_texture_format());
         let surface = gpu.texture(&spec)?;
-        let view = gpu.uniform("view", &uniform::View { origin: region.origin, pad: [0; 2] });
+        let block = gpu.uniform("region", &uniform::PatchRegion { origin: region.origin, pad: [0; 2] });
         let of_material = self.gather.bind(gpu, 0, &material.resources())?;
-        let of_view = [view.as_entire_binding(), BindingResource::TextureView(light.view())];
-        let of_view = self.gather.bind(gpu, 1, &of_view)?;
+        let of_region = [block.as_entire_binding(), BindingResource::TextureView(light.view())];
+        let of_region = self.gather.bind(gpu, 1, &of_region)?;
         let d = 2 * u64::from(material.header().window_radius) + 1;
         for rows in Rows::bands(region.size, d * d * u64::from(region.size[0])) {
-            self.gather.draw(gpu, &surface.view, &[&of_material, &of_view], rows)?;
+            self.gather.draw(gpu, &surface.view, &[&of_material, &of_region], rows)?;
         }
         Ok(Exitance::new(surface, region.size))
     }

@@ -1,18 +1,18 @@
 //! Flat patches with one kernel for all pixels.
 
 use subsurf_decoder::bssrdf::Header;
-use subsurf_shaders::source;
+use subsurf_shaders::passes::table;
 use subsurf_shaders::uniform::{Kernel, MAX_KERNEL};
 use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoderDescriptor, TextureView};
 
 use super::surface::{Exitance, PatchLight, nearest};
 use crate::error::{Error, Result};
-use crate::gpu::{CoverPass, Gpu, HALF, Rows, Slot, Surface2d, TextureSpec};
+use crate::gpu::{FullscreenPass, Gpu, HALF, Rows, Surface2d, TextureSpec};
 
 /// Pipeline of flat patches with one kernel for all pixels: what heterogeneity is compared with.
 #[derive(Debug)]
 pub struct HomogeneousRenderer {
-    pass: CoverPass,
+    pass: FullscreenPass,
 }
 
 /// Patch under a light and with one kernel, ready to be drawn any number of times.
@@ -30,12 +30,11 @@ impl HomogeneousRenderer {
     /// # Errors
     /// [`Error::Device`] if the driver refuses it; [`Error::NoHalfFloats`].
     pub fn new(gpu: &Gpu) -> Result<Self> {
-        gpu.expect_halves("blurs on flat patches")?;
-        let slots = [Slot::Uniform, Slot::Nearest, Slot::Float];
-        Ok(Self { pass: CoverPass::new(gpu, source::HOMOGENEOUS, "homogeneous", &[&slots], &[HALF])? })
+        gpu.expect_half_targets("blurs on flat patches")?;
+        Ok(Self { pass: FullscreenPass::new(gpu, table::HOMOGENEOUS.only(), &[HALF])? })
     }
 
-    /// Makes room for a patch; `kernel` as [`subsurf_shaders::separable::mean_kernel`] has it.
+    /// Makes room for a patch; `kernel` as [`subsurf_shaders::fit::mean_kernel`] has it.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if it is too large, or the kernel.

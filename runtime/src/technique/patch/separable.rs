@@ -1,21 +1,21 @@
 //! Separable blurs on flat patches: a cascade of Gaussians from weighted irradiance to exitance.
 
-use subsurf_shaders::source::{self, Domain};
+use subsurf_shaders::passes::{Choice, table};
 use wgpu::{BindGroup, BindingResource, CommandEncoderDescriptor};
 
 use super::surface::{Exitance, PatchLight, nearest};
 use crate::asset::SeparableMaterial;
 use crate::error::Result;
-use crate::gpu::{CoverPass, Gpu, HALF, Slot, TextureSpec};
+use crate::gpu::{FullscreenPass, Gpu, HALF, TextureSpec};
 use crate::technique::cascade::{BlurPasses, Cascade, Ends};
 
 /// Pipelines of separable blurs on flat patches of L terms; made once.
 #[derive(Debug)]
 pub struct SeparableRenderer {
     terms: usize,
-    first: CoverPass,
+    first: FullscreenPass,
     blur: BlurPasses,
-    last: CoverPass,
+    last: FullscreenPass,
 }
 
 /// Patch under a light, ready to be drawn any number of times.
@@ -33,14 +33,13 @@ impl SeparableRenderer {
     /// # Errors
     /// [`Error::Device`] if the driver refuses them; [`Error::NoHalfFloats`].
     pub fn new(gpu: &Gpu, terms: usize) -> Result<Self> {
-        gpu.expect_halves("blurs on flat patches")?;
-        let of_first = [Slot::Uniform, Slot::Nearest, Slot::FilteredLayers, Slot::Float];
-        let of_last = [Slot::Uniform, Slot::Nearest, Slot::FloatLayers, Slot::KeptLayers, Slot::FilteredLayers];
+        gpu.expect_half_targets("blurs on flat patches")?;
+        let choice = Choice::Terms(terms);
         Ok(Self {
             terms,
-            first: CoverPass::new(gpu, source::first_rows(terms), "blur", &[&of_first], &vec![HALF; terms])?,
-            blur: BlurPasses::new(gpu, Domain::Patch, terms)?,
-            last: CoverPass::new(gpu, source::last_columns(terms), "blur", &[&of_last], &[HALF])?,
+            first: FullscreenPass::new(gpu, table::BLUR_PATCH_FIRST.with(choice), &vec![HALF; terms])?,
+            blur: BlurPasses::new(gpu, [&table::BLUR_PATCH_ROWS, &table::BLUR_PATCH_COLUMNS], terms)?,
+            last: FullscreenPass::new(gpu, table::BLUR_PATCH_LAST.with(choice), &[HALF])?,
         })
     }
 
@@ -59,14 +58,14 @@ impl SeparableRenderer {
         let texture = BindingResource::TextureView;
         let [rows, _] = &material.stages()[0];
         let [_, columns] = &material.stages()[material.stages().len() - 1];
-        let factors = texture(&material.layers.all);
-        let of_first = [rows.as_entire_binding(), nearest.clone(), factors.clone(), texture(light.view())];
+        let basis = texture(&material.layers.all);
+        let of_first = [rows.as_entire_binding(), nearest.clone(), basis.clone(), texture(light.view())];
         let of_last = [
             columns.as_entire_binding(),
             nearest.clone(),
             texture(&cascade.maps[1].all),
             texture(&cascade.sums_before_last().all),
-            factors,
+            basis,
         ];
         let surface = gpu.texture(&TextureSpec::target("exitance", size, HALF))?;
         Ok(SeparablePatch {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{Mat4, Vec3};
 use subsurf_scene::{Placement, Scene};
-use subsurf_shaders::uniform::{self, MAX_RINGS, Rings, Splat, Upsampling, Which};
+use subsurf_shaders::uniform::{self, MAX_RINGS, Splat, SplatRings, TsmLight, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureView};
 
 use super::levels::{FADE, Levels, RING, divisor, ring_size};
@@ -27,19 +27,19 @@ struct Bound {
     visible: [Surface2d; 3],
     depth: Surface2d,
     rings: Vec<Surface2d>,
-    collapsed: Surface2d,
-    view: [BindGroup; 2],
+    resolved: Surface2d,
+    gbuffer: [BindGroup; 2],
     reductions: Vec<Reduction>,
     material: BindGroup,
     draws: Vec<Draw>,
-    collapse: BindGroup,
+    resolve: BindGroup,
     rings_block: Tracked<Buffer>,
     upsampling: Tracked<Buffer>,
     /// Blocks of the reductions.
     #[expect(dead_code, reason = "kept in the ledger as long as the device has them")]
-    which: Vec<Tracked<Buffer>>,
+    numbers: Vec<Tracked<Buffer>>,
     shade: BindGroup,
-    softened: [[f32; 4]; 8],
+    softening_gain: [[f32; 4]; 8],
     pitch_mm: f32,
     size: [u32; 2],
 }
@@ -74,28 +74,29 @@ impl Bound {
         plan: &Plan,
         placement: &Placement,
     ) -> Result<Self> {
-        material.planes.expect(passes.storage)?;
+        material.planes.expect(passes.layout)?;
         let levels = Levels::new(placement, plan.light_texels);
         let size = plan.map_size();
         let target = |label, size| gpu.texture(&TextureSpec::target(label, size, HALF));
         let visible = [target("positions", size)?, target("places", size)?, target("albedos", size)?];
         let rings = (0..levels.rings).map(|ring| target("ring", ring_size(size, ring)));
         let rings: Vec<Surface2d> = rings.collect::<Result<_>>()?;
-        let collapsed = target("rings together", size)?;
+        let resolved = target("rings together", size)?;
         let texture = BindingResource::TextureView;
         let of_albedo = [texture(&material.albedo.all), BindingResource::Sampler(&material.albedo.sampler)];
 
-        let which: Vec<Tracked<Buffer>> =
-            (0..plan.lights).map(|light| gpu.uniform("which light", &Which { light, pad: [0; 3] })).collect();
+        let numbers: Vec<Tracked<Buffer>> = (0..plan.lights)
+            .map(|light| gpu.uniform("light of a shadow map", &TsmLight { light, pad: [0; 3] }))
+            .collect();
         let mut reductions = Vec::new();
-        for (block, light) in which.iter().zip(0..) {
+        for (block, light) in numbers.iter().zip(0..) {
             for level in 1..levels.count() {
                 let from = lights.surfaces().each_ref().map(|surface| layers_of_level(surface, level - 1));
                 let mut group = vec![block.as_entire_binding()];
                 group.extend(from.iter().map(BindingResource::TextureView));
                 reductions.push(Reduction {
                     light,
-                    group: passes.reduce.bind(gpu, 0, &group)?,
+                    group: passes.tsm_reduce.bind(gpu, 0, &group)?,
                     targets: lights.surfaces().each_ref().map(|surface| level_of(surface, light, level)),
                     size: [(plan.light_texels >> level).max(1); 2],
                 });
@@ -120,33 +121,33 @@ impl Bound {
             }
         }
 
-        let rings_block = gpu.uniform("rings", &Rings::default());
-        let mut of_collapse =
+        let rings_block = gpu.uniform("rings", &SplatRings::default());
+        let mut of_resolve =
             vec![rings_block.as_entire_binding(), texture(&visible[0].view), texture(&visible[2].view)];
-        // Rings that do not exist are never read.
-        of_collapse.extend((0..MAX_RINGS).map(|ring| texture(&rings[ring.min(rings.len() - 1)].view)));
+        // SplatRings that do not exist are never read.
+        of_resolve.extend((0..MAX_RINGS).map(|ring| texture(&rings[ring.min(rings.len() - 1)].view)));
         let upsampling = gpu.uniform("upsampling", &Upsampling::default());
         let of_shade =
-            [of_albedo[0].clone(), of_albedo[1].clone(), upsampling.as_entire_binding(), texture(&collapsed.view)];
+            [of_albedo[0].clone(), of_albedo[1].clone(), upsampling.as_entire_binding(), texture(&resolved.view)];
         Ok(Self {
-            view: [
-                passes.view.bind(gpu, 0, &[common.block.as_entire_binding()])?,
-                passes.view.bind(gpu, 1, &of_albedo)?,
+            gbuffer: [
+                passes.gbuffer.bind(gpu, 0, &[common.block.as_entire_binding()])?,
+                passes.gbuffer.bind(gpu, 1, &of_albedo)?,
             ],
             material: passes.splat.bind(gpu, 0, &material.planes.resources())?,
-            collapse: passes.collapse.bind(gpu, 0, &of_collapse)?,
+            resolve: passes.resolve.bind(gpu, 0, &of_resolve)?,
             shade: passes.shade.bind(gpu, 1, &of_shade)?,
             depth: gpu.texture(&TextureSpec::attachment("map depth", size, DEPTH))?,
             levels,
             visible,
             rings,
-            collapsed,
+            resolved,
             reductions,
             draws,
             rings_block,
             upsampling,
-            which,
-            softened: material.softened.map(|[r, g, b]| [r, g, b, 0.0]),
+            numbers,
+            softening_gain: material.softening_gain.map(|[r, g, b]| [r, g, b, 0.0]),
             pitch_mm: placement.pitch_mm,
             size,
             passes,
@@ -205,7 +206,7 @@ impl Bindings for Bound {
         };
         let upsampling = plan.upsampling(&scene.camera, block.middle_mm);
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&upsampling));
-        let rings = Rings { count: self.levels.rings, near_mm: upsampling.near_mm, pad: [0; 2] };
+        let rings = SplatRings { count: self.levels.rings, near_mm: upsampling.near_mm, pad: [0; 2] };
         gpu.queue.write_buffer(&self.rings_block, 0, bytemuck::bytes_of(&rings));
 
         #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
@@ -222,7 +223,7 @@ impl Bindings for Bound {
             let fade = |ring: u32| [end(ring), FADE * end(ring)];
             let beyond = [1e6, 2e6];
             let splat = Splat {
-                softened: self.softened,
+                softening_gain: self.softening_gain,
                 clip_from_centre: clip_from_centre.to_cols_array_2d(),
                 fade_in: if draw.ring == 0 { [0.0; 2] } else { fade(draw.ring - 1) },
                 fade_out: if draw.ring + 1 == self.levels.rings { beyond } else { fade(draw.ring) },
@@ -253,14 +254,14 @@ impl Bindings for Bound {
         let lit = |light: u32| (light as usize) < lights;
         for reduction in self.reductions.iter().filter(|reduction| lit(reduction.light)) {
             let targets = reduction.targets.each_ref();
-            self.passes.reduce.record(&mut encoder, &targets, &[&reduction.group], Rows::all(reduction.size));
+            self.passes.tsm_reduce.record(&mut encoder, &targets, &[&reduction.group], Rows::all(reduction.size));
         }
-        encoder = lap("reduce", encoder);
+        encoder = lap("tsm mipmaps", encoder);
         let clears = [FAR, Color::TRANSPARENT, Color::TRANSPARENT];
         let targets = [0, 1, 2].map(|k| Target { view: &self.visible[k].view, clear: clears[k], resolved: None });
-        let [scene, albedo] = &self.view;
-        self.passes.view.record(&mut encoder, &targets, &self.depth.view, &[scene, albedo], mesh);
-        encoder = lap("view", encoder);
+        let [scene, albedo] = &self.gbuffer;
+        self.passes.gbuffer.record(&mut encoder, &targets, &self.depth.view, &[scene, albedo], mesh);
+        encoder = lap("gbuffer", encoder);
         for (ring, number) in self.rings.iter().zip(0..) {
             let draws = self.draws.iter().filter(|draw| draw.ring == number && lit(draw.light));
             let squares = |draw: &Draw| (plan.light_texels >> draw.level).max(1).pow(2);
@@ -268,8 +269,8 @@ impl Bindings for Bound {
             self.passes.splat.record(&mut encoder, &ring.view, &self.material, &draws);
         }
         encoder = lap("splat", encoder);
-        self.passes.collapse.record(&mut encoder, &[&self.collapsed.view], &[&self.collapse], Rows::all(self.size));
-        lap("collapse", encoder)
+        self.passes.resolve.record(&mut encoder, &[&self.resolved.view], &[&self.resolve], Rows::all(self.size));
+        lap("resolve", encoder)
     }
 
     fn shade(&self) -> &BindGroup {

@@ -1,0 +1,49 @@
+//! What is drawn without heterogeneity: one profile for the whole patch.
+
+use subsurf_decoder::Bssrdf;
+
+use super::radial::mean_profile;
+use crate::rgb::Rgb;
+
+/// Factors that give back the light that softened distances √(r² + s²) take from the mean profile, for s = k / 2 pixels; shape
+/// `[k]`: ∫ R(r) r dr from 0, divided by that from s, which is taken to be at least a tenth of it.
+#[must_use]
+pub fn softening_gain(material: &Bssrdf<'_>) -> [Rgb; 8] {
+    const STEPS: u16 = 4_096;
+    let header = material.header();
+    let profile = mean_profile(material);
+    let step = header.r_max_mm / f32::from(STEPS);
+    let rest = |k: u8| {
+        let begin = 0.5 * f32::from(k) * header.pitch_mm;
+        let radii = (0..STEPS).map(|n| (f32::from(n) + 0.5) * step).filter(|r_mm| *r_mm > begin);
+        radii.fold([0.0; 3], |sum: Rgb, r_mm| {
+            let ring = profile(r_mm);
+            [0, 1, 2].map(|c| sum[c] + ring[c] * r_mm)
+        })
+    };
+    let all = rest(0);
+    std::array::from_fn(|k| {
+        let left = rest(u8::try_from(k).unwrap_or(0));
+        [0, 1, 2].map(|c| all[c] / left[c].max(0.1 * all[c]).max(1e-30))
+    })
+}
+
+/// Weights at 0, 1, 2 ... pixels to either side of a kernel whose product along both axes carries the light of the mean
+/// profile: a(x) = Σ_y R(√(x² + y²)) pitch², divided by √Σ R pitch² (Jimenez et al. 2015, eq. 10).
+#[must_use]
+pub fn mean_kernel(material: &Bssrdf<'_>) -> Vec<Rgb> {
+    let header = material.header();
+    let radius = i32::from(header.window_radius);
+    let profile = mean_profile(material);
+    let area = header.pitch_mm * header.pitch_mm;
+    let line = |x: i32| {
+        (-radius..=radius).fold([0.0; 3], |sum: Rgb, y| {
+            #[allow(clippy::cast_precision_loss, reason = "pixels of a window")]
+            let reflectance = profile(((x * x + y * y) as f32).sqrt() * header.pitch_mm);
+            [0, 1, 2].map(|c| sum[c] + reflectance[c] * area)
+        })
+    };
+    let lines: Vec<Rgb> = (0..=radius).map(line).collect();
+    let albedo = [0, 1, 2].map(|c| lines[0][c] + 2.0 * lines[1..].iter().map(|line| line[c]).sum::<f32>());
+    lines.iter().map(|line| [0, 1, 2].map(|c| line[c] / albedo[c].max(1e-30).sqrt())).collect()
+}

@@ -1,0 +1,28 @@
+//! Kinds of resources that passes read.
+
+/// Kind of a resource in a bind group; all are seen by both stages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Binding {
+    /// Uniform block.
+    Uniform,
+    /// Float texture that is loaded and never filtered.
+    Float,
+    /// Array of float textures that are loaded and never filtered.
+    FloatLayers,
+    /// Intermediate target of an earlier pass, in the [`TargetFormat`](super::TargetFormat).
+    Target,
+    /// Array of intermediate targets.
+    TargetLayers,
+    /// Float texture that is filtered.
+    Filtered,
+    /// Array of float textures that are filtered.
+    FilteredLayers,
+    /// Sampler that filters.
+    Sampler,
+    /// Sampler that does not filter, for its way to address texels beyond the border.
+    Nearest,
+    /// Unsigned integer texture.
+    Uint,
+    /// Array of unsigned integer textures.
+    UintLayers,
+}

@@ -1,0 +1,29 @@
+//! WGSL files of the crate.
+
+/// One WGSL file, as it stands under `wgsl/`.
+#[derive(Clone, Copy, Debug)]
+pub struct File {
+    /// Path under `wgsl/`, without the extension.
+    pub path: &'static str,
+    /// The text.
+    pub text: &'static str,
+}
+
+impl File {
+    /// Name of the file, by which the first lines of passes call it; no two files share one.
+    #[must_use]
+    pub fn stem(&self) -> &'static str {
+        self.path.rsplit('/').next().unwrap_or(self.path)
+    }
+}
+
+/// The [`File`] of a path under `wgsl/`.
+macro_rules! wgsl {
+    ($path:literal) => {
+        $crate::passes::File {
+            path: $path,
+            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/wgsl/", $path, ".wgsl")),
+        }
+    };
+}
+pub(super) use wgsl;

@@ -1,0 +1,297 @@
+//! The table of all passes.
+
+use super::binding::Binding::{
+    self, Filtered, FilteredLayers, Float, FloatLayers, Nearest, Sampler, Target, TargetLayers, Uniform,
+};
+use super::file::{File, wgsl};
+use super::pass::{Group, Part, Pass};
+
+const FULLSCREEN: Part = Part::File(wgsl!("lib/fullscreen"));
+const FRESNEL: Part = Part::File(wgsl!("lib/fresnel"));
+const SCENE: Part = Part::File(wgsl!("lib/scene"));
+const COAT: Part = Part::File(wgsl!("lib/coat"));
+const TONE: Part = Part::File(wgsl!("lib/tone"));
+const DISPLAY: Part = Part::File(wgsl!("lib/display"));
+const MAPPING: Part = Part::File(wgsl!("lib/mesh/mapping"));
+const PATCH_LAYERS: Part = Part::File(wgsl!("lib/mesh/patch_layers"));
+const VERTEX: Part = Part::File(wgsl!("lib/mesh/vertex"));
+const VERTEX_NONE: Part = Part::File(wgsl!("lib/mesh/vertex_none"));
+const EXITANCE_VERTEX: Part = Part::File(wgsl!("lib/mesh/exitance_vertex"));
+const SHADING: Part = Part::File(wgsl!("lib/mesh/shading"));
+const BTF_VERTEX: Part = Part::File(wgsl!("lib/mesh/btf_vertex"));
+const BTF_TANGENTS: Part = Part::File(wgsl!("lib/mesh/btf_tangents"));
+const BTF_TEXTURE: Part = Part::File(wgsl!("material/btf/btf_texture"));
+const TSM: Part = Part::File(wgsl!("lib/screen/tsm"));
+const TSM_VISIBILITY: Part = Part::File(wgsl!("lib/screen/tsm_visibility"));
+const TRANSMISSION: Part = Part::File(wgsl!("lib/screen/transmission"));
+const NEIGHBOURS: Part = Part::File(wgsl!("lib/screen/neighbours"));
+const UPSAMPLING: Part = Part::File(wgsl!("lib/screen/upsampling"));
+const SEPARABLE_BASIS: Part = Part::File(wgsl!("lib/blur/separable_basis"));
+const BLUR: Part = Part::File(wgsl!("lib/blur/blur"));
+const DOMAIN_PATCH: Part = Part::File(wgsl!("lib/blur/domain_patch"));
+const DOMAIN_SCREEN: Part = Part::File(wgsl!("lib/blur/domain_screen"));
+const MAPS_IRRADIANCE: Part = Part::File(wgsl!("lib/blur/maps_irradiance"));
+const MAPS_STAGE: Part = Part::File(wgsl!("lib/blur/maps_stage"));
+const STAGE_SUM: Part = Part::File(wgsl!("lib/blur/stage_sum"));
+
+/// Whether the shader encodes for the display; an override of passes that draw pictures of meshes.
+pub const ENCODE_SRGB: &str = "ENCODE_SRGB";
+
+/// Bind group 0 of pictures of meshes: scene, positions of the translucent shadow maps, reflections and their sampler.
+const LIT: Group = Group::Fixed(&[Uniform, TargetLayers, Filtered, Sampler]);
+
+/// Row of a pass without overrides.
+const fn pass(file: File, parts: &'static [Part], vertex: &'static str, groups: &'static [Group]) -> Pass {
+    Pass { file, parts, vertex, groups, overrides: &[] }
+}
+
+/// Row of a full-screen pass.
+const fn fullscreen(file: File, parts: &'static [Part], groups: &'static [Group]) -> Pass {
+    pass(file, parts, "fullscreen", groups)
+}
+
+/// Row of a picture of a mesh.
+const fn picture(file: File, parts: &'static [Part], groups: &'static [Group]) -> Pass {
+    Pass { overrides: &[ENCODE_SRGB], ..pass(file, parts, "project", groups) }
+}
+
+/// Exitance of a flat patch, by the reference sum.
+pub static GATHER: Pass = fullscreen(
+    wgsl!("pass/patch/gather"),
+    &[Part::TargetFormat, Part::MaterialLayout, FULLSCREEN],
+    &[Group::Material, Group::Fixed(&[Uniform, Float])],
+);
+
+/// Picture of a flat patch from its exitance.
+pub static PRESENT: Pass = fullscreen(
+    wgsl!("pass/patch/present"),
+    &[Part::TargetFormat, FULLSCREEN, TONE],
+    &[Group::Fixed(&[Uniform, Target])],
+);
+
+/// Blur of a flat patch by one kernel for all pixels, along one axis.
+pub static HOMOGENEOUS: Pass =
+    fullscreen(wgsl!("pass/patch/homogeneous"), &[FULLSCREEN], &[Group::Fixed(&[Uniform, Nearest, Float])]);
+
+/// First stage of the cascade on a flat patch, along rows.
+pub static BLUR_PATCH_FIRST: Pass = fullscreen(
+    wgsl!("pass/patch/blur_patch_first"),
+    &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_IRRADIANCE],
+    &[Group::Fixed(&[Uniform, Nearest, FilteredLayers, Float])],
+);
+
+/// Later stages of the cascade on a flat patch, along rows.
+pub static BLUR_PATCH_ROWS: Pass = fullscreen(
+    wgsl!("pass/patch/blur_patch_rows"),
+    &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_STAGE],
+    &[Group::Fixed(&[Uniform, Nearest, FloatLayers])],
+);
+
+/// Stages of the cascade on a flat patch but for the last, along columns, and the sum over the stages.
+pub static BLUR_PATCH_COLUMNS: Pass = fullscreen(
+    wgsl!("pass/patch/blur_patch_columns"),
+    &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_STAGE, STAGE_SUM],
+    &[Group::Fixed(&[Uniform, Nearest, FloatLayers, TargetLayers])],
+);
+
+/// Last stage of the cascade on a flat patch, along columns, and the exitance.
+pub static BLUR_PATCH_LAST: Pass = fullscreen(
+    wgsl!("pass/patch/blur_patch_last"),
+    &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_STAGE, STAGE_SUM],
+    &[Group::Fixed(&[Uniform, Nearest, FloatLayers, TargetLayers, FilteredLayers])],
+);
+
+/// Irradiance that enters a surface at each of its points.
+pub static IRRADIANCE: Pass = fullscreen(
+    wgsl!("pass/surface/irradiance"),
+    &[Part::TargetFormat, FRESNEL, SCENE, FULLSCREEN],
+    &[Group::Fixed(&[Uniform]), Group::Fixed(&[Float, Float, Float])],
+);
+
+/// Exitance at the points of a surface, by the reference sum.
+pub static SURFACE_GATHER: Pass = fullscreen(
+    wgsl!("pass/surface/surface_gather"),
+    &[Part::TargetFormat, Part::FittedLayout, FULLSCREEN],
+    &[Group::Material, Group::Fixed(&[Uniform, Float, Binding::Uint, Binding::Uint, Target])],
+);
+
+/// Picture of a mesh from the exitance of its vertices.
+pub static SHADE_VERTEX: Pass = picture(
+    wgsl!("pass/surface/shade_vertex"),
+    &[Part::TargetFormat, TONE, DISPLAY, FRESNEL, SCENE, COAT, EXITANCE_VERTEX, VERTEX, SHADING],
+    &[LIT, Group::Fixed(&[Target, Float])],
+);
+
+/// Translucent shadow map of a light.
+pub static TSM_RENDER: Pass = pass(
+    wgsl!("pass/tsm/tsm_render"),
+    &[Part::TargetFormat, FRESNEL, SCENE, MAPPING, TSM],
+    "project",
+    &[Group::Fixed(&[Uniform]), Group::Fixed(&[Uniform])],
+);
+
+/// Next mipmap level of a translucent shadow map.
+pub static TSM_REDUCE: Pass = fullscreen(
+    wgsl!("pass/tsm/tsm_reduce"),
+    &[Part::TargetFormat, FULLSCREEN, TSM],
+    &[Group::Fixed(&[Uniform, TargetLayers, TargetLayers, TargetLayers])],
+);
+
+/// G-buffer of a mesh for splats: positions, texture coordinates, albedo.
+pub static SURFACE_GBUFFER: Pass = pass(
+    wgsl!("pass/splat/surface_gbuffer"),
+    &[FRESNEL, SCENE, MAPPING, PATCH_LAYERS, VERTEX_NONE, VERTEX],
+    "project",
+    &[Group::Fixed(&[Uniform]), Group::Fixed(&[FilteredLayers, Sampler])],
+);
+
+/// Light of samples of a translucent shadow map, spread over what lies around them.
+pub static SPLAT: Pass = pass(
+    wgsl!("pass/splat/splat"),
+    &[Part::FittedLayout],
+    "splat_quad",
+    &[Group::Material, Group::Fixed(&[Uniform, FloatLayers, FloatLayers, FloatLayers, Float, Float])],
+);
+
+/// Sum of all rings of splats.
+pub static SPLAT_RESOLVE: Pass = fullscreen(
+    wgsl!("pass/splat/splat_resolve"),
+    &[FULLSCREEN, NEIGHBOURS],
+    &[Group::Fixed(&[Uniform, Float, Float, Float, Float, Float, Float, Float])],
+);
+
+/// Picture of a mesh from the resolved splats.
+pub static SHADE_SPLAT: Pass = picture(
+    wgsl!("pass/splat/shade_splat"),
+    &[
+        Part::TargetFormat,
+        TONE,
+        DISPLAY,
+        FRESNEL,
+        SCENE,
+        COAT,
+        MAPPING,
+        TSM_VISIBILITY,
+        PATCH_LAYERS,
+        VERTEX_NONE,
+        VERTEX,
+        NEIGHBOURS,
+        UPSAMPLING,
+        SHADING,
+    ],
+    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, Float])],
+);
+
+/// G-buffer for the separable blurs on the screen: L weighted irradiance maps, and transmitted light.
+pub static SEPARABLE_GBUFFER: Pass = pass(
+    wgsl!("pass/separable/separable_gbuffer"),
+    &[
+        Part::TargetFormat,
+        Part::Terms,
+        FRESNEL,
+        SCENE,
+        MAPPING,
+        TSM_VISIBILITY,
+        PATCH_LAYERS,
+        SEPARABLE_BASIS,
+        VERTEX_NONE,
+        VERTEX,
+        TRANSMISSION,
+    ],
+    "project",
+    &[
+        Group::Fixed(&[Uniform, TargetLayers]),
+        Group::Fixed(&[FilteredLayers, Sampler, Uniform, TargetLayers, TargetLayers]),
+    ],
+);
+
+/// Stages of the cascade on the screen, along rows.
+pub static BLUR_SCREEN_ROWS: Pass = fullscreen(
+    wgsl!("pass/separable/blur_screen_rows"),
+    &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_SCREEN, BLUR],
+    &[Group::Fixed(&[Uniform, Uniform, TargetLayers])],
+);
+
+/// Stages of the cascade on the screen, along columns, and the sum over the stages.
+pub static BLUR_SCREEN_COLUMNS: Pass = fullscreen(
+    wgsl!("pass/separable/blur_screen_columns"),
+    &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_SCREEN, BLUR, STAGE_SUM],
+    &[Group::Fixed(&[Uniform, Uniform, TargetLayers, TargetLayers])],
+);
+
+/// Picture of a mesh from L blurred maps on the screen.
+pub static SHADE_SEPARABLE: Pass = picture(
+    wgsl!("pass/separable/shade_separable"),
+    &[
+        Part::TargetFormat,
+        Part::Terms,
+        TONE,
+        DISPLAY,
+        FRESNEL,
+        SCENE,
+        COAT,
+        MAPPING,
+        TSM_VISIBILITY,
+        PATCH_LAYERS,
+        SEPARABLE_BASIS,
+        VERTEX_NONE,
+        VERTEX,
+        NEIGHBOURS,
+        UPSAMPLING,
+        SHADING,
+    ],
+    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, TargetLayers])],
+);
+
+/// Values and light samples of a BTF for lists of directions.
+pub static BTF_QUERY: Pass = fullscreen(
+    wgsl!("pass/btf/btf_query"),
+    &[Part::BtfLayout, TONE, FULLSCREEN],
+    &[Group::Fixed(&[Float, Float, Float]), Group::Btf(&[])],
+);
+
+/// Picture of a mesh of a BTF.
+pub static SHADE_BTF: Pass = picture(
+    wgsl!("pass/btf/shade_btf"),
+    &[
+        Part::TargetFormat,
+        Part::BtfLayout,
+        TONE,
+        DISPLAY,
+        FRESNEL,
+        SCENE,
+        COAT,
+        TSM_VISIBILITY,
+        BTF_VERTEX,
+        BTF_TEXTURE,
+        BTF_TANGENTS,
+        Part::Ambient,
+    ],
+    &[LIT, Group::Btf(&[Uniform])],
+);
+
+/// All passes.
+pub static ALL: [&Pass; 22] = [
+    &GATHER,
+    &PRESENT,
+    &HOMOGENEOUS,
+    &BLUR_PATCH_FIRST,
+    &BLUR_PATCH_ROWS,
+    &BLUR_PATCH_COLUMNS,
+    &BLUR_PATCH_LAST,
+    &IRRADIANCE,
+    &SURFACE_GATHER,
+    &SHADE_VERTEX,
+    &TSM_RENDER,
+    &TSM_REDUCE,
+    &SURFACE_GBUFFER,
+    &SPLAT,
+    &SPLAT_RESOLVE,
+    &SHADE_SPLAT,
+    &SEPARABLE_GBUFFER,
+    &BLUR_SCREEN_ROWS,
+    &BLUR_SCREEN_COLUMNS,
+    &SHADE_SEPARABLE,
+    &BTF_QUERY,
+    &SHADE_BTF,
+];

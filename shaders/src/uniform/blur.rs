@@ -1,0 +1,112 @@
+//! Blocks of separable blurs and of what is put together from them.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::separable::{CascadeStage, MAX_GAUSSIANS, MAX_TERMS, SeparableBasis};
+
+/// `BlurStage` of `blur.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct BlurStage {
+    /// Weights w_lma pitch² of the a of this stage; shape `[l][m]`, linear Rec. 709.
+    pub weights: [[f32; 4]; MAX_TERMS * MAX_TERMS],
+    /// Axis of the blur, (1, 0) or (0, 1).
+    pub axis: [i32; 2],
+    /// Standard deviation on a flat patch in pixels.
+    pub sigma: f32,
+    /// Distance of taps on a flat patch in pixels.
+    pub stride: i32,
+    /// Number of taps to each side on a flat patch.
+    pub taps: i32,
+    /// Standard deviation of the stage on the screen, in pixels of the material.
+    pub step: f32,
+    /// Distance of taps that the blur so far allows on the screen, in pixels of the material.
+    pub sparse: f32,
+    /// 1 if there is a sum of earlier stages, 0 for the first.
+    pub has_sum: u32,
+}
+
+impl BlurStage {
+    /// Blocks of all stages for the basis of a material, along rows and along columns; shape `[a][2]`.
+    #[must_use]
+    pub fn cascade(basis: &SeparableBasis) -> Vec<[Self; 2]> {
+        let area = basis.header.pitch_mm * basis.header.pitch_mm;
+        let terms = basis.size.terms;
+        let stages = CascadeStage::cascade(&basis.sigmas);
+        let blocks = stages.iter().enumerate().map(|(a, stage)| {
+            let mut weights = [[0.0; 4]; MAX_TERMS * MAX_TERMS];
+            for (l, m) in (0..terms).flat_map(|l| (0..terms).map(move |m| (l, m))) {
+                let [r, g, b] = basis.weights_of(l, m)[a].map(|weight| weight * area);
+                weights[l * MAX_TERMS + m] = [r, g, b, 0.0];
+            }
+            [[1, 0], [0, 1]].map(|axis| Self {
+                weights,
+                axis,
+                sigma: stage.sigma,
+                stride: stage.stride,
+                taps: stage.taps,
+                step: stage.step,
+                sparse: stage.sparse,
+                has_sum: u32::from(a > 0),
+            })
+        });
+        blocks.collect()
+    }
+}
+
+/// `ScreenDomain` of `domain_screen.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct ScreenDomain {
+    /// Texels of the maps, columns and rows.
+    pub size: [u32; 2],
+    /// Texels that the pitch of the material covers at a distance of 1 mm.
+    pub focal_texels: f32,
+    /// Distance from the eye to depth 0 in mm.
+    pub middle_mm: f32,
+    /// Pitch of the pixels of the material in mm.
+    pub pitch_mm: f32,
+    #[doc(hidden)]
+    pub pad: [u32; 3],
+}
+
+/// `Transmission` of `transmission.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Transmission {
+    /// Weights w_lma pitch², shape `[a][l][m]`, linear Rec. 709; σ_a in mm in the fourth channel.
+    pub weights: [[f32; 4]; MAX_GAUSSIANS * MAX_TERMS * MAX_TERMS],
+    /// A, the number of Gaussians.
+    pub gaussians: u32,
+    #[doc(hidden)]
+    pub pad: [u32; 3],
+}
+
+impl Transmission {
+    /// Block for the basis of a material.
+    #[must_use]
+    pub fn new(basis: &SeparableBasis) -> Self {
+        let mut weights = [[0.0; 4]; MAX_GAUSSIANS * MAX_TERMS * MAX_TERMS];
+        let stages = BlurStage::cascade(basis);
+        for (a, ([rows, _], sigma)) in stages.iter().zip(&basis.sigmas).enumerate() {
+            let of_stage = &mut weights[a * rows.weights.len()..][..rows.weights.len()];
+            for (to, [r, g, b, _]) in of_stage.iter_mut().zip(&rows.weights) {
+                *to = [*r, *g, *b, sigma * basis.header.pitch_mm];
+            }
+        }
+        let gaussians = u32::try_from(stages.len()).unwrap_or(0);
+        Self { weights, gaussians, pad: [0; 3] }
+    }
+}
+
+/// `Upsampling` of `upsampling.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub struct Upsampling {
+    /// Texels of the maps to a pixel of the picture, along rows and columns.
+    pub texels_per_pixel: [f32; 2],
+    /// Difference of depth in mm by which the weight of a texel falls to a half.
+    pub near_mm: f32,
+    #[doc(hidden)]
+    pub pad: u32,
+}

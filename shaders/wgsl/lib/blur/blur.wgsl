@@ -1,0 +1,54 @@
+// Blur of all irradiance maps by one stage of the cascade of Gaussians, along one axis.
+
+struct BlurStage {
+    // w_lma pitch^2 of this stage's a, shape [l][m]; linear Rec. 709.
+    weights: array<vec4<f32>, 4>,
+    // (1, 0) or (0, 1).
+    axis: vec2<i32>,
+    // On a flat patch: standard deviation and distance of taps in pixels; taps to each side.
+    sigma: f32,
+    stride: i32,
+    taps: i32,
+    // On the screen: standard deviation of this stage, and distance of taps that the blur so far allows, in pixels of the
+    // material.
+    step: f32,
+    sparse: f32,
+    // 1 if there is a sum of earlier stages, 0 for the first.
+    has_sum: u32,
+}
+
+@group(0) @binding(0) var<uniform> stage: BlurStage;
+
+// Taps at k stride texels, |k| <= count; sigma in texels.
+struct Taps {
+    stride: i32,
+    count: i32,
+    sigma: f32,
+}
+
+// All maps, blurred at texel x; the fourth channel of the first keeps its depth.
+fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
+    let centre = maps_at(x)[0];
+    var sums: array<vec4<f32>, TERMS>;
+    // Depth of the background is beyond everything.
+    if centre.w > 50000.0 {
+        sums[0].w = centre.w;
+        return sums;
+    }
+    let taps = taps_at(centre);
+    var weights = 0.0;
+    for (var k = -taps.count; k <= taps.count; k++) {
+        let step = k * taps.stride;
+        var light = maps_at(x + step * stage.axis);
+        let distance = f32(step) / taps.sigma;
+        let weight = exp(-0.5 * distance * distance) * nearness(centre, light[0]);
+        weights += weight;
+        for (var l = 0u; l < TERMS; l++) {
+            sums[l] += weight * light[l];
+        }
+    }
+    for (var l = 0u; l < TERMS; l++) {
+        sums[l] = vec4<f32>(sums[l].xyz / weights, centre.w);
+    }
+    return sums;
+}

@@ -1,0 +1,22 @@
+// One weighted irradiance map, L = 1: targets of the passes that draw them.
+
+const TERMS: u32 = 1u;
+
+struct Maps {
+    @location(0) first: TargetTexel,
+}
+
+struct MapsAndSums {
+    @location(0) first: TargetTexel,
+    @location(1) first_sum: TargetTexel,
+}
+
+// Targets for the maps.
+fn maps_of(maps: array<vec4<f32>, TERMS>) -> Maps {
+    return Maps(pack(maps[0]));
+}
+
+// Targets for the maps and the sums.
+fn maps_and_sums_of(maps: array<vec4<f32>, TERMS>, sums: array<vec4<f32>, TERMS>) -> MapsAndSums {
+    return MapsAndSums(pack(maps[0]), pack(sums[0]));
+}

@@ -1,0 +1,48 @@
+// Vertex shader of meshes, as the camera sees them.
+
+struct Varying {
+    // Position in clip space; in the fragment shader, in pixels.
+    @builtin(position) clip: vec4<f32>,
+    @location(0) position_mm: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    // Texture coordinates in copies of the patch, v down.
+    @location(2) uv: vec2<f32>,
+    // Exitance and visibility of the lights, where they are known for every vertex.
+    @location(3) exitance: vec3<f32>,
+    @location(4) visibility: vec4<f32>,
+    // Ambient transfer: light from all around that comes from the same side and from the other, relative to that on a plane.
+    @location(5) sky_front: vec3<f32>,
+    @location(6) sky_back: vec3<f32>,
+}
+
+@vertex
+fn project(
+    @location(0) position_mm: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) uv: vec2<f32>,
+    @location(3) point: u32,
+    @location(4) sky_front: vec4<f32>,
+    @location(5) sky_back: vec4<f32>,
+) -> Varying {
+    let clip = scene.clip_from_world * vec4<f32>(position_mm, 1.0);
+    var out: Varying;
+    out.clip = clip;
+    out.position_mm = position_mm;
+    out.normal = normal;
+    out.uv = uv;
+    out.exitance = vertex_exitance(point);
+    out.visibility = vertex_visibility(point);
+    out.sky_front = 2.0 * sky_front.xyz;
+    out.sky_back = 2.0 * sky_back.xyz;
+    return out;
+}
+
+// Scattered light of the environment, divided by the albedo: it changes little within the radius of scattering.
+fn scattered_sky(in: Varying, normal: vec3<f32>) -> vec3<f32> {
+    return in.sky_front * sky_irradiance(normal) + in.sky_back * sky_irradiance(-normal);
+}
+
+// Depth of a position along the axis of the camera, from the middle of the scene, in mm.
+fn depth_of(position_mm: vec3<f32>) -> f32 {
+    return dot(position_mm - scene.eye_mm, scene.forward) - scene.middle_mm;
+}

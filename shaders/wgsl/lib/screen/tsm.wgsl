@@ -1,0 +1,18 @@
+// Translucent shadow map (Dachsbacher and Stamminger 2003): what the passes that draw it write, and the number of its light.
+
+struct TsmTexel {
+    // Mean of positions relative to the middle of the scene, and of depth along the light's axis, in mm.
+    @location(0) position: TargetTexel,
+    // Mean irradiance that enters, on a plane across the axis, and the share of the texel where there is a surface.
+    @location(1) flux: TargetTexel,
+    // Texture coordinates on the patch of one of the points; lowest and highest depth of all, in mm.
+    @location(2) uv: TargetTexel,
+}
+
+struct TsmLight {
+    // Number of the light, 0 to 3.
+    light: u32,
+    pad_0: u32,
+    pad_1: u32,
+    pad_2: u32,
+}

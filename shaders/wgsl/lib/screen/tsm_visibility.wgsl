@@ -1,0 +1,51 @@
+// Visibility of lights from their translucent shadow maps.
+
+// Positions relative to the middle of the scene, and depth along the axis, in mm; a layer for each light.
+@group(0) @binding(1) var tsm_positions: TargetTextureArray;
+
+// Texel of a map, not rounded, and the edge of a texel at that depth in mm.
+struct TsmCoord {
+    texel: vec2<f32>,
+    texel_mm: f32,
+}
+
+// Texel of the map of light i that shows a position in mm.
+fn tsm_coord(i: u32, position_mm: vec3<f32>) -> TsmCoord {
+    let source = scene.light[min(i, 3u)];
+    let clip = source.clip_from_world * vec4<f32>(position_mm, 1.0);
+    let size = vec2<f32>(textureDimensions(tsm_positions));
+    let texel = (clip.xy / clip.w * vec2<f32>(0.5, -0.5) + 0.5) * size;
+    var grown = 1.0;
+    if source.is_local != 0u {
+        grown = 1.0 + light_depth(i, position_mm) / source.middle_mm;
+    }
+    return TsmCoord(texel, source.texel_mm * grown);
+}
+
+// The texel, clamped to the size of the maps.
+fn tsm_texel(texel: vec2<i32>) -> vec2<i32> {
+    return clamp(texel, vec2<i32>(0), vec2<i32>(textureDimensions(tsm_positions)) - 1);
+}
+
+// Visibility of light i from a position in mm, 0 to 1: percentage-closer filtering over three texels by three, with weights
+// that move with the point (Reeves et al. 1987).
+fn visibility(i: u32, position_mm: vec3<f32>, normal: vec3<f32>) -> f32 {
+    let coord = tsm_coord(i, position_mm);
+    let towards = incident(i, position_mm).towards;
+    // A texel of a slanted surface has depths on both sides of its middle.
+    let cosine = clamp(dot(normal, towards), 0.15, 1.0);
+    let slack = coord.texel_mm * (0.6 + 1.5 * sqrt(1.0 - cosine * cosine) / cosine);
+    let depth = light_depth(i, position_mm) - slack;
+    let corner = coord.texel - 0.5;
+    let first = vec2<i32>(floor(corner));
+    let part = corner - floor(corner);
+    var sum = 0.0;
+    for (var y = -1; y <= 2; y++) {
+        for (var x = -1; x <= 2; x++) {
+            let stored = unpack(textureLoad(tsm_positions, tsm_texel(first + vec2<i32>(x, y)), i, 0)).w;
+            let weight = clamp(vec2<f32>(2.0) - abs(vec2<f32>(f32(x), f32(y)) - part), vec2<f32>(0.0), vec2<f32>(1.0));
+            sum += weight.x * weight.y * select(0.0, 1.0, stored >= depth);
+        }
+    }
+    return sum / 9.0;
+}

@@ -1,0 +1,23 @@
+// Position of a pixel of the picture in maps that are coarser than it.
+
+struct Upsampling {
+    // Texels of the maps to a pixel of the picture.
+    texels_per_pixel: vec2<f32>,
+    // Difference of depth in mm by which the weight of a texel falls to a half.
+    near_mm: f32,
+    pad: u32,
+}
+
+@group(1) @binding(2) var<uniform> upsampling: Upsampling;
+
+// The first of the four texels around a pixel, and the weight of the next ones, 0 to 1.
+struct BilinearCoord {
+    first: vec2<i32>,
+    part: vec2<f32>,
+}
+
+// Of a pixel of the picture.
+fn bilinear_coord(pixel: vec2<f32>) -> BilinearCoord {
+    let corner = pixel * upsampling.texels_per_pixel - 0.5;
+    return BilinearCoord(vec2<i32>(floor(corner)), corner - floor(corner));
+}

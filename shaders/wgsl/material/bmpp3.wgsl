@@ -1,0 +1,3 @@
+// Three base materials per pixel, K = 3. A constant, for arrays in functions have no size by override.
+
+const PER_PIXEL: u32 = 3u;

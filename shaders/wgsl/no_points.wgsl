@@ -1,9 +1,0 @@
-// Nothing is known of vertices.
-
-fn vertex_exitance(point: u32) -> vec3<f32> {
-    return vec3<f32>(0.0);
-}
-
-fn vertex_visibility(point: u32) -> vec4<f32> {
-    return vec4<f32>(0.0);
-}

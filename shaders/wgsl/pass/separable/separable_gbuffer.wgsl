@@ -1,0 +1,34 @@
+// Needs: <target format>, <terms>, fresnel, scene, mapping, tsm_visibility, patch_layers, separable_basis, vertex_none, vertex, transmission.
+// G-buffer for the separable blurs on the screen: c_l E of the light that enters, and S_m of the light that is transmitted
+// from behind; depth in mm in the fourth channel.
+
+@fragment
+fn separable_gbuffer(in: Varying) -> MapsAndSums {
+    let slopes = derivatives(in.position_mm, in.uv);
+    let normal = normalize(in.normal);
+    var c = basis_at(in.position_mm, normal, in.uv, slopes);
+    let depth = depth_of(in.position_mm);
+    var e = vec3<f32>(0.0);
+    var sums: array<vec4<f32>, TERMS>;
+    for (var i = 0u; i < scene.lights; i++) {
+        let from_light = incident(i, in.position_mm);
+        let share = entering(normal, from_light.towards);
+        // Surfaces that face the light have its light from the blurred maps.
+        let facing_away = clamp(-dot(normal, from_light.towards), 0.0, 1.0);
+        if share > 0.0 {
+            e += from_light.irradiance * share * visibility(i, in.position_mm, normal);
+        }
+        if facing_away > 0.0 {
+            var from_behind = transmitted(i, in.position_mm);
+            for (var m = 0u; m < TERMS; m++) {
+                sums[m] += vec4<f32>(facing_away * from_behind[m], 0.0);
+            }
+        }
+    }
+    var maps: array<vec4<f32>, TERMS>;
+    for (var l = 0u; l < TERMS; l++) {
+        maps[l] = vec4<f32>(min(c[l] * e, BRIGHTEST), depth);
+        sums[l].w = depth;
+    }
+    return maps_and_sums_of(maps, sums);
+}

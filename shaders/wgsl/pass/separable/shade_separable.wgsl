@@ -1,0 +1,52 @@
+// Needs: <target format>, <terms>, tone, display, fresnel, scene, coat, mapping, tsm_visibility, patch_layers, separable_basis, vertex_none, vertex, neighbours, upsampling, shading.
+// Picture of a mesh from blurred maps on the screen: M = sum over m of c_m S_m, and the scattered light of the environment.
+
+// S_m; depth in mm in the fourth channel.
+@group(1) @binding(3) var sums: TargetTextureArray;
+
+// S_m at a pixel of the picture, from texels of about its depth in mm.
+fn sums_at(pixel: vec2<f32>, depth: f32) -> array<vec3<f32>, TERMS> {
+    let last = vec2<i32>(textureDimensions(sums)) - 1;
+    let coord = bilinear_coord(pixel);
+    var total: array<vec3<f32>, TERMS>;
+    var weights = 0.0;
+    for (var k = 0u; k < NEIGHBOURS; k++) {
+        if k == 4u && weights > ENOUGH {
+            break;
+        }
+        let texel = clamp(coord.first + neighbour(k), vec2<i32>(0), last);
+        let value = unpack(textureLoad(sums, texel, 0u, 0));
+        let weight = near_weight(linear_weight(k, coord.part), (value.w - depth) / upsampling.near_mm);
+        weights += weight;
+        total[0] += weight * value.xyz;
+        for (var m = 1u; m < TERMS; m++) {
+            total[m] += weight * unpack(textureLoad(sums, texel, m, 0)).xyz;
+        }
+    }
+    for (var m = 0u; m < TERMS; m++) {
+        total[m] /= weights;
+    }
+    return total;
+}
+
+// Exitance of a fragment; linear Rec. 709.
+fn exitance(in: Varying, normal: vec3<f32>) -> vec3<f32> {
+    let slopes = derivatives(in.position_mm, in.uv);
+    var c = basis_at(in.position_mm, normal, in.uv, slopes);
+    var light = sums_at(in.clip.xy, depth_of(in.position_mm));
+    var sum = c[TERMS] * scattered_sky(in, normal);
+    for (var m = 0u; m < TERMS; m++) {
+        sum += c[m] * light[m];
+    }
+    return max(sum, vec3<f32>(0.0));
+}
+
+// Visibility of light `i`, 0 to 1.
+fn light_visibility(i: u32, in: Varying, normal: vec3<f32>) -> f32 {
+    return visibility(i, in.position_mm, normal);
+}
+
+@fragment
+fn shade_separable(in: Varying) -> @location(0) vec4<f32> {
+    return shaded(in);
+}

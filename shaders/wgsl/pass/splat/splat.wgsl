@@ -1,0 +1,150 @@
+// Needs: <fitted material layout>.
+// Splats: light of every sample of a translucent shadow map, spread over what lies around it, one ring of distances at a time;
+// further rings have fewer samples and fewer texels (Chen et al. 2012; Yatagawa et al. 2020, section 3.4).
+
+struct Splat {
+    // Factor that gives back the light that softening by k / 2 pixels of the material takes from a sample; linear Rec. 709.
+    softening_gain: array<vec4<f32>, 8>,
+    // Projection of positions relative to the middle of the scene; column-major, depth 0 to 1.
+    clip_from_centre: mat4x4<f32>,
+    // Distances in mm where the ring begins and ends to fade in; both 0 for the first.
+    fade_in: vec2<f32>,
+    // Distances in mm where it begins and ends to fade out; both beyond the radius of scattering for the last.
+    fade_out: vec2<f32>,
+    // Half the size in clip space of something 1 mm large, 1 mm away.
+    focal: vec2<f32>,
+    // Distance from the light to depth 0 in mm; 0 for a direction.
+    middle_mm: f32,
+    // Edge of a texel of this level at depth 0, in mm.
+    texel_mm: f32,
+    // Number of the light.
+    light: u32,
+    // Mipmap level of the samples, and texels to a side of it.
+    level: u32,
+    side: u32,
+    // 0: samples of this level that are smooth; 1: those whose parent in the next level is not.
+    refines: u32,
+    // Texels of the G-buffer to a side of a texel of the target.
+    stride: u32,
+    // Pitch of the pixels of the material in mm.
+    pitch_mm: f32,
+    pad_0: u32,
+    pad_1: u32,
+}
+
+@group(1) @binding(0) var<uniform> splat_block: Splat;
+// Translucent shadow maps with mipmap levels, a layer for each light.
+@group(1) @binding(1) var tsm_positions: texture_2d_array<f32>;
+@group(1) @binding(2) var tsm_fluxes: texture_2d_array<f32>;
+@group(1) @binding(3) var tsm_uvs: texture_2d_array<f32>;
+// G-buffer: positions relative to the middle of the scene and depth, in mm; texture coordinates on the patch.
+@group(1) @binding(4) var positions: texture_2d<f32>;
+@group(1) @binding(5) var uvs: texture_2d<f32>;
+
+struct Sample {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) @interpolate(flat) position: vec3<f32>,
+    // Flux in irradiance times mm^2.
+    @location(1) @interpolate(flat) flux: vec3<f32>,
+    // Pixel of the material, by `pack_pixel`.
+    @location(2) @interpolate(flat) pixel: vec4<u32>,
+    // Least distance in mm, s.
+    @location(3) @interpolate(flat) softening_mm: f32,
+}
+
+// Range of depths in a texel, in edges of it, from which on it is not smooth.
+const STEEP: f32 = 1.0;
+// Softening of samples, in edges of their texels: peaks of the profiles would show where each sample is.
+const SOFTENING: f32 = 0.6;
+
+// Factor that gives back the light that distances of sqrt(r^2 + s^2) instead of r take, for s in mm.
+fn softening_gain(softening_mm: f32) -> vec3<f32> {
+    let at = min(softening_mm / (0.5 * splat_block.pitch_mm), 6.99);
+    let k = u32(at);
+    return mix(splat_block.softening_gain[min(k, 7u)].xyz, splat_block.softening_gain[min(k + 1u, 7u)].xyz, at - f32(k));
+}
+
+// Whether a texel is full, and flat along the axis of the light.
+fn is_smooth(texel: vec2<u32>, level: u32, texel_mm: f32) -> bool {
+    let range = textureLoad(tsm_uvs, texel, splat_block.light, level).zw;
+    let share = textureLoad(tsm_fluxes, texel, splat_block.light, level).w;
+    return share > 0.99 && range.y - range.x < STEEP * texel_mm;
+}
+
+// Pixel of the patch at texture coordinates, which repeat or are mirrored.
+fn patch_texel(uv: vec2<f32>) -> vec2<u32> {
+    let size = vec2<i32>(material.size);
+    let x = vec2<i32>(floor(uv * vec2<f32>(size)));
+    let period = size * select(2, 1, material.addressing == 1u);
+    // Made positive first: GLSL's remainder of negative numbers is another one.
+    let m = (x + 4 * period) % period;
+    if material.addressing == 1u {
+        return min(vec2<u32>(m), material.size - 1u);
+    }
+    // NaN may become any number: clamped once more.
+    return min(vec2<u32>(min(m, period - 1 - m)), material.size - 1u);
+}
+
+@vertex
+fn splat_quad(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance: u32) -> Sample {
+    let texel = min(vec2<u32>(instance % splat_block.side, instance / splat_block.side), vec2<u32>(splat_block.side - 1u));
+    let flux = textureLoad(tsm_fluxes, texel, splat_block.light, splat_block.level);
+    let position = textureLoad(tsm_positions, texel, splat_block.light, splat_block.level);
+    var texel_mm = splat_block.texel_mm;
+    if splat_block.middle_mm > 0.0 {
+        texel_mm *= 1.0 + position.w / splat_block.middle_mm;
+    }
+    var wanted = flux.w > 0.0 && max(flux.x, max(flux.y, flux.z)) > 0.0;
+    if splat_block.refines != 0u {
+        wanted = wanted && !is_smooth(texel / 2u, splat_block.level + 1u, 2.0 * texel_mm);
+    } else {
+        wanted = wanted && is_smooth(texel, splat_block.level, texel_mm);
+    }
+    let centre = splat_block.clip_from_centre * vec4<f32>(position.xyz, 1.0);
+    let radius = min(splat_block.fade_out.y, material.r_max_mm);
+    // Nothing behind the eye is seen.
+    if !wanted || centre.w < -radius {
+        return Sample(vec4<f32>(2.0, 2.0, 2.0, 1.0), vec3<f32>(0.0), vec3<f32>(0.0), vec4<u32>(0u), 0.0);
+    }
+    // A sphere of that radius, seen in perspective; close to the eye it may be everywhere.
+    let distance = max(centre.w - radius, 0.02 * radius);
+    let half_size = splat_block.focal * radius / distance;
+    let side = vec2<f32>(vec2<u32>(corner & 1u, corner >> 1u)) * 2.0 - 1.0;
+    let clip = centre.xy / max(centre.w, distance) + side * half_size;
+    let uv = textureLoad(tsm_uvs, texel, splat_block.light, splat_block.level);
+    var light = flux.xyz * texel_mm * texel_mm;
+    var softening_mm = 0.0;
+    if splat_block.fade_in.y == 0.0 {
+        // Samples of a slanted surface are further apart than those across the light.
+        let slope = min((uv.w - uv.z) / texel_mm, 2.0);
+        softening_mm = SOFTENING * texel_mm * sqrt(1.0 + slope * slope);
+        light *= softening_gain(softening_mm);
+    }
+    return Sample(vec4<f32>(clip, 0.5, 1.0), position.xyz, light, pack_pixel(patch_texel(uv.xy)), softening_mm);
+}
+
+// Share of the ring at a distance in mm, 0 to 1.
+fn ring_weight(r_mm: f32) -> f32 {
+    let begun = select(1.0, smoothstep(splat_block.fade_in.x, splat_block.fade_in.y, r_mm), splat_block.fade_in.y > 0.0);
+    return begun * (1.0 - smoothstep(splat_block.fade_out.x, splat_block.fade_out.y, r_mm));
+}
+
+@fragment
+fn splat(in: Sample) -> @location(0) vec4<f32> {
+    let size = textureDimensions(positions);
+    let texel = min(vec2<u32>(in.clip.xy) * splat_block.stride + splat_block.stride / 2u, size - 1u);
+    let seen = textureLoad(positions, texel, 0);
+    let r_mm = distance(seen.xyz, in.position);
+    let share = ring_weight(r_mm);
+    let softened_mm = sqrt(r_mm * r_mm + in.softening_mm * in.softening_mm);
+    // Depth of the background is beyond everything.
+    if softened_mm > material.r_max_mm || share <= 0.0 || seen.w > 50000.0 {
+        return vec4<f32>(0.0);
+    }
+    // Rd of the pixels at both points (eq. 2 to 4), r their distance in space.
+    let o = load_pixel(patch_texel(textureLoad(uvs, texel, 0).xy));
+    let i = unpack_pixel(in.pixel);
+    let rd = reflectance(i, partner_at(o, softened_mm), vec2<i32>(0));
+    // Within half floats.
+    return vec4<f32>(min(rd * in.flux * share, vec3<f32>(60000.0)), 0.0);
+}
