@@ -5,13 +5,15 @@
 .PHONY: demo test
 
 subsurf = cargo run --quiet --release --package subsurf-cli --
+study = cargo run --quiet --release --package subsurf-study --
 subsurf_dev = cargo run --quiet --package subsurf-cli --
 
 demo:
-	cargo build --release --package subsurf-cli
+	cargo build --release --package subsurf-cli --package subsurf-study
 	@scripts/has-gpu "$(subsurf)" || scripts/has-drivers "$(subsurf)" || scripts/install-software-gpu \
 		|| echo "going on with what there is; the CPU renderer needs no driver"
 	$(subsurf) demo
+	$(study) bench load --files demo-out/onyx.npy demo-out/onyx-profiles.subsurf demo-out/onyx.subsurf -o demo-out
 
 # The tests need both APIs, and Mesa for OpenGL ES 3.0 in particular.
 test:

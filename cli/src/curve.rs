@@ -5,8 +5,8 @@ use subsurf_encoder::rate::{Point, Walked};
 
 use crate::compare::db;
 use crate::encode::coding_name;
-use crate::memory::human;
-use crate::say::say;
+use crate::outln;
+use subsurf_viewer::human;
 
 /// One model that was tried.
 pub(crate) fn line(point: &Point) -> String {
@@ -27,7 +27,7 @@ pub(crate) fn line(point: &Point) -> String {
 pub(crate) fn print(walked: &Walked) {
     let mut points: Vec<(usize, &Point)> = walked.points.iter().enumerate().collect();
     points.sort_by_key(|(_, point)| point.encoded.bytes.len());
-    say!("rate-distortion curve, PSNR under uniform / disc / line light (* best of its size, > chosen):");
+    outln!("rate-distortion curve, PSNR under uniform / disc / line light (* best of its size, > chosen):");
     let mut highest = f64::NEG_INFINITY;
     for (number, point) in points {
         let uniform = point.psnr_db[0].unwrap_or(f64::NEG_INFINITY);
@@ -39,7 +39,7 @@ pub(crate) fn print(walked: &Walked) {
             ' '
         };
         highest = highest.max(uniform);
-        say!("{mark}{}", line(point));
+        outln!("{mark}{}", line(point));
     }
 }
 

@@ -15,20 +15,19 @@ use subsurf_encoder::write_bytes;
 use subsurf_runtime::{Backend, Gpu, Material, PatchLight, PatchRenderer, Region, layout_of};
 use subsurf_scene::torus;
 use subsurf_shaders::cpu;
+use subsurf_viewer::{MappingChoice, RenderRequest, Scattering, human};
 
-use crate::bench::{Case, markdown, measure};
 use crate::compare::{Judgement, db, judge};
-use crate::devices::{self, BackendArg};
+use crate::devices;
 use crate::encode::encode;
-use crate::failure::bad_request;
-use crate::memory::human;
+use crate::outln;
 use crate::picture::{montage, triptych, write_png};
-use crate::progress::Bars;
-use crate::render::{MappingArg, PathArg, Shot, draw_mesh, draw_patch, patch_irradiance};
-use crate::say::say;
+use crate::program::failure::bad_request;
+use crate::program::progress::Bars;
+use crate::render::{draw_mesh, draw_patch, patch_irradiance};
 use crate::simulate::Request;
 
-/// Simulate, encode, judge, draw and time one material, and leave pictures and tables in a folder.
+/// Simulate, encode, judge and draw one material, and leave pictures and a table in a folder.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The folder
@@ -47,7 +46,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         .map_err(|error| bad_request(format!("{}: cannot make the folder: {error}", dir.display())))?;
     let path = |name: &str| dir.join(name);
 
-    say!("1. Simulating a capture of a synthetic onyx, {SIZE} × {SIZE} pixels, window {WINDOW} (under a minute) ..");
+    outln!("1. Simulating a capture of a synthetic onyx, {SIZE} × {SIZE} pixels, window {WINDOW} (under a minute) ..");
     let start = Instant::now();
     let map = Scene::Onyx.map([SIZE; 2], Addressing::Repeat, 1);
     let request = Request {
@@ -64,9 +63,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         scalar: Scalar::F32,
     };
     request.write(&path("onyx.npy"))?;
-    say!("   {:.1} s", start.elapsed().as_secs_f64());
+    outln!("   {:.1} s", start.elapsed().as_secs_f64());
 
-    say!("2. Encoding it: per-pixel profiles, and 2-BMPP with {BASE_MATERIALS} base materials ..");
+    outln!("2. Encoding it: per-pixel profiles, and 2-BMPP with {BASE_MATERIALS} base materials ..");
     let capture = Capture::open(&path("onyx.npy"), &Overrides::default())?;
     let mut judgements = Vec::new();
     let mut files = Vec::new();
@@ -74,7 +73,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let start = Instant::now();
         let options = Options { method, base_materials: BASE_MATERIALS, ..Options::default() };
         let encoded = encode(&capture, None, &options, &path(name))?;
-        say!("   {name}: {} in {:.1} s", human(encoded.bytes.len() as u64), start.elapsed().as_secs_f64());
+        outln!("   {name}: {} in {:.1} s", human(encoded.bytes.len() as u64), start.elapsed().as_secs_f64());
         let material = Bssrdf::parse(&encoded.bytes)?;
         judgements.push(judge(&capture, &material, encoded.bytes.len() as u64, &Bars::new())?);
         files.push(encoded.bytes);
@@ -84,39 +83,24 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let rows: Vec<_> = judgements[1].comparison.lit.iter().map(|relit| triptych(relit, SIZE)).collect();
     write_png(&path("comparison.png"), &montage(&rows))?;
 
-    say!("3. Drawing it ..");
+    outln!("3. Drawing it ..");
     let drawn = draw(dir, &material)?;
 
-    say!("4. Timing how it loads ..");
-    let backend = if drawn.devices.is_empty() { BackendArg::Cpu } else { BackendArg::Auto };
-    let case = Case {
-        #[allow(clippy::cast_possible_truncation, reason = "small")]
-        size: [SIZE as u32; 2],
-        window: WINDOW,
-        #[allow(clippy::cast_possible_truncation, reason = "small")]
-        base_materials: BASE_MATERIALS as u32,
-        samples: material.header().samples.into(),
-        source: "synthetic onyx, simulated",
-        files: ["onyx.npy", "onyx-profiles.subsurf", "onyx.subsurf"].map(path),
-    };
-    let loading = measure(&case, 20, backend)?;
     let table = format!(
-        "{}\n{}\nDrawn by: {}\n{}",
+        "{}\nDrawn by: {}\n{}",
         quality_table(&capture, &judgements),
-        markdown(&loading),
         if drawn.devices.is_empty() { devices::name(None) } else { drawn.devices.join("; ") },
         drawn.agreement,
     );
-    say!("\n{table}");
+    outln!("\n{table}");
     write_bytes(&path("table.md"), table.as_bytes())?;
-    write_bytes(&path("loading.json"), format!("{loading:#}\n").as_bytes())?;
 
-    say!("Look at these, in {}:", std::path::absolute(dir)?.display());
-    say!("  comparison.png   original, 2-BMPP, and ten times their difference, under three lights");
-    say!("  patch.png        the patch lit by a disc, from the file");
-    say!("  mesh.png         a torus made of the material");
-    say!("  table.md         the tables above; loading.json has their numbers");
-    say!("  onyx.npy, onyx.subsurf   the capture and the file, to try the other commands on");
+    outln!("Look at these, in {}:", std::path::absolute(dir)?.display());
+    outln!("  comparison.png   original, 2-BMPP, and ten times their difference, under three lights");
+    outln!("  patch.png        the patch lit by a disc, from the file");
+    outln!("  mesh.png         a torus made of the material");
+    outln!("  table.md         the table above");
+    outln!("  onyx.npy, onyx.subsurf   the capture and the file, to try the other commands on");
     Ok(())
 }
 
@@ -130,7 +114,7 @@ struct Drawn {
 fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
     let gpus: Vec<Gpu> = Backend::ALL.into_iter().filter_map(|backend| Gpu::open(backend).ok()).collect();
     if gpus.is_empty() {
-        say!("   no device found: the CPU draws");
+        outln!("   no device found: the CPU draws");
     }
     let header = material.header();
     let whole = Region { origin: [0, 0], size: [header.width, header.height] };
@@ -148,16 +132,22 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
         let worst = differences.fold(0.0, f32::max);
         let name = devices::name(Some(gpu));
         let line = format!("{name}: at most {worst:.1e} of the brightest value from the CPU's exitance");
-        say!("   {line}");
+        outln!("   {line}");
         // Writing to a string cannot fail.
         let _ = writeln!(agreement, "- {line}");
         devices.push(name);
     }
     let gpu = gpus.first();
-    let (patch, _) = draw_patch(gpu, material, PathArg::Gather, Light::Disc, [512, 512], None)?;
+    let (patch, _) = draw_patch(gpu, material, Scattering::Gather, Light::Disc, [512, 512], None)?;
     write_png(&dir.join("patch.png"), &patch)?;
-    let (mesh, _) =
-        draw_mesh(gpu, material, &torus(18.0, 8.0, 64), MappingArg::Auto, PathArg::Gather, &Shot::usual([800, 600]))?;
+    let (mesh, _) = draw_mesh(
+        gpu,
+        material,
+        &torus(18.0, 8.0, 64),
+        MappingChoice::Auto,
+        Scattering::Gather,
+        &RenderRequest::usual([800, 600]),
+    )?;
     write_png(&dir.join("mesh.png"), &mesh)?;
     Ok(Drawn { devices, agreement })
 }

@@ -1,16 +1,16 @@
 //! `subsurf devices`: what there is to draw with.
 
-use subsurf_runtime::{Backend, Gpu, TargetFormat, devices};
+use subsurf_runtime::{Backend, Gpu, devices};
 
-use crate::failure::bad_request;
-use crate::say::say;
+use crate::outln;
+use crate::program::failure::bad_request;
 
 pub(crate) fn run() -> anyhow::Result<()> {
     let mut opened = 0;
     let mut failed = None;
     for backend in Backend::ALL {
         for info in devices(backend) {
-            say!("{backend:<10} {} ({:?}; {} {})", info.name, info.device_type, info.driver, info.driver_info);
+            outln!("{backend:<10} {} ({:?}; {} {})", info.name, info.device_type, info.driver, info.driver_info);
         }
         match Gpu::open(backend) {
             Ok(_) => opened += 1,
@@ -28,7 +28,7 @@ pub(crate) fn run() -> anyhow::Result<()> {
 
 /// What draws: a graphics API, or the CPU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum BackendArg {
+pub enum BackendArg {
     /// The first of Vulkan, OpenGL ES and CPU that works
     Auto,
     /// Vulkan
@@ -40,8 +40,8 @@ pub(crate) enum BackendArg {
 }
 
 impl BackendArg {
-    /// Opens the device; `None` stands for the CPU.
-    pub(crate) fn open(self) -> anyhow::Result<Option<Gpu>> {
+    /// The device, opened; `None` stands for the CPU.
+    pub fn open(self) -> anyhow::Result<Option<Gpu>> {
         match self {
             Self::Auto => Ok(Backend::ALL.into_iter().find_map(|backend| Gpu::open(backend).ok())),
             Self::Vulkan => Ok(Some(Gpu::open(Backend::Vulkan)?)),
@@ -51,29 +51,8 @@ impl BackendArg {
     }
 }
 
-/// The devices that draw by every path, and what they are.
-pub(crate) fn to_compare() -> Vec<(Backend, Gpu)> {
-    let mut gpus = Vec::new();
-    for backend in Backend::ALL {
-        match Gpu::open(backend) {
-            Ok(gpu) if gpu.target_format() == TargetFormat::Packed => {
-                say!(
-                    "{backend}: {} has no half floats to draw to, which splats and flat patches need",
-                    gpu.info().name
-                );
-            }
-            Ok(gpu) => {
-                say!("{backend}: {} ({})", gpu.info().name, gpu.info().driver_info);
-                gpus.push((backend, gpu));
-            }
-            Err(_) => say!("{backend}: no device"),
-        }
-    }
-    gpus
-}
-
 /// Name of a device for people.
-pub(crate) fn name(gpu: Option<&Gpu>) -> String {
+pub fn name(gpu: Option<&Gpu>) -> String {
     gpu.map_or_else(
         || format!("CPU, {} threads", rayon::current_num_threads()),
         |gpu| format!("{} ({:?}, {})", gpu.info().name, gpu.info().backend, gpu.info().driver_info),

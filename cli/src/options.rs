@@ -1,16 +1,14 @@
 //! Values that several commands take.
 
-use std::path::Path;
 use std::str::FromStr;
 
 use clap::ValueEnum;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::capture::Overrides;
-use subsurf_scene::UpAxis;
 
 /// What lies beyond the border of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum AddressingArg {
+pub enum AddressingArg {
     /// The material ends there; a renderer draws the border pixel out.
     Clamp,
     /// The patch repeats: tileable.
@@ -29,32 +27,9 @@ impl From<AddressingArg> for Addressing {
     }
 }
 
-/// Which way is up in the file of a mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum UpArg {
-    /// As in glTF and most OBJ files
-    Y,
-    /// As in most scans and CAD files
-    Z,
-}
-
-impl From<UpArg> for UpAxis {
-    fn from(arg: UpArg) -> Self {
-        match arg {
-            UpArg::Y => Self::Y,
-            UpArg::Z => Self::Z,
-        }
-    }
-}
-
-/// What to call what is in a file.
-pub(crate) fn stem(path: &Path) -> String {
-    path.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
-}
-
 /// Facts about a capture that its sidecar, NAME.json, usually states.
 #[derive(clap::Args, Clone, Copy, Debug)]
-pub(crate) struct CaptureArgs {
+pub struct CaptureArgs {
     /// Distance of neighbouring pixels in mm; wins over the sidecar
     #[arg(long, value_name = "MM")]
     pitch: Option<f32>,
@@ -67,14 +42,18 @@ pub(crate) struct CaptureArgs {
 }
 
 impl CaptureArgs {
-    pub(crate) fn overrides(&self) -> Overrides {
+    /// What wins over the sidecar.
+    pub fn overrides(&self) -> Overrides {
         Overrides { pitch_mm: self.pitch, addressing: self.addressing.map(Into::into), eta: self.eta }
     }
 }
 
 /// WIDTHxHEIGHT, or one number for both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Size(pub(crate) [u32; 2]);
+pub struct Size(
+    /// Width and height.
+    pub [u32; 2],
+);
 
 impl FromStr for Size {
     type Err = String;
@@ -97,7 +76,10 @@ impl std::fmt::Display for Size {
 
 /// A number of bytes: 40000, 40kB, 1.5GB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct ByteCount(pub(crate) u64);
+pub struct ByteCount(
+    /// Bytes.
+    pub u64,
+);
 
 impl FromStr for ByteCount {
     type Err = String;

@@ -8,13 +8,13 @@ use subsurf_encoder::metrics::Relit;
 use subsurf_encoder::write_bytes;
 
 /// Display values, row by row, as an image.
-pub(crate) fn image(pixels: &[[u8; 3]], width: u32) -> RgbImage {
+pub fn image(pixels: &[[u8; 3]], width: u32) -> RgbImage {
     let height = u32::try_from(pixels.len()).unwrap_or(0) / width;
     RgbImage::from_fn(width, height, |x, y| Rgb(pixels[(y * width + x) as usize]))
 }
 
 /// Writes a PNG, whole or not at all.
-pub(crate) fn write_png(path: &Path, image: &RgbImage) -> anyhow::Result<()> {
+pub fn write_png(path: &Path, image: &RgbImage) -> anyhow::Result<()> {
     let mut bytes = Cursor::new(Vec::new());
     image.write_to(&mut bytes, ImageFormat::Png)?;
     Ok(write_bytes(path, &bytes.into_inner())?)
@@ -25,7 +25,7 @@ const GAP: u32 = 6;
 const PAPER: Rgb<u8> = Rgb([235; 3]);
 
 /// Puts pictures of equal size into rows.
-pub(crate) fn montage(rows: &[Vec<RgbImage>]) -> RgbImage {
+pub fn montage(rows: &[Vec<RgbImage>]) -> RgbImage {
     let (width, height) = rows.first().and_then(|row| row.first()).map_or((1, 1), RgbImage::dimensions);
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let count = |n: usize| u32::try_from(n).unwrap_or(0);
@@ -41,7 +41,7 @@ pub(crate) fn montage(rows: &[Vec<RgbImage>]) -> RgbImage {
 }
 
 /// Linear values 0 to 1 as sRGB, every pixel a block of `scale` × `scale`.
-pub(crate) fn linear(pixels: &[[f64; 3]], width: u32, scale: u32) -> RgbImage {
+pub fn linear(pixels: &[[f64; 3]], width: u32, scale: u32) -> RgbImage {
     #[allow(clippy::cast_possible_truncation, reason = "display values")]
     let bytes: Vec<[u8; 3]> = pixels
         .iter()
@@ -51,7 +51,7 @@ pub(crate) fn linear(pixels: &[[f64; 3]], width: u32, scale: u32) -> RgbImage {
 }
 
 /// Display values as they are, or linear ones times an exposure as sRGB; at least 256 pixels wide.
-pub(crate) fn display(pixels: &[[f32; 3]], width: u32, exposure: Option<f32>) -> RgbImage {
+pub fn display(pixels: &[[f32; 3]], width: u32, exposure: Option<f32>) -> RgbImage {
     let shown = |rgb: &[f32; 3]| match exposure {
         Some(exposure) => subsurf_shaders::cpu::srgb(rgb.map(|value| exposure * value)),
         None => *rgb,

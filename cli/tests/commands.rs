@@ -214,10 +214,6 @@ fn btfs_from_images_to_judgement() {
     let paper = json(folder, "encode btf wood --method paper -o paper.subsurf --json");
     assert!(paper["error"]["mssim"]["mean"].as_f64().unwrap() > 0.7, "{paper}");
 
-    let load = json(folder, "bench load --btf leather.subsurf --images leather --runs 2 --dir . --json");
-    assert_eq!(load["storage"]["images"]["bytes"], 3 * 16 * 16 * 6_561);
-    assert_eq!(load["storage"]["file"]["bytes"], file.len());
-    assert!(load["images_over_file"]["load_warm"].as_f64().unwrap() > 0.0, "{load}");
     assert_refused(&run(folder, "encode btf nothing"), &["nothing", "a folder of images"]);
     draws_btfs(folder);
 }
@@ -405,50 +401,5 @@ fn targets_choose_the_model() {
     assert_refused(&run(folder, "encode a.npy --target-psnr 300"), &["300 dB", "the best has"]);
     assert_refused(&run(folder, "encode a.npy --max-memory 1kB"), &["memory", "--max-memory allows 1.00 kB"]);
     assert_eq!(run(folder, "encode a.npy --target-psnr 30 -M 8").code, 2, "M is what is looked for");
-}
-
-#[test]
-fn an_interrupted_benchmark_takes_its_files_along() {
-    let folder = tempfile::tempdir().unwrap();
-    let mut long = command(folder.path());
-    long.args(["bench", "load", "--case", "150x150,25,8,13", "--dir", ".", "--backend", "cpu"]).stdout(Stdio::null());
-    let mut child = long.stderr(Stdio::null()).spawn().unwrap();
-    while files(folder.path()).is_empty() {
-        assert!(child.try_wait().unwrap().is_none(), "the folder is there until the end");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    let kill = std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
-    assert!(kill.success(), "the run was still going");
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert_eq!(files(folder.path()), [""; 0], "no folder");
-}
-
-#[test]
-fn loading_is_timed() {
-    let folder = tempfile::tempdir().unwrap();
-    for backend in ["auto", "cpu"] {
-        let report =
-            json(folder.path(), &format!("bench load --case 20x16,5,8,4 --runs 2 --dir . --backend {backend} --json"));
-        let case = &report["cases"][0];
-        assert_eq!((&case["pixels"], &case["window"]), (&320.into(), &5.into()));
-        let entries = 320 * 25 * 3 * 4;
-        for (name, bytes) in
-            [("capture", entries + 128), ("profiles", 12 * 320 * 4 + 108), ("bmpp", 12 * 8 * 4 + 6 * 320 + 156)]
-        {
-            let storage = &case["storage"][name];
-            assert_eq!(storage["bytes"], bytes, "{name}");
-            assert!(storage["peak_rss_bytes"].as_u64() > Some(entries), "{name}: more than the largest file");
-            let on_device = storage["gpu_bytes"].as_u64().unwrap();
-            assert_eq!(on_device > 0, backend == "auto", "{name}: {on_device}");
-            for kind in ["warm_us", "cold_us"] {
-                let steps = &storage[kind];
-                let step = |step: &str| steps[step].as_f64().unwrap_or_else(|| panic!("{name}: {steps}"));
-                let sum = step("read") + step("parse") + step("upload") + step("first_frame");
-                assert!(sum > 0.0 && step("total") > 0.5 * sum && step("total") < 2.0 * sum, "{name}: {steps}");
-            }
-        }
-        assert!(case["ratios"]["capture_over_bmpp"]["load_warm"].is_number(), "{case}");
-    }
-    assert_eq!(files(folder.path()), [""; 0], "the files are gone");
-    assert_refused(&run(folder.path(), "encode a.npy --pitch 1 --threads 0"), &["--threads"]);
+    assert_refused(&run(folder, "encode a.npy --pitch 1 --threads 0"), &["--threads"]);
 }

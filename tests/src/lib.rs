@@ -2,6 +2,7 @@
 
 pub mod frames;
 pub mod nested;
+pub mod program;
 
 use std::path::{Path, PathBuf};
 

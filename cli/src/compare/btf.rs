@@ -6,15 +6,15 @@ use serde_json::{Value, json};
 use subsurf_decoder::btf::{Catalog, Evaluate};
 use subsurf_encoder::btf::Images;
 use subsurf_encoder::metrics::btf::{BtfError, compare, decode, with_file};
+use subsurf_viewer::{human, material_number, read};
 
 use super::Args;
 use crate::encode::btf::load;
-use crate::failure::bad_request;
-use crate::info::{Parts, material_number, read_error, read_file};
-use crate::memory::human;
+use crate::info::{Parts, read_error};
+use crate::outln;
 use crate::picture::{display, montage, write_png};
-use crate::progress::Bars;
-use crate::say::say;
+use crate::program::failure::bad_request;
+use crate::program::progress::Bars;
 
 /// Pairs of directions that pictures are made of: shares of all of them.
 const PICTURED: [f64; 6] = [0.003, 0.12, 0.31, 0.52, 0.73, 0.96];
@@ -22,7 +22,7 @@ const PICTURED: [f64; 6] = [0.003, 0.12, 0.31, 0.52, 0.73, 0.96];
 const MAGNIFIED: f32 = 5.0;
 
 pub(super) fn run(args: &Args) -> anyhow::Result<()> {
-    let bytes = read_file(&args.file)?;
+    let bytes = read(&args.file)?;
     let parts = Parts::of(&args.file, &bytes)?;
     with_file(&bytes, |file| compare_with(args, file, &parts, bytes.len()))
         .map_err(|error| read_error(&args.file, error))?
@@ -42,14 +42,14 @@ fn compare_with(args: &Args, file: &(dyn Evaluate + Sync), parts: &Parts, bytes:
     let pairs: Vec<usize> = (0..images.pairs()).step_by(args.every.max(1)).collect();
     let error = compare(&images, file, material, &pairs, &Bars::new());
     if args.json {
-        say!("{:#}", to_json(&error, parts, &images, bytes));
+        outln!("{:#}", to_json(&error, parts, &images, bytes));
     } else {
         print(args, &error, parts, &images, bytes);
     }
     if let Some(folder) = &args.images {
         pictures(folder, &images, file, material)?;
         if !args.json {
-            say!("pictures (original, file, {MAGNIFIED} × difference) in {}", folder.display());
+            outln!("pictures (original, file, {MAGNIFIED} × difference) in {}", folder.display());
         }
     }
     Ok(())
@@ -91,12 +91,12 @@ fn to_json(error: &BtfError, parts: &Parts, images: &Images, bytes: usize) -> Va
 }
 
 fn print(args: &Args, error: &BtfError, parts: &Parts, images: &Images, bytes: usize) {
-    say!("{} against {}", args.file.display(), args.capture.display());
+    outln!("{} against {}", args.file.display(), args.capture.display());
     #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
     let ratio = images.bytes() as f64 / bytes as f64;
-    say!("  {} of {}: 1:{ratio:.0}", human(bytes as u64), human(images.bytes()));
-    say!("  {} over {} pairs", mssim(error), error.pairs);
-    say!("  PSNR  {:.1} dB", error.psnr_db);
+    outln!("  {} of {}: 1:{ratio:.0}", human(bytes as u64), human(images.bytes()));
+    outln!("  {} over {} pairs", mssim(error), error.pairs);
+    outln!("  PSNR  {:.1} dB", error.psnr_db);
     parts.print();
 }
 
@@ -107,7 +107,7 @@ fn print(args: &Args, error: &BtfError, parts: &Parts, images: &Images, bytes: u
     clippy::cast_precision_loss,
     reason = "a pair of some thousands"
 )]
-pub(crate) fn pair_at(images: &Images, share: f64) -> usize {
+pub fn pair_at(images: &Images, share: f64) -> usize {
     (share * images.pairs() as f64) as usize
 }
 

@@ -10,16 +10,17 @@ use subsurf_encoder::Progress;
 use subsurf_encoder::capture::Capture;
 use subsurf_encoder::metrics::{self, Comparison, Light};
 
-pub(crate) use btf::{mssim, mssim_json, pair_at};
+pub use btf::pair_at;
+pub(crate) use btf::{mssim, mssim_json};
 
 use crate::encode::btf::is_btf;
-use crate::failure::bad_request;
-use crate::info::{parse, read_file};
-use crate::memory::human;
+use crate::info::parse;
 use crate::options::CaptureArgs;
+use crate::outln;
 use crate::picture::{montage, triptych, write_png};
-use crate::progress::Bars;
-use crate::say::say;
+use crate::program::failure::bad_request;
+use crate::program::progress::Bars;
+use subsurf_viewer::{human, read};
 
 /// Judge a file against the capture it was made from.
 ///
@@ -50,26 +51,30 @@ pub(crate) struct Args {
 }
 
 /// The numbers of a comparison.
-pub(crate) struct Judgement {
-    pub(crate) comparison: Comparison,
-    pub(crate) relative_error_mean: f64,
-    /// By light, in the order of [`Light::ALL`].
+pub struct Judgement {
+    /// Albedo, and the patch under every light, beside the capture's.
+    pub comparison: Comparison,
+    /// Mean relative error of the diffuse albedo.
+    pub relative_error_mean: f64,
+    /// In dB, by light in the order of [`Light::ALL`].
     ///
     /// `None` where the light meets nothing that was measured.
-    pub(crate) psnr_db: [Option<f64>; 3],
+    pub psnr_db: [Option<f64>; 3],
     /// `None` there, too, and for patches smaller than the window of the index.
-    pub(crate) ssim: [Option<f64>; 3],
-    pub(crate) bytes: u64,
-    pub(crate) capture_bytes: u64,
+    pub ssim: [Option<f64>; 3],
+    /// Length of the file.
+    pub bytes: u64,
+    /// Length of the capture.
+    pub capture_bytes: u64,
 }
 
 /// A PSNR for tables, in dB; a dash where the light meets nothing that was measured.
-pub(crate) fn db(psnr: Option<f64>) -> String {
+pub fn db(psnr: Option<f64>) -> String {
     psnr.map_or_else(|| "-".to_owned(), |psnr| format!("{psnr:.1}"))
 }
 
 /// Evaluates all measured pairs.
-pub(crate) fn judge(
+pub fn judge(
     capture: &Capture,
     material: &Bssrdf<'_>,
     bytes: u64,
@@ -102,12 +107,12 @@ impl Judgement {
     pub(crate) fn print(&self) {
         #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
         let ratio = self.capture_bytes as f64 / self.bytes as f64;
-        say!("  {} of {}: 1:{ratio:.0}", human(self.bytes), human(self.capture_bytes));
-        say!("  mean relative error of the diffuse albedo {:.4}", self.relative_error_mean);
+        outln!("  {} of {}: 1:{ratio:.0}", human(self.bytes), human(self.capture_bytes));
+        outln!("  mean relative error of the diffuse albedo {:.4}", self.relative_error_mean);
         for ((light, psnr), ssim) in Light::ALL.iter().zip(self.psnr_db).zip(self.ssim) {
             let ssim = ssim.map_or_else(|| "- (patch too small)".to_owned(), |ssim| format!("{ssim:.4}"));
             let psnr = psnr.map_or_else(|| "- (nothing is lit)".to_owned(), |psnr| format!("{psnr:5.1} dB"));
-            say!("  {:<8} PSNR {psnr}   SSIM {ssim}", light.name());
+            outln!("  {:<8} PSNR {psnr}   SSIM {ssim}", light.name());
         }
     }
 }
@@ -117,13 +122,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         return btf::run(args);
     }
     let capture = Capture::open(&args.capture, &args.facts.overrides())?;
-    let bytes = read_file(&args.file)?;
+    let bytes = read(&args.file)?;
     let material = parse(&args.file, &bytes)?;
     let judgement = judge(&capture, &material, bytes.len() as u64, &Bars::new())?;
     if args.json {
-        say!("{:#}", judgement.to_json());
+        outln!("{:#}", judgement.to_json());
     } else {
-        say!("{} against {}", args.file.display(), args.capture.display());
+        outln!("{} against {}", args.file.display(), args.capture.display());
         judgement.print();
     }
     if let Some(folder) = &args.images {
@@ -137,7 +142,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
         write_png(&folder.join("comparison.png"), &montage(&rows))?;
         if !args.json {
-            say!("pictures (original, file, 10 × difference) in {}", folder.display());
+            outln!("pictures (original, file, 10 × difference) in {}", folder.display());
         }
     }
     Ok(())

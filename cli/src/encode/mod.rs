@@ -1,6 +1,6 @@
 //! `subsurf encode`: from a capture to a file.
 
-pub(crate) mod btf;
+pub mod btf;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -17,12 +17,13 @@ use subsurf_encoder::{check_target, write_bytes};
 
 use crate::compare::{Judgement, judge};
 use crate::curve;
-use crate::failure::bad_request;
-use crate::interrupt::Graceful;
-use crate::memory::{available, human, resident};
 use crate::options::{ByteCount, CaptureArgs};
-use crate::progress::Bars;
-use crate::say::say;
+use crate::outln;
+use crate::program::failure::bad_request;
+use crate::program::interrupt::Graceful;
+use crate::program::memory::{available, resident};
+use crate::program::progress::Bars;
+use subsurf_viewer::human;
 
 /// Fit a material to a capture and write a .subsurf file; `encode btf` does so with the images of a BTF.
 ///
@@ -268,7 +269,7 @@ impl Report<'_> {
                 value.insert("curve".to_owned(), curve::to_json(walked));
             }
         }
-        say!("{value:#}");
+        outln!("{value:#}");
     }
 
     fn print(&self, judgement: &Judgement, walked: Option<&Walked>) {
@@ -277,24 +278,24 @@ impl Report<'_> {
             curve::print(walked);
         }
         let size = human(encoded.bytes.len() as u64);
-        say!("{}: {size} from {}", self.output.display(), human(self.capture.file_bytes()));
+        outln!("{}: {size} from {}", self.output.display(), human(self.capture.file_bytes()));
         if encoded.stopped {
-            say!("  interrupted: this is the best model so far");
+            outln!("  interrupted: this is the best model so far");
         }
         let missing = encoded.entries - encoded.measured;
         if missing > 0 {
             #[allow(clippy::cast_precision_loss, reason = "a percentage")]
             let share = 100.0 * missing as f64 / encoded.entries as f64;
-            say!("  {share:.1} % of the entries inside the material were not measured; they weigh nothing");
+            outln!("  {share:.1} % of the entries inside the material were not measured; they weigh nothing");
         }
         if encoded.per_pixel > 0 && encoded.base_materials < self.options.base_materials {
             let asked = self.options.base_materials;
-            say!("  {} of {asked} base materials: no pixel had use for the others", encoded.base_materials);
+            outln!("  {} of {asked} base materials: no pixel had use for the others", encoded.base_materials);
         }
         judgement.print();
         let memory = resident().unwrap_or_default();
         let beside_mapped = human(memory.peak.saturating_sub(memory.mapped));
-        say!("  {:.1} s, {beside_mapped} of memory besides the mapped capture", self.seconds);
+        outln!("  {:.1} s, {beside_mapped} of memory besides the mapped capture", self.seconds);
     }
 }
 
@@ -302,7 +303,7 @@ impl Report<'_> {
 fn walk(capture: &Capture, args: &CaptureFit, target: Target) -> anyhow::Result<Walked> {
     let mut said = |point: &Point| {
         if !args.json {
-            say!("{}", curve::line(point));
+            outln!("{}", curve::line(point));
         }
     };
     Ok(rate::walk(capture, args.samples, args.seed, target, &Bars::new(), &mut said)?)

@@ -10,8 +10,8 @@ use subsurf_decoder::container::{Container, Crc};
 use subsurf_decoder::{Btf, Factored, ReadError};
 
 use super::{Args, read_error};
-use crate::memory::human;
-use crate::say::say;
+use crate::outln;
+use subsurf_viewer::human;
 
 pub(super) fn info(args: &Args, bytes: &[u8], container: &Container<'_>) -> anyhow::Result<()> {
     let parts = Parts::of(&args.file, bytes)?;
@@ -27,35 +27,29 @@ pub(super) fn info(args: &Args, bytes: &[u8], container: &Container<'_>) -> anyh
             "model": parts.model(), "tone": format!("{:?}", header.tone), "nodes": nodes, "materials": materials,
             "parts": parts.to_json(), "bytes": bytes.len(),
         });
-        say!("{value:#}");
+        outln!("{value:#}");
         return Ok(());
     }
-    say!("{}: BTF in {}, {}", args.file.display(), parts.model(), human(bytes.len() as u64));
+    outln!("{}: BTF in {}, {}", args.file.display(), parts.model(), human(bytes.len() as u64));
     for of in catalog.materials() {
         let name = if of.name().is_empty() { "unnamed" } else { of.name() };
-        say!("  {name}: {} × {} texels, mipmap levels: {}", of.width, of.height, of.levels);
+        outln!("  {name}: {} × {} texels, mipmap levels: {}", of.width, of.height, of.levels);
     }
-    say!(
+    outln!(
         "  nodes of α, sin β, θ, φ: {nodes:?}, lights measured to {:.0}°, views to {:.0}°",
         grid.cos_light_min.acos().to_degrees(),
         grid.theta_max.to_degrees(),
     );
-    say!("  {:?}", header.tone);
+    outln!("  {:?}", header.tone);
     parts.print();
     for entry in container.entries() {
-        say!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
+        outln!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
     }
     Ok(())
 }
 
-/// The material that is asked for by its name, or else by its number from 0.
-pub(crate) fn material_number(names: &[String], asked: &str) -> Option<usize> {
-    let by_number = || asked.parse().ok().filter(|number| *number < names.len());
-    names.iter().position(|name| name == asked).or_else(by_number)
-}
-
 /// What a file is made of.
-pub(crate) enum Parts {
+pub enum Parts {
     /// Nested codebooks.
     Books(Vec<BookSize>),
     /// Factors.
@@ -63,7 +57,7 @@ pub(crate) enum Parts {
 }
 
 /// Numbers of everything in a file of factors.
-pub(crate) struct FactorSizes {
+pub struct FactorSizes {
     luma: u8,
     chroma: u8,
     /// Codewords of every stage.
@@ -76,7 +70,7 @@ pub(crate) struct FactorSizes {
 
 impl Parts {
     /// Checks all of a file.
-    pub(crate) fn of(path: &Path, bytes: &[u8]) -> anyhow::Result<Self> {
+    pub fn of(path: &Path, bytes: &[u8]) -> anyhow::Result<Self> {
         let parts = || -> Result<Self, ReadError> {
             match Catalog::parse(bytes, Crc::Check)?.header().model {
                 Model::Nested => Ok(Self::Books(books(&Btf::parse(bytes)?))),
@@ -106,12 +100,12 @@ impl Parts {
 
     pub(crate) fn print(&self) {
         match self {
-            Self::Books(books) => books.iter().for_each(|book| say!("  {book}")),
+            Self::Books(books) => books.iter().for_each(|book| outln!("  {book}")),
             Self::Factors(FactorSizes { luma, chroma, words, view_axes, light_axes, expanded }) => {
-                say!("  components: {luma} of luma, {chroma} of chroma");
-                say!("  codewords of {} stages: {words:?}", words.len());
-                say!("  axes: {view_axes} of views, {light_axes} of lights");
-                say!("  expanded when loaded: {}", human(*expanded as u64));
+                outln!("  components: {luma} of luma, {chroma} of chroma");
+                outln!("  codewords of {} stages: {words:?}", words.len());
+                outln!("  axes: {view_axes} of views, {light_axes} of lights");
+                outln!("  expanded when loaded: {}", human(*expanded as u64));
             }
         }
     }
@@ -131,14 +125,17 @@ impl Parts {
 }
 
 /// A codebook of a BTF, and how many vectors it stands for.
-pub(crate) struct BookSize {
-    pub(crate) name: String,
-    pub(crate) entries: u32,
-    /// Items of an entry, and bits of an item.
+pub struct BookSize {
+    /// P1 to P6 of the paper and the stage, or of chroma M, I2, I1, C and tints.
+    pub name: String,
+    /// Number of its entries.
+    pub entries: u32,
+    /// Items of an entry.
     pub(crate) items: u32,
+    /// Bits of an item.
     pub(crate) bits: u32,
     /// Vectors of its kind in the resampled data.
-    pub(crate) stands_for: u64,
+    pub stands_for: u64,
 }
 
 impl std::fmt::Display for BookSize {

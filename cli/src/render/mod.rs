@@ -1,15 +1,15 @@
 //! `subsurf render`: a picture of a material, flat or on a mesh.
 
 mod btf;
+mod btf_args;
+mod exposure;
 mod mesh;
+mod options;
 mod patch;
-mod prepared;
 
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 use std::time::Instant;
 
-use glam::Vec3;
 use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
@@ -17,20 +17,20 @@ use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::Light;
 use subsurf_runtime::{RuntimeOptions, TargetFormat};
 use subsurf_scene::{Environment, load_mesh};
-use subsurf_shaders::{Rgb, cpu};
+use subsurf_viewer::{Content, DEFAULT_LIGHT, ROUGHNESS, RenderRequest, Scattering, human, parse, read};
 
 use crate::devices::{self, BackendArg, check_picture};
-use crate::failure::bad_request;
-use crate::info::{Parsed, parse_any, read_file};
-use crate::memory::human;
-use crate::options::{Size, UpArg};
+use crate::options::Size;
+use crate::outln;
 use crate::picture::write_png;
-use crate::say::say;
+use crate::program::failure::bad_request;
+use btf::draw_btf;
+use options::{AnglesArg, LightArg};
 
-pub(crate) use btf::{BtfArgs, Textured, draw_btf, expect_uvs, in_bytes, prepare_btf, read_images, upload_images};
-pub(crate) use mesh::{ROUGHNESS, Shot, choose_mapping, chosen_exposure, draw_mesh};
+pub(crate) use btf_args::{BtfArgs, Copies};
+pub(crate) use mesh::draw_mesh;
+pub(crate) use options::{MappingArg, PathArg, UpArg, read_environment};
 pub(crate) use patch::{draw_patch, patch_irradiance};
-pub(crate) use prepared::{Ingredients, Prepared, Ready};
 
 /// Draw a material: a translucent one flat or on a mesh, by the reference path or by a fast one; a BTF on a mesh.
 #[derive(clap::Args)]
@@ -65,7 +65,7 @@ pub(crate) struct Args {
     mapping: MappingArg,
     /// From where the mesh is seen: degrees around, degrees up
     #[arg(long, default_value = "30,15", value_name = "AROUND,UP", requires = "mesh", allow_hyphen_values = true)]
-    view: Angles,
+    view: AnglesArg,
     /// uniform, disc or line on a patch; a direction X,Y,Z towards the light on a mesh
     #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
     light: Option<LightArg>,
@@ -85,52 +85,6 @@ pub(crate) struct Args {
     btf: BtfArgs,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum PathArg {
-    /// Every point gathers light from all others within reach: the reference
-    Gather,
-    /// Every place that the light reaches is spread over what lies around it; for meshes
-    Splat,
-    /// Weighted irradiance maps and shared Gaussians: many times faster, and an approximation
-    Separable,
-    /// The same with one mean profile everywhere, as if the material were not heterogeneous; for comparison
-    Homogeneous,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum MappingArg {
-    /// Texture coordinates if the mesh has any, repeated so that the material keeps its size; else box
-    Auto,
-    /// Texture coordinates
-    Uv,
-    /// Projected from the side that each normal faces most
-    Box,
-}
-
-/// Light on a patch or on a mesh.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum LightArg {
-    Pattern(Light),
-    Direction(Vec3),
-}
-
-impl FromStr for LightArg {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if let Some(light) = Light::ALL.into_iter().find(|light| light.name() == text) {
-            return Ok(Self::Pattern(light));
-        }
-        let numbers: Option<Vec<f32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
-        match numbers.as_deref() {
-            Some(&[x, y, z]) if Vec3::new(x, y, z).try_normalize().is_some() => {
-                Ok(Self::Direction(Vec3::new(x, y, z).normalize()))
-            }
-            _ => Err("expected uniform, disc, line or a direction such as 1,2,1".to_owned()),
-        }
-    }
-}
-
 const EXAMPLES: &str = "\
 Examples:
   subsurf render jade.subsurf -o patch.png --light line
@@ -138,28 +92,6 @@ Examples:
   subsurf render leather.subsurf -o leather.png
   subsurf render leather.subsurf -o sofa.png --mesh sofa.glb --repeat 8 --environment room.hdr --samples 32
   subsurf render leather.subsurf -o both.png --images leather/        the file and the images, side by side";
-
-/// Degrees around the up axis and above the horizon.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Angles {
-    around: f32,
-    up: f32,
-}
-
-impl FromStr for Angles {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let numbers: Option<Vec<f32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
-        match numbers.as_deref() {
-            Some(&[around, up]) if up.abs() < 90.0 && around.is_finite() => Ok(Self { around, up }),
-            _ => Err("expected two angles in degrees, the second between -90 and 90, such as 30,15".to_owned()),
-        }
-    }
-}
-
-/// Display value that the brightest parts get when the exposure is chosen.
-const BRIGHT: f32 = 0.75;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     check_target(&args.output)?;
@@ -173,16 +105,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if let Some(roughness) = args.roughness.filter(|roughness| !(0.0..=1.0).contains(roughness)) {
         return Err(bad_request(format!("--roughness is {roughness}; it must be between 0 and 1")));
     }
-    let bytes = read_file(&args.file)?;
+    let bytes = read(&args.file)?;
     let start = Instant::now();
-    let (picture, facts, device) = match parse_any(&args.file, &bytes)? {
-        Parsed::Bssrdf(material) => draw_bssrdf(args, &material)?,
-        Parsed::Btf(btf) => {
+    let (picture, facts, device) = match parse(&args.file, &bytes)? {
+        Content::Bssrdf(material) => draw_bssrdf(args, &material)?,
+        Content::Btf(btf) => {
             args.refuse_scattering()?;
             let gpu = args.backend.open()?;
             let shape = args.mesh.as_deref().unwrap_or(Path::new(BTF_SHAPE));
             let mesh = load_mesh(shape, args.extent, args.up.into())?;
-            let (picture, facts) = draw_btf(gpu.as_ref(), &btf, &mesh, &args.btf, &args.shot()?)?;
+            let (picture, facts) = draw_btf(gpu.as_ref(), &btf, &mesh, &args.btf, &args.request()?)?;
             (picture, facts, devices::name(gpu.as_ref()))
         }
     };
@@ -193,12 +125,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         if let Some(value) = value.as_object_mut() {
             value.extend(facts);
         }
-        say!("{value:#}");
+        outln!("{value:#}");
     } else {
-        say!("{}: drawn by {device} in {seconds:.1} s", args.output.display());
+        outln!("{}: drawn by {device} in {seconds:.1} s", args.output.display());
         for (fact, what) in [("gpu_bytes", "the material takes"), ("images_gpu_bytes", "its images take")] {
             if let Some(bytes) = facts.get(fact).and_then(Value::as_u64) {
-                say!("  {what} {} on the device", human(bytes));
+                outln!("  {what} {} on the device", human(bytes));
             }
         }
     }
@@ -211,15 +143,15 @@ const BTF_SHAPE: &str = "knot";
 /// A translucent material, flat or on a mesh; and what drew it.
 fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, Map<String, Value>, String)> {
     args.btf.expect_none()?;
-    let path = args.path.unwrap_or(PathArg::Gather);
-    let is_separable = matches!(path, PathArg::Separable | PathArg::Homogeneous);
+    let technique = Scattering::from(args.path.unwrap_or(PathArg::Gather));
+    let is_separable = matches!(technique, Scattering::Separable | Scattering::Homogeneous);
     let mut gpu = args.backend.open()?;
     let is_short_of_halves = gpu.as_ref().is_some_and(|gpu| gpu.target_format() == TargetFormat::Packed);
     if is_short_of_halves && is_separable && args.mesh.is_none() && args.backend == BackendArg::Auto {
         // The CPU does what the device cannot.
         gpu = None;
     }
-    let flat = |light| draw_patch(gpu.as_ref(), material, path, light, args.size.0, args.exposure);
+    let flat = |light| draw_patch(gpu.as_ref(), material, technique, light, args.size.0, args.exposure);
     let (picture, facts) = match (&args.mesh, args.light) {
         (None, None) => flat(Light::Disc)?,
         (None, Some(LightArg::Pattern(light))) => flat(light)?,
@@ -228,7 +160,7 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, 
         }
         (Some(shape), _) => {
             let mesh = load_mesh(shape, args.extent, args.up.into())?;
-            draw_mesh(gpu.as_ref(), material, &mesh, args.mapping, path, &args.shot()?)?
+            draw_mesh(gpu.as_ref(), material, &mesh, args.mapping.into(), technique, &args.request()?)?
         }
     };
     Ok((picture, facts, devices::name(gpu.as_ref())))
@@ -236,10 +168,10 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, 
 
 impl Args {
     /// The picture of a mesh that is asked for.
-    fn shot(&self) -> anyhow::Result<Shot> {
-        Ok(Shot {
+    fn request(&self) -> anyhow::Result<RenderRequest> {
+        Ok(RenderRequest {
             direction: match self.light {
-                None => mesh::DEFAULT_LIGHT.normalize(),
+                None => DEFAULT_LIGHT.normalize(),
                 Some(LightArg::Direction(direction)) => direction,
                 Some(LightArg::Pattern(_)) => {
                     return Err(bad_request(
@@ -251,8 +183,8 @@ impl Args {
                 Some(path) => read_environment(path)?,
                 None => Environment::studio(),
             },
-            roughness: self.roughness.unwrap_or(mesh::ROUGHNESS),
-            angles: self.view,
+            roughness: self.roughness.unwrap_or(ROUGHNESS),
+            angles: self.view.0,
             size: self.size.0,
             exposure: self.exposure,
             options: RuntimeOptions::default(),
@@ -271,24 +203,4 @@ impl Args {
             None => Ok(()),
         }
     }
-}
-
-/// An equirectangular picture; 8-bit ones are taken as sRGB.
-pub(crate) fn read_environment(path: &Path) -> anyhow::Result<Environment> {
-    let wrong = |reason: String| bad_request(format!("{}: {reason}", path.display()));
-    let picture = image::open(path).map_err(|error| wrong(error.to_string()))?;
-    let is_linear = matches!(picture.color(), image::ColorType::Rgb32F | image::ColorType::Rgba32F);
-    let picture = picture.into_rgb32f();
-    let size = [picture.width(), picture.height()];
-    let decoded = |pixel: Rgb| if is_linear { pixel } else { cpu::linear(pixel) };
-    let pixels: Vec<Rgb> = picture.pixels().map(|pixel| decoded(pixel.0)).collect();
-    Environment::equirectangular(size, &pixels).map_err(|error| wrong(error.to_string()))
-}
-
-/// The exposure that brings all but the brightest hundredth below [`BRIGHT`].
-fn exposure_for<'a>(lights: impl Iterator<Item = &'a Rgb>) -> f32 {
-    let mut values: Vec<f32> = lights.map(|rgb| rgb.iter().copied().fold(0.0, f32::max)).collect();
-    values.sort_by(f32::total_cmp);
-    let bright = values.get(values.len() * 99 / 100).copied().unwrap_or(0.0);
-    if bright > 0.0 { BRIGHT / bright } else { 1.0 }
 }

@@ -8,11 +8,11 @@ use subsurf_runtime::{
     Gpu, Material, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, layout_of,
 };
 use subsurf_shaders::{Rgb, cpu};
+use subsurf_viewer::{Scattering, factors};
 
-use super::prepared::factors;
-use super::{PathArg, exposure_for};
-use crate::failure::bad_request;
+use super::exposure::exposure_for;
 use crate::picture::image;
+use crate::program::failure::bad_request;
 
 /// Irradiance of a pattern on every pixel of a patch, as it is after it has entered.
 pub(crate) fn patch_irradiance(material: &Bssrdf<'_>, light: Light) -> Vec<Rgb> {
@@ -25,7 +25,7 @@ pub(crate) fn patch_irradiance(material: &Bssrdf<'_>, light: Light) -> Vec<Rgb> 
 pub(crate) fn draw_patch(
     gpu: Option<&Gpu>,
     material: &Bssrdf<'_>,
-    path: PathArg,
+    technique: Scattering,
     light: Light,
     size: [u32; 2],
     exposure: Option<f32>,
@@ -44,14 +44,14 @@ pub(crate) fn draw_patch(
         Some(gpu) => {
             let renderer = PatchRenderer::new(gpu, layout_of(material))?;
             let light = PatchLight::upload(gpu, whole.size, &irradiance)?;
-            let (exitance, gpu_bytes) = match path {
-                PathArg::Splat => return Err(no_splats()),
-                PathArg::Gather => {
+            let (exitance, gpu_bytes) = match technique {
+                Scattering::Splat => return Err(no_splats()),
+                Scattering::Gather => {
                     let uploaded = Material::upload(gpu, material)?;
                     (renderer.gather(gpu, &uploaded, &light, whole)?, uploaded.gpu_bytes())
                 }
-                PathArg::Separable | PathArg::Homogeneous => {
-                    let uploaded = SeparableMaterial::upload(gpu, &factors(material, path))?;
+                Scattering::Separable | Scattering::Homogeneous => {
+                    let uploaded = SeparableMaterial::upload(gpu, &factors(material, technique))?;
                     let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
                     let patch = renderer.prepare(gpu, &uploaded, &light)?;
                     renderer.draw(gpu, &patch)?;
@@ -67,10 +67,12 @@ pub(crate) fn draw_patch(
             renderer.picture(gpu, &exitance, size, exposure)?
         }
         None => {
-            let exitance = match path {
-                PathArg::Splat => return Err(no_splats()),
-                PathArg::Gather => cpu::gather(material, &irradiance, whole.origin, whole.size),
-                PathArg::Separable | PathArg::Homogeneous => cpu::separable(&factors(material, path), &irradiance),
+            let exitance = match technique {
+                Scattering::Splat => return Err(no_splats()),
+                Scattering::Gather => cpu::gather(material, &irradiance, whole.origin, whole.size),
+                Scattering::Separable | Scattering::Homogeneous => {
+                    cpu::separable(&factors(material, technique), &irradiance)
+                }
             };
             let exposure = exposure.unwrap_or_else(|| exposure_for(exitance.iter()));
             facts.insert("exposure".to_owned(), json!(exposure));

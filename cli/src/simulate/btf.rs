@@ -8,10 +8,10 @@ use serde_json::{Value, json};
 use subsurf_encoder::btf::{Folder, FolderWriter, Pixels, bonn};
 use subsurf_encoder::simulate::btf::{Sample, simulate};
 
-use crate::failure::bad_request;
-use crate::memory::human;
-use crate::progress::Bars;
-use crate::say::say;
+use crate::outln;
+use crate::program::failure::bad_request;
+use crate::program::progress::Bars;
+use subsurf_viewer::human;
 
 /// Simulate a BTF: images of a rough surface under light from 81 directions, seen from 81 directions.
 ///
@@ -42,8 +42,9 @@ pub(crate) struct Args {
     seed: u64,
 }
 
+/// Sample by its name on a command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct SampleArg(pub(crate) Sample);
+pub struct SampleArg(pub Sample);
 
 impl ValueEnum for SampleArg {
     fn value_variants<'a>() -> &'a [Self] {
@@ -75,7 +76,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Request { sample, size: args.size, pixels, seed: args.seed }.write(&args.output)?;
     let images = bonn().len() * bonn().len();
     let raw = 3 * images as u64 * u64::from(args.size) * u64::from(args.size) * if args.hdr { 4 } else { 1 };
-    say!(
+    outln!(
         "{}: synthetic BTF, {images} images of {} × {} pixels, {} uncompressed, in {:.1} s",
         args.output.display(),
         args.size,
@@ -87,12 +88,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 /// A folder of simulated images.
-pub(crate) struct Request {
-    pub(crate) sample: Sample,
+pub struct Request {
+    /// The material.
+    pub sample: Sample,
     /// Pixels in x and in y.
-    pub(crate) size: u32,
-    pub(crate) pixels: Pixels,
-    pub(crate) seed: u64,
+    pub size: u32,
+    /// What the images' numbers are.
+    pub pixels: Pixels,
+    /// Seed of the pattern.
+    pub seed: u64,
 }
 
 impl Request {
@@ -110,7 +114,7 @@ impl Request {
     }
 
     /// Simulates and writes it.
-    pub(crate) fn write(&self, output: &Path) -> anyhow::Result<()> {
+    pub fn write(&self, output: &Path) -> anyhow::Result<()> {
         let writer = FolderWriter::new(output, self.size, self.pixels)?;
         let write = |light, view, image: &[[f32; 3]]| writer.write(light, view, image);
         simulate(self.sample, self.size as usize, self.seed, write, &Bars::new())?;
@@ -118,7 +122,7 @@ impl Request {
     }
 
     /// Whether a folder is what it asks for.
-    pub(crate) fn is_there(&self, output: &Path) -> bool {
+    pub fn is_there(&self, output: &Path) -> bool {
         Folder::open(output)
             .is_ok_and(|folder| folder.size() == [self.size; 2] && folder.facts().as_ref() == Some(&self.facts()))
     }

@@ -1,6 +1,6 @@
 //! `subsurf simulate`: a capture where nothing was measured.
 
-pub(crate) mod btf;
+pub mod btf;
 
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -15,11 +15,11 @@ use subsurf_encoder::check_target;
 use subsurf_encoder::simulate::maps::{self, MeanFreePath, Weight};
 use subsurf_encoder::simulate::{Finish, MediumMap, Scene, Sensor, Slab, Summary, simulate};
 
-use crate::failure::bad_request;
-use crate::memory::human;
 use crate::options::{AddressingArg, Size};
-use crate::progress::Bars;
-use crate::say::say;
+use crate::outln;
+use crate::program::failure::bad_request;
+use crate::program::progress::Bars;
+use subsurf_viewer::human;
 
 /// Simulate a capture: light diffusing in a slab of given media, measured pixel by pixel.
 ///
@@ -100,8 +100,9 @@ Materials: apple chicken1 chicken2 cream ketchup marble potato skimmilk skin1 sk
 Built-in materials are synthetic patterns of the same measured media; blue-wax has an invented pigment beside them. Nothing
 here was measured as a patch.";
 
+/// Built-in material by its name on a command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct SceneArg(pub(crate) Scene);
+pub struct SceneArg(pub Scene);
 
 impl ValueEnum for SceneArg {
     fn value_variants<'a>() -> &'a [Self] {
@@ -158,7 +159,7 @@ fn simulate_capture(args: &CaptureArgs) -> anyhow::Result<()> {
     let start = Instant::now();
     let Summary { window_share, asymmetry } = request.write(&args.output)?;
     let bytes = std::fs::metadata(&args.output).map_or(0, |metadata| metadata.len());
-    say!(
+    outln!(
         "{}: synthetic capture, {} × {} pixels, window {}, {} in {:.1} s",
         args.output.display(),
         size[0],
@@ -167,12 +168,12 @@ fn simulate_capture(args: &CaptureArgs) -> anyhow::Result<()> {
         human(bytes),
         start.elapsed().as_secs_f64(),
     );
-    say!("{:.1} % of the light that leaves the surface leaves within the window", 100.0 * window_share);
+    outln!("{:.1} % of the light that leaves the surface leaves within the window", 100.0 * window_share);
     if window_share < 0.9 {
-        say!("the rest is lost to everything made from this capture: a larger --window or --pitch keeps more");
+        outln!("the rest is lost to everything made from this capture: a larger --window or --pitch keeps more");
     }
     let end = if args.one_way { ", and stay so" } else { "; each has their mean" };
-    say!("the two directions of a pair came out {:.1} % apart on average{end}", 100.0 * asymmetry.exp_m1());
+    outln!("the two directions of a pair came out {:.1} % apart on average{end}", 100.0 * asymmetry.exp_m1());
     Ok(())
 }
 
@@ -182,22 +183,34 @@ const REFINE: RangeInclusive<f64> = 0.1..=16.0;
 const MAX_VOXELS: usize = 8_000_000;
 
 /// A capture to be simulated and written.
-pub(crate) struct Request<'a> {
-    pub(crate) map: &'a MediumMap,
-    pub(crate) source: Value,
-    pub(crate) addressing: Addressing,
-    pub(crate) pitch_mm: f64,
-    pub(crate) window: u32,
-    pub(crate) thickness_mm: f64,
-    pub(crate) eta: f64,
-    pub(crate) refine: f64,
-    pub(crate) finish: Finish,
-    pub(crate) seed: u64,
-    pub(crate) scalar: Scalar,
+pub struct Request<'a> {
+    /// Media of the patch, pixel by pixel.
+    pub map: &'a MediumMap,
+    /// Where the media come from, for the sidecar.
+    pub source: Value,
+    /// What lies beyond the border of the patch.
+    pub addressing: Addressing,
+    /// Distance of neighbouring pixels in mm.
+    pub pitch_mm: f64,
+    /// Pixels to a side of the window in which light is measured, odd.
+    pub window: u32,
+    /// Thickness of the slab in mm.
+    pub thickness_mm: f64,
+    /// Refractive index, 1 to 4.
+    pub eta: f64,
+    /// Divisor of the width of every voxel.
+    pub refine: f64,
+    /// Reciprocity and noise.
+    pub finish: Finish,
+    /// Seed of the pattern.
+    pub seed: u64,
+    /// Type of the numbers in the file.
+    pub scalar: Scalar,
 }
 
 impl Request<'_> {
-    pub(crate) fn check(&self) -> anyhow::Result<()> {
+    /// Refuses what cannot be simulated.
+    pub fn check(&self) -> anyhow::Result<()> {
         let positive = |what: &str, value: f64| {
             let fine = value.is_finite() && value > 0.0;
             fine.then_some(()).ok_or_else(|| bad_request(format!("{what} is {value}; it must be positive")))
@@ -245,7 +258,7 @@ impl Request<'_> {
     }
 
     /// Simulates and writes array and sidecar.
-    pub(crate) fn write(&self, path: &Path) -> anyhow::Result<Summary> {
+    pub fn write(&self, path: &Path) -> anyhow::Result<Summary> {
         let slab = self.slab();
         let radius = slab.radius;
         let sidecar = self.sidecar();
@@ -253,8 +266,9 @@ impl Request<'_> {
         Ok(simulate(&slab, &self.finish, &writer, &Bars::new())?)
     }
 
+    /// Facts that stand beside the array.
     #[allow(clippy::cast_possible_truncation, reason = "lengths and indices need no more than f32")]
-    pub(crate) fn sidecar(&self) -> Sidecar {
+    pub fn sidecar(&self) -> Sidecar {
         let simulated = json!({
             "by": concat!("subsurf ", env!("CARGO_PKG_VERSION")),
             "source": self.source,

@@ -7,12 +7,12 @@ use subsurf_encoder::btf::{Detail, Images, Survey, factored, nested, paper};
 
 use super::Args;
 use super::report::line;
-use crate::memory::human;
-use crate::progress::Bars;
-use crate::say::say;
+use crate::outln;
+use crate::program::progress::Bars;
+use subsurf_viewer::human;
 
 /// Components that files of some materials are made from: as many as factors can have, and more than codebooks can hold.
-pub(crate) fn detail(materials: usize) -> Detail {
+pub fn detail(materials: usize) -> Detail {
     Detail { luma: 128 + 32 * (materials - 1), chroma: 32 }
 }
 
@@ -42,31 +42,37 @@ pub(super) struct Made {
     pub(super) walked: Option<Walked>,
 }
 
-pub(crate) type Encoded = subsurf_encoder::Result<Vec<u8>>;
+/// A file, or why there is none.
+pub type Encoded = subsurf_encoder::Result<Vec<u8>>;
 
 /// Bytes of factors where nothing is asked for.
-pub(crate) fn usual_bytes(survey: &Survey) -> u64 {
+pub fn usual_bytes(survey: &Survey) -> u64 {
     (survey.raw_bytes / USUAL_RATIO).max(LEAST_USUAL)
 }
 
-/// What all methods want to know.
+/// Options that all methods take.
 #[derive(Clone)]
-pub(crate) struct Common {
-    pub(crate) grid: Grid,
-    /// Of the materials.
-    pub(crate) names: Vec<String>,
-    pub(crate) has_mipmaps: bool,
-    pub(crate) seed: u64,
+pub struct Common {
+    /// Nodes of the directions.
+    pub grid: Grid,
+    /// Names of the materials.
+    pub names: Vec<String>,
+    /// Whether mipmaps are made.
+    pub has_mipmaps: bool,
+    /// Seed of the first codewords.
+    pub seed: u64,
 }
 
 impl Common {
-    pub(crate) fn nested<'a>(self, materials: &[Images], survey: &'a Survey) -> nested::Prepared<'a> {
+    /// The encoder of nested codebooks.
+    pub fn nested<'a>(self, materials: &[Images], survey: &'a Survey) -> nested::Prepared<'a> {
         let Self { grid, names, has_mipmaps, seed } = self;
         let chroma = chroma(materials.len());
         nested::Prepared::new(materials, survey, nested::Options { grid, chroma, names, has_mipmaps, seed })
     }
 
-    pub(crate) fn factored<'a>(
+    /// The encoder of factors.
+    pub fn factored<'a>(
         self,
         materials: &[Images],
         survey: &'a Survey,
@@ -77,7 +83,7 @@ impl Common {
     }
 
     /// The paper's encoder with its thresholds times `looseness`.
-    pub(crate) fn paper(self, materials: &[Images], looseness: f32) -> Encoded {
+    pub fn paper(self, materials: &[Images], looseness: f32) -> Encoded {
         let Self { grid, names, has_mipmaps, seed } = self;
         let usual = paper::Options::default();
         let similarity = usual.similarity.times(looseness);
@@ -164,7 +170,7 @@ fn choose<R: Rung>(
     };
     let said = |point: &Point| {
         if !args.json {
-            say!("{}", line(point));
+            outln!("{}", line(point));
         }
     };
     let walked = rate::walk(materials, ladder, target, &Bars::new(), encode, said)?;

@@ -13,16 +13,16 @@ use subsurf_encoder::btf::rate::{self, Target};
 use subsurf_encoder::btf::{Folder, Images, Merl, Source, Ubo};
 use subsurf_encoder::{check_target, write_bytes};
 
-use crate::failure::bad_request;
-use crate::interrupt::Graceful;
 use crate::options::ByteCount;
-use crate::progress::Bars;
-pub(crate) use methods::{Common, detail, usual_bytes};
+use crate::program::failure::bad_request;
+use crate::program::interrupt::Graceful;
+use crate::program::progress::Bars;
+pub use methods::{Common, Encoded, detail, usual_bytes};
 use report::Report;
 
 /// How a file is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum MethodArg {
+pub enum MethodArg {
     /// Nested codebooks by shape-gain k-means from the top down, chosen anew from the bottom up against what is decoded;
     /// further stages add what is left. Drawn as they stand in the file, on the GPU too
     Nested,
@@ -92,7 +92,7 @@ fn extension(path: &Path) -> Option<String> {
 }
 
 /// Reads all images of a BTF.
-pub(crate) fn load(path: &Path) -> anyhow::Result<Images> {
+pub fn load(path: &Path) -> anyhow::Result<Images> {
     match extension(path).as_deref() {
         Some("btf") => Ok(load_from(&Ubo::open(path)?)?),
         Some("binary") => Ok(load_from(&Merl::open(path)?)?),
@@ -105,7 +105,7 @@ fn load_from(source: &impl Source) -> subsurf_encoder::Result<Images> {
 }
 
 /// Nodes where none are asked for.
-pub(crate) fn usual_nodes(method: MethodArg, images: &Images) -> [u8; 4] {
+pub fn usual_nodes(method: MethodArg, images: &Images) -> [u8; 4] {
     let is_isotropic = images.views().iter().all(|view| view.y == 0.0);
     match method {
         _ if is_isotropic => [45, 45, 18, 1],
@@ -115,7 +115,7 @@ pub(crate) fn usual_nodes(method: MethodArg, images: &Images) -> [u8; 4] {
 }
 
 /// A grid that reaches as far as what was measured, and no farther.
-pub(crate) fn grid(images: &Images, nodes: &[u8]) -> anyhow::Result<Grid> {
+pub fn grid(images: &Images, nodes: &[u8]) -> anyhow::Result<Grid> {
     let [n_alpha, n_beta, n_theta, n_phi] = nodes else {
         return Err(bad_request(format!("--nodes has {} numbers, not four: 11,11,6,16", nodes.len())));
     };

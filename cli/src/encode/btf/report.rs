@@ -8,8 +8,9 @@ use subsurf_encoder::metrics::btf::BtfError;
 
 use super::methods::Made;
 use crate::compare::{mssim, mssim_json};
-use crate::memory::{human, resident};
-use crate::say::say;
+use crate::outln;
+use crate::program::memory::resident;
+use subsurf_viewer::human;
 
 /// Facts about one run.
 pub(super) struct Report<'a> {
@@ -41,7 +42,7 @@ impl Report<'_> {
             "error": of_error(&self.error), "curve": points, "seconds": self.seconds,
             "peak_rss_bytes": resident().unwrap_or_default().peak,
         });
-        say!("{value:#}");
+        outln!("{value:#}");
     }
 
     pub(super) fn print(&self) {
@@ -49,9 +50,9 @@ impl Report<'_> {
         #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
         let ratio = self.raw_bytes as f64 / bytes as f64;
         let (size, raw) = (human(bytes as u64), human(self.raw_bytes));
-        say!("{}: {size} from {raw}, 1:{ratio:.0}; {}", self.output.display(), self.made.name);
+        outln!("{}: {size} from {raw}, 1:{ratio:.0}; {}", self.output.display(), self.made.name);
         let error = self.error;
-        say!("  {}, PSNR {:.1} dB over {} pairs of directions", mssim(&error), error.psnr_db, error.pairs);
-        say!("  {:.1} s, {} of memory", self.seconds, human(resident().unwrap_or_default().peak));
+        outln!("  {}, PSNR {:.1} dB over {} pairs of directions", mssim(&error), error.psnr_db, error.pairs);
+        outln!("  {:.1} s, {} of memory", self.seconds, human(resident().unwrap_or_default().peak));
     }
 }

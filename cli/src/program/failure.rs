@@ -1,0 +1,87 @@
+//! One line on stderr, and the exit code that says whose fault it is.
+
+use std::process::ExitCode;
+
+/// A request that cannot be carried out, in one line that says what to do instead.
+#[derive(Debug)]
+pub struct BadRequest(String);
+
+impl std::fmt::Display for BadRequest {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for BadRequest {}
+
+/// There is nothing to show pictures on, in one line that says why.
+#[derive(Debug)]
+pub(crate) struct NoDisplay(pub(crate) String);
+
+impl std::fmt::Display for NoDisplay {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for NoDisplay {}
+
+/// An error of the caller's making: exit code 2.
+pub fn bad_request(message: impl Into<String>) -> anyhow::Error {
+    anyhow::Error::new(BadRequest(message.into()))
+}
+
+const MACHINE: u8 = 1;
+const INPUT: u8 = 2;
+const NO_DEVICE: u8 = 3;
+
+/// Prints an error in one line on stderr, and says with which code the program is to end.
+pub fn report(error: &anyhow::Error) -> ExitCode {
+    eprintln!("{}: {}", super::name(), line(error));
+    ExitCode::from(code(error))
+}
+
+/// An error and its causes on one line, without those that their parent already quotes.
+pub fn line(error: &anyhow::Error) -> String {
+    subsurf_viewer::one_line(error.as_ref())
+}
+
+fn code(error: &anyhow::Error) -> u8 {
+    for cause in error.chain() {
+        if cause.is::<BadRequest>() {
+            return INPUT;
+        }
+        if cause.is::<NoDisplay>() {
+            return NO_DEVICE;
+        }
+        if let Some(error) = cause.downcast_ref::<subsurf_encoder::Error>() {
+            return if error.is_callers() { INPUT } else { MACHINE };
+        }
+        if let Some(error) = cause.downcast_ref::<subsurf_runtime::Error>() {
+            return of_renderer(error);
+        }
+        if cause.is::<subsurf_scene::Error>() {
+            return INPUT;
+        }
+        if let Some(error) = cause.downcast_ref::<subsurf_viewer::Error>() {
+            use subsurf_viewer::Error::{File, NoDisplay, Open, Request, Runtime, Scene};
+            match error {
+                Open { .. } | File { .. } | Request(_) | Scene(_) => return INPUT,
+                NoDisplay(_) => return NO_DEVICE,
+                Runtime(error) => return of_renderer(error),
+                // The cause decides.
+                _ => {}
+            }
+        }
+    }
+    MACHINE
+}
+
+fn of_renderer(error: &subsurf_runtime::Error) -> u8 {
+    use subsurf_runtime::Error::{Mesh, NoDevice, NoHalfFloats, Read, Scene, Unsupported};
+    match error {
+        Read(_) | Mesh(_) | Scene(_) => INPUT,
+        NoDevice { .. } | NoHalfFloats { .. } | Unsupported { .. } => NO_DEVICE,
+        _ => MACHINE,
+    }
+}

@@ -1,0 +1,127 @@
+//! Values that `render` and `view` take.
+
+use std::path::Path;
+use std::str::FromStr;
+
+use glam::Vec3;
+use subsurf_encoder::metrics::Light;
+use subsurf_scene::{Environment, UpAxis};
+use subsurf_shaders::{Rgb, cpu};
+use subsurf_viewer::{Angles, MappingChoice, Scattering};
+
+use crate::program::failure::bad_request;
+
+/// Technique by which light in a translucent material is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum PathArg {
+    /// Every point gathers light from all others within reach: the reference
+    Gather,
+    /// Every place that the light reaches is spread over what lies around it; for meshes
+    Splat,
+    /// Weighted irradiance maps and shared Gaussians: many times faster, and an approximation
+    Separable,
+    /// The same with one mean profile everywhere, as if the material were not heterogeneous; for comparison
+    Homogeneous,
+}
+
+/// Where a translucent material lies on a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum MappingArg {
+    /// Texture coordinates if the mesh has any, repeated so that the material keeps its size; else box
+    Auto,
+    /// Texture coordinates
+    Uv,
+    /// Projected from the side that each normal faces most
+    Box,
+}
+
+impl From<PathArg> for Scattering {
+    fn from(arg: PathArg) -> Self {
+        match arg {
+            PathArg::Gather => Self::Gather,
+            PathArg::Splat => Self::Splat,
+            PathArg::Separable => Self::Separable,
+            PathArg::Homogeneous => Self::Homogeneous,
+        }
+    }
+}
+
+impl From<MappingArg> for MappingChoice {
+    fn from(arg: MappingArg) -> Self {
+        match arg {
+            MappingArg::Auto => Self::Auto,
+            MappingArg::Uv => Self::Uv,
+            MappingArg::Box => Self::Box,
+        }
+    }
+}
+
+/// Which way is up in a mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum UpArg {
+    /// As in glTF and most OBJ files
+    Y,
+    /// As in most scans and CAD files
+    Z,
+}
+
+impl From<UpArg> for UpAxis {
+    fn from(arg: UpArg) -> Self {
+        match arg {
+            UpArg::Y => Self::Y,
+            UpArg::Z => Self::Z,
+        }
+    }
+}
+
+/// Light on a patch or on a mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum LightArg {
+    Pattern(Light),
+    Direction(Vec3),
+}
+
+impl FromStr for LightArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if let Some(light) = Light::ALL.into_iter().find(|light| light.name() == text) {
+            return Ok(Self::Pattern(light));
+        }
+        let numbers: Option<Vec<f32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+        match numbers.as_deref() {
+            Some(&[x, y, z]) if Vec3::new(x, y, z).try_normalize().is_some() => {
+                Ok(Self::Direction(Vec3::new(x, y, z).normalize()))
+            }
+            _ => Err("expected uniform, disc, line or a direction such as 1,2,1".to_owned()),
+        }
+    }
+}
+
+/// Degrees around the up axis and above the horizon, separated by a comma.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct AnglesArg(pub(crate) Angles);
+
+impl FromStr for AnglesArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Option<Vec<f32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+        match numbers.as_deref() {
+            Some(&[around, up]) if up.abs() < 90.0 && around.is_finite() => Ok(Self(Angles { around, up })),
+            _ => Err("expected two angles in degrees, the second between -90 and 90, such as 30,15".to_owned()),
+        }
+    }
+}
+
+/// An equirectangular picture; 8-bit ones are taken as sRGB.
+pub(crate) fn read_environment(path: &Path) -> anyhow::Result<Environment> {
+    let wrong = |reason: String| bad_request(format!("{}: {reason}", path.display()));
+    let picture = image::open(path).map_err(|error| wrong(error.to_string()))?;
+    let is_linear = matches!(picture.color(), image::ColorType::Rgb32F | image::ColorType::Rgba32F);
+    let picture = picture.into_rgb32f();
+    let size = [picture.width(), picture.height()];
+    let decoded = |pixel: Rgb| if is_linear { pixel } else { cpu::linear(pixel) };
+    let pixels: Vec<Rgb> = picture.pixels().map(|pixel| decoded(pixel.0)).collect();
+    Environment::equirectangular(size, &pixels).map_err(|error| wrong(error.to_string()))
+}

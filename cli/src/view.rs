@@ -1,0 +1,174 @@
+//! `subsurf view`: the door to the viewer's window.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use subsurf_encoder::check_target;
+use subsurf_runtime::{Backend, RuntimeOptions};
+use subsurf_scene::Environment;
+use subsurf_viewer::{BtfImageSet, Config, Error, Host, KEYS, LoadImages, Picture, Viewer, event_loop};
+
+use crate::devices::check_picture;
+use crate::images::FolderImages;
+use crate::options::{ByteCount, Size};
+use crate::outln;
+use crate::picture::{image, write_png};
+use crate::program::failure::{NoDisplay, line};
+use crate::render::{BtfArgs, Copies, MappingArg, PathArg, UpArg, read_environment};
+
+/// Look at materials on a mesh in a window: turn it, drag the light, switch paths, see the error; BTFs beside their images.
+#[derive(clap::Args)]
+#[command(after_help = help())]
+pub(crate) struct Args {
+    /// The .subsurf files; N goes from one to the next
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// A mesh (.obj, .ply, .glb, .gltf), or one of knot, bowl, drapery, relief, sphere, torus
+    #[arg(long, value_name = "FILE|SHAPE", default_value = "knot")]
+    mesh: PathBuf,
+    /// Longest side of the mesh in mm: the material has its real size
+    #[arg(long, default_value_t = 60.0, value_name = "MM")]
+    extent: f32,
+    /// Which way is up in the mesh
+    #[arg(long, value_enum, default_value = "y")]
+    up: UpArg,
+    /// Where the material lies on the mesh
+    #[arg(long, value_enum, default_value = "auto")]
+    mapping: MappingArg,
+    /// How light scatters in translucent materials, to begin with
+    #[arg(long, value_enum, default_value = "separable")]
+    path: PathArg,
+    /// Begin with ten times the difference to the gather, or of a BTF to its images
+    #[arg(long)]
+    error: bool,
+    /// Light from all around: an equirectangular picture, .hdr or .png
+    #[arg(long, value_name = "FILE")]
+    environment: Option<PathBuf>,
+    /// Pixels of the window
+    #[arg(long, default_value = "1280x800", value_name = "WxH")]
+    size: Size,
+    /// Most memory on the device, such as 24MB; views and maps become coarser until everything fits
+    #[arg(long, value_name = "BYTES")]
+    budget: Option<ByteCount>,
+    /// What draws
+    #[arg(long, value_enum, default_value = "auto")]
+    backend: Api,
+    /// Write what the window shows to this PNG, panel included, and end
+    #[arg(long, value_name = "FILE")]
+    screenshot: Option<PathBuf>,
+    #[command(flatten)]
+    btf: BtfArgs,
+}
+
+/// What draws to a window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Api {
+    /// The first of Vulkan and OpenGL ES that works
+    Auto,
+    /// Vulkan
+    Vulkan,
+    /// OpenGL ES
+    Gl,
+}
+
+/// Keys, examples and exit codes, for `--help`.
+fn help() -> String {
+    format!("In the window:\n{KEYS}\n\n{EXAMPLES}")
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  subsurf view jade.subsurf onyx.subsurf --mesh bunny.ply
+  subsurf view jade.subsurf --budget 16MB --backend gl
+  subsurf view jade.subsurf --path splat --screenshot jade.png
+  subsurf view leather.subsurf --images leather/ --repeat 6
+
+Exit codes: 3 if there is no display or no device that draws to it.";
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    check_picture(args.size.0)?;
+    if let Some(path) = &args.screenshot {
+        check_target(path)?;
+    }
+    args.btf.check()?;
+    let viewer = Viewer::open(args.config()?)?;
+    let events = event_loop().map_err(|error| match error {
+        Error::NoDisplay(reason) => anyhow::Error::new(NoDisplay(format!(
+            "{reason}; log in to a desktop session, or draw to a file: subsurf render"
+        ))),
+        error => error.into(),
+    })?;
+    Ok(viewer.run(events, &mut Files { screenshot: args.screenshot.as_deref() })?)
+}
+
+impl Args {
+    fn config(&self) -> anyhow::Result<Config> {
+        let usual = subsurf_viewer::options();
+        Ok(Config {
+            files: self.files.clone(),
+            material: self.btf.material.clone(),
+            mesh: self.mesh.clone(),
+            extent_mm: self.extent,
+            up: self.up.into(),
+            mapping: self.mapping.into(),
+            technique: self.path.into(),
+            shows_error: self.error,
+            repeats: self.btf.repeat.map(|Copies(repeats)| repeats),
+            images: self.btf.images.clone().map(load_images),
+            environment: match &self.environment {
+                Some(path) => read_environment(path)?,
+                None => Environment::studio(),
+            },
+            size: self.size.0,
+            backends: match self.backend {
+                Api::Auto => Backend::ALL.to_vec(),
+                Api::Vulkan => vec![Backend::Vulkan],
+                Api::Gl => vec![Backend::Gl],
+            },
+            options: RuntimeOptions {
+                budget_bytes: self.budget.map(|budget| budget.0),
+                btf: self.btf.options(usual.btf),
+                ..usual
+            },
+            captures: self.screenshot.is_some(),
+        })
+    }
+}
+
+/// Reads a folder of images when they are to be shown.
+fn load_images(folder: PathBuf) -> Arc<LoadImages> {
+    Arc::new(move || match FolderImages::read(&folder) {
+        Ok(images) => Ok(Box::new(images) as Box<dyn BtfImageSet>),
+        Err(error) => Err(Error::Images(error.into())),
+    })
+}
+
+/// Host of the window: pictures become files, news are printed.
+struct Files<'a> {
+    screenshot: Option<&'a Path>,
+}
+
+impl Host for Files<'_> {
+    /// Into this folder, under a name that is not taken.
+    fn save(&mut self, stem: &str, picture: &Picture) -> Result<String, String> {
+        let mut names = (1..).map(|number: u32| PathBuf::from(format!("{stem}-{number}.png")));
+        let path = names.find(|name| !name.exists()).unwrap_or_default();
+        write_png(&path, &image(&picture.pixels, picture.size[0])).map_err(|error| line(&error))?;
+        outln!("{}", path.display());
+        Ok(path.display().to_string())
+    }
+
+    fn capture(&mut self, picture: &Picture, device: &str) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+        let Some(path) = self.screenshot else {
+            return Ok(());
+        };
+        let [width, height] = picture.size;
+        write_png(path, &image(&picture.pixels, width))?;
+        outln!("{}: {width} x {height} pixels, drawn by {device}", path.display());
+        Ok(())
+    }
+
+    fn recovered(&mut self, reason: &str) {
+        eprintln!("subsurf: the device was lost and opened anew ({reason})");
+    }
+}

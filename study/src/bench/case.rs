@@ -1,0 +1,127 @@
+//! Cases: techniques that are timed against each other, frame by frame.
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use glam::{Quat, Vec3};
+use subsurf_cli::program::progress::Bars;
+use subsurf_decoder::Bssrdf;
+use subsurf_encoder::Progress as _;
+use subsurf_runtime::{Gpu, PictureTarget, RuntimeOptions};
+use subsurf_scene::{LightShape, Mesh, Scene};
+use subsurf_viewer::{Asset, RenderRequest, RenderSession};
+
+/// Case of a benchmark: one technique on one mesh, on a device.
+pub(super) struct BenchCase {
+    session: RenderSession,
+    target: PictureTarget,
+    pub(super) times: Times,
+}
+
+/// Milliseconds of frames, and what they took on the device.
+pub(super) struct Times {
+    /// Whole frames.
+    pub(super) frames: Vec<f64>,
+    /// Each pass by itself.
+    pub(super) passes: BTreeMap<&'static str, Vec<f64>>,
+    /// In the order of the frame.
+    pub(super) order: Vec<&'static str>,
+    pub(super) material_bytes: u64,
+    /// Of everything but the material and the mesh.
+    pub(super) buffer_bytes: u64,
+}
+
+impl BenchCase {
+    pub(super) fn new(
+        gpu: &Gpu,
+        asset: &Asset,
+        material: &Bssrdf<'_>,
+        mesh: &Mesh,
+        size: [u32; 2],
+    ) -> anyhow::Result<Self> {
+        let options = RuntimeOptions::default();
+        let before = gpu.ledger().bytes();
+        let asset = asset.upload(gpu, material, mesh)?;
+        let [material_bytes, mesh_bytes] = [asset.material_bytes(), asset.mesh_bytes()];
+        let session = RenderSession::new(gpu, asset, &RenderRequest::usual(size).scene(mesh), size, options)?;
+        let target = gpu.target(size, options.format)?;
+        let times = Times {
+            frames: Vec::new(),
+            passes: BTreeMap::new(),
+            order: Vec::new(),
+            material_bytes,
+            buffer_bytes: gpu.ledger().bytes() - before - material_bytes - mesh_bytes,
+        };
+        Ok(Self { session, target, times })
+    }
+
+    /// Its picture of a scene of the size that it was made for.
+    pub(super) fn picture(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<Vec<[u8; 3]>> {
+        Ok(self.session.picture(gpu, scene)?)
+    }
+
+    fn draw(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<f64> {
+        let RenderSession { asset, renderer, frame } = &mut self.session;
+        let begin = Instant::now();
+        renderer.draw(gpu, frame, &asset.drawable(), scene, self.target.view())?;
+        gpu.finish()?;
+        Ok(ms(begin.elapsed()))
+    }
+
+    fn draw_timed(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<()> {
+        let RenderSession { asset, renderer, frame } = &mut self.session;
+        let passes = renderer.draw_timed(gpu, frame, &asset.drawable(), scene, self.target.view())?;
+        self.times.order = passes.iter().map(|(name, _)| *name).collect();
+        for (name, time) in passes {
+            self.times.passes.entry(name).or_default().push(ms(time));
+        }
+        Ok(())
+    }
+}
+
+/// Draws `frames` frames of each under a light that turns, after one that does not count, and as many again pass by pass.
+/// Cases take turns: what else the machine does falls on all of them alike. If `frames` is 0, the first one counts.
+pub(super) fn run(
+    gpu: &Gpu,
+    cases: &mut [BenchCase],
+    mesh: &Mesh,
+    size: [u32; 2],
+    frames: usize,
+) -> anyhow::Result<()> {
+    let mut scene = RenderRequest::usual(size).scene(mesh);
+    scene.camera.exposure = 0.5;
+    let bars = Bars::new();
+    bars.begin("frames", ((2 * frames + 1) * cases.len()) as u64);
+    for number in 0..=frames {
+        turn(&mut scene);
+        for case in &mut *cases {
+            let time = case.draw(gpu, &scene)?;
+            // Drivers compile at the first frame.
+            if number > 0 || frames == 0 {
+                case.times.frames.push(time);
+            }
+            bars.advance(1);
+        }
+    }
+    for _ in 0..frames {
+        turn(&mut scene);
+        for case in &mut *cases {
+            case.draw_timed(gpu, &scene)?;
+            bars.advance(1);
+        }
+    }
+    Ok(())
+}
+
+fn ms(time: Duration) -> f64 {
+    1e3 * time.as_secs_f64()
+}
+
+/// Turns the lights by a fifth of a degree.
+fn turn(scene: &mut Scene) {
+    for light in &mut scene.lights {
+        if let LightShape::Directional { towards } = &mut light.shape {
+            *towards = Quat::from_axis_angle(Vec3::Y, 0.2_f32.to_radians()) * *towards;
+        }
+    }
+}

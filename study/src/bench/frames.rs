@@ -1,0 +1,118 @@
+//! `subsurf-study bench frames`: how long frames take, pass by pass.
+
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+use subsurf_cli::info::parse;
+use subsurf_cli::options::Size;
+use subsurf_cli::outln;
+use subsurf_cli::program::failure::bad_request;
+use subsurf_decoder::Bssrdf;
+use subsurf_encoder::synthetic::per_pixel_of;
+use subsurf_runtime::Backend;
+use subsurf_scene::{Mesh, relief};
+use subsurf_viewer::{Asset, MappingChoice, RenderRequest, Scattering, choose_mapping, human, read};
+
+use super::case::{self, BenchCase, Times};
+use super::devices::to_compare;
+use super::meshes::{EXTENT_MM, named};
+use super::timing::{median, quantile};
+
+/// Time frames of meshes of 5 to 871 thousand triangles, pass by pass, on every device there is.
+///
+/// The light turns a little from frame to frame, so that everything is computed anew; paths take turns. Times are
+/// wall-clock milliseconds until the device is through; compare those of one run.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The .subsurf file
+    file: PathBuf,
+    /// Meshes: files, or names of shapes; if none are given, a sphere with bumps in four sizes
+    #[arg(long = "mesh", value_name = "FILE|SHAPE")]
+    meshes: Vec<PathBuf>,
+    /// Pixels of the picture
+    #[arg(long, default_value = "1280x720", value_name = "WxH")]
+    size: Size,
+    /// Frames of each, after one that does not count
+    #[arg(long, default_value_t = 9)]
+    frames: usize,
+    /// Report as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Rings of `relief` that make the triangles of the paper's meshes and fewer: 4 rings².
+const RELIEFS: [u16; 4] = [35, 79, 158, 467];
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    if args.frames == 0 {
+        return Err(bad_request("--frames is 0; at least one is needed for a time"));
+    }
+    let bytes = read(&args.file)?;
+    let material = parse(&args.file, &bytes)?;
+    let profiles = per_pixel_of(&material);
+    let profiles = Bssrdf::parse(&profiles)?;
+    let meshes: Vec<(String, Mesh)> = match &args.meshes[..] {
+        [] => RELIEFS.iter().map(|&rings| bumpy_sphere(rings)).collect::<anyhow::Result<_>>()?,
+        paths => paths.iter().map(|path| named(path)).collect::<anyhow::Result<_>>()?,
+    };
+    let modes = [
+        ("splat", &material, Scattering::Splat),
+        ("splat, per-pixel profiles", &profiles, Scattering::Splat),
+        ("separable", &material, Scattering::Separable),
+        ("homogeneous", &material, Scattering::Homogeneous),
+    ];
+    let gpus = to_compare();
+    let mut all = Vec::new();
+    for (name, mesh) in &meshes {
+        outln!("{name}, {} triangles, {}x{} pixels", mesh.triangles.len(), args.size.0[0], args.size.0[1]);
+        let mapping = choose_mapping(mesh, MappingChoice::Auto, &material)?;
+        let scene = RenderRequest::usual(args.size.0).scene(mesh);
+        let mut sky = None;
+        let mut assets = Vec::new();
+        for (mode, material, technique) in modes {
+            let asset = Asset::compute(material, mesh, mapping, &scene, technique, sky.clone())?;
+            sky = sky.or(asset.sky().cloned());
+            assets.push((mode, material, asset));
+        }
+        for (backend, gpu) in &gpus {
+            let case = |(_, material, asset): &(&str, &Bssrdf<'_>, Asset)| {
+                BenchCase::new(gpu, asset, material, mesh, args.size.0)
+            };
+            let mut cases = assets.iter().map(case).collect::<anyhow::Result<Vec<_>>>()?;
+            case::run(gpu, &mut cases, mesh, args.size.0, args.frames)?;
+            for (case, (mode, ..)) in cases.iter().zip(&assets) {
+                outln!("  {backend:10} {mode:26} {}", line(&case.times));
+                all.push(report(&case.times, *backend, name, mode));
+            }
+        }
+    }
+    if args.json {
+        outln!("{:#}", Value::Array(all));
+    }
+    Ok(())
+}
+
+fn bumpy_sphere(rings: u16) -> anyhow::Result<(String, Mesh)> {
+    Ok(("bumpy sphere".to_owned(), relief(20.0, 8, rings).fitted(EXTENT_MM)?))
+}
+
+fn line(times: &Times) -> String {
+    let passes = times.order.iter().map(|name| format!("{name} {:.1}", median(&times.passes[name])));
+    format!(
+        "{:8.1} ms, p95 {:.1} ({}); buffers {}",
+        median(&times.frames),
+        quantile(&times.frames, 0.95),
+        passes.collect::<Vec<_>>().join(", "),
+        human(times.buffer_bytes),
+    )
+}
+
+fn report(times: &Times, backend: Backend, mesh: &str, mode: &str) -> Value {
+    let of = |values: &[f64]| json!({ "median_ms": median(values), "p95_ms": quantile(values, 0.95) });
+    let passes: serde_json::Map<String, Value> =
+        times.order.iter().map(|name| ((*name).to_owned(), of(&times.passes[name]))).collect();
+    json!({
+        "backend": backend.to_string(), "mesh": mesh, "path": mode, "frame": of(&times.frames), "passes": passes,
+        "material_bytes": times.material_bytes, "buffer_bytes": times.buffer_bytes,
+    })
+}

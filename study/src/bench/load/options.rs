@@ -1,0 +1,61 @@
+//! What all measurements of loading have in common: options, and a process for each file.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, bail};
+use subsurf_cli::devices::{self, BackendArg};
+use subsurf_cli::program::failure::bad_request;
+use tempfile::TempDir;
+
+use super::results::Storage;
+
+/// Options of all measurements of loading.
+#[derive(clap::Args)]
+pub(super) struct LoadOptions {
+    /// Runs of each, warm and cold
+    #[arg(long, default_value_t = 20)]
+    pub(super) runs: usize,
+    /// What draws
+    #[arg(long, value_enum, default_value = "auto")]
+    backend: BackendArg,
+    /// Folder for the files, which are deleted at the end; the last case needs a gigabyte
+    #[arg(long, value_name = "DIR")]
+    dir: Option<PathBuf>,
+    /// Report as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+impl LoadOptions {
+    /// A folder for files, which goes with its value.
+    pub(super) fn folder(&self) -> anyhow::Result<TempDir> {
+        let folder = match &self.dir {
+            Some(dir) => tempfile::tempdir_in(dir),
+            None => tempfile::tempdir(),
+        };
+        folder.map_err(|error| bad_request(format!("no folder for the files, name one with --dir: {error}")))
+    }
+
+    /// Name of what draws.
+    pub(super) fn device(&self) -> anyhow::Result<String> {
+        Ok(devices::name(self.backend.open()?.as_ref()))
+    }
+}
+
+/// Loads one file in a process of its own: of a BTF, with the folder of its images.
+pub(super) fn load_one(file: &Path, images: Option<&Path>, options: &LoadOptions) -> anyhow::Result<Storage> {
+    let backend = clap::ValueEnum::to_possible_value(&options.backend).context("backends have names")?;
+    let mut command = Command::new(std::env::current_exe()?);
+    command.args(["bench", "load-one", "--runs", &options.runs.to_string(), "--backend", backend.get_name()]).arg(file);
+    if let Some(images) = images {
+        command.arg("--images").arg(images);
+    }
+    let output = command.stderr(Stdio::piped()).output()?;
+    if !output.status.success() {
+        std::io::stderr().write_all(&output.stderr)?;
+        bail!("{}: loading failed, see above", file.display());
+    }
+    serde_json::from_slice(&output.stdout).with_context(|| format!("{}: no result", file.display()))
+}

@@ -1,0 +1,34 @@
+//! `subsurf-study bench`: how long things take on this machine.
+
+mod btf;
+mod case;
+mod devices;
+mod frames;
+mod load;
+mod meshes;
+mod patch;
+mod render;
+mod timing;
+
+/// Measure this machine.
+#[derive(clap::Subcommand)]
+pub(crate) enum Command {
+    Load(load::Args),
+    Frames(frames::Args),
+    Patch(patch::Args),
+    Btf(btf::Args),
+    Render(render::Args),
+    #[command(hide = true)]
+    LoadOne(load::OneArgs),
+}
+
+pub(crate) fn run(command: &Command) -> anyhow::Result<()> {
+    match command {
+        Command::Load(args) => load::run(args),
+        Command::Frames(args) => frames::run(args),
+        Command::Patch(args) => patch::run(args),
+        Command::Btf(args) => btf::run(args),
+        Command::Render(args) => render::run(args),
+        Command::LoadOne(args) => load::run_one(args),
+    }
+}

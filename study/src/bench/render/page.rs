@@ -1,0 +1,125 @@
+//! Results as one page.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use base64::Engine as _;
+use serde_json::{Value, json};
+use subsurf_cli::outln;
+use subsurf_encoder::write_bytes;
+use subsurf_runtime::{Backend, Gpu};
+use subsurf_viewer::human;
+
+use crate::page::CSS;
+
+/// One path, one material, one mesh, one device.
+pub(super) struct Row {
+    pub(super) material: String,
+    pub(super) mesh: String,
+    pub(super) path: &'static str,
+    pub(super) backend: Backend,
+    pub(super) psnr_db: f64,
+    pub(super) ssim: f64,
+    /// Median and 95th percentile of frames in ms.
+    pub(super) frame_ms: Option<[f64; 2]>,
+    /// Of the reference, in the same run.
+    pub(super) gather_ms: Option<f64>,
+    pub(super) material_bytes: u64,
+    pub(super) buffer_bytes: u64,
+}
+
+impl Row {
+    pub(super) fn line(&self) -> String {
+        let time = self.frame_ms.map_or(String::new(), |[median, p95]| format!(", {median:.1} ms (p95 {p95:.1})"));
+        let ratio = match (self.frame_ms, self.gather_ms) {
+            (Some([median, _]), Some(gather)) => format!(", gather {gather:.0} ms = {:.1} ×", gather / median),
+            _ => String::new(),
+        };
+        format!(
+            "{}, {}, {}: {:<11} {:.1} dB, SSIM {:.3}{time}{ratio}; material {}, buffers {}",
+            self.material,
+            self.mesh,
+            self.backend,
+            self.path,
+            self.psnr_db,
+            self.ssim,
+            human(self.material_bytes),
+            human(self.buffer_bytes),
+        )
+    }
+
+    fn json(&self) -> Value {
+        json!({
+            "material": self.material, "mesh": self.mesh, "path": self.path, "backend": self.backend.to_string(),
+            "psnr_db": self.psnr_db, "ssim": self.ssim, "frame_median_ms": self.frame_ms.map(|times| times[0]),
+            "frame_p95_ms": self.frame_ms.map(|times| times[1]), "gather_ms": self.gather_ms,
+            "material_bytes": self.material_bytes, "buffer_bytes": self.buffer_bytes,
+        })
+    }
+
+    fn cells(&self) -> String {
+        let time = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1}"));
+        format!(
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.1}</td><td>{:.3}</td><td>{}</td><td>{}</td>\
+             <td>{}</td><td>{}</td><td>{}</td></tr>",
+            self.material,
+            self.mesh,
+            self.path,
+            self.backend,
+            self.psnr_db,
+            self.ssim,
+            time(self.frame_ms.map(|times| times[0])),
+            time(self.frame_ms.map(|times| times[1])),
+            time(self.gather_ms),
+            human(self.material_bytes),
+            human(self.buffer_bytes),
+        )
+    }
+}
+
+/// Page: rows of a table, and pictures.
+pub(super) struct Page<'a> {
+    pub(super) folder: &'a Path,
+    pub(super) rows: Vec<Row>,
+    /// Title and file.
+    pub(super) pictures: Vec<(String, String)>,
+}
+
+impl Page<'_> {
+    pub(super) fn write(&self, gpus: &[(Backend, Gpu)], [width, height]: [u32; 2]) -> anyhow::Result<()> {
+        let rows: Vec<Value> = self.rows.iter().map(Row::json).collect();
+        write_bytes(&self.folder.join("render.json"), format!("{:#}\n", Value::Array(rows)).as_bytes())?;
+        let mut out = String::from("<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>paths</title>");
+        let _ = write!(out, "<style>{}</style><body>", CSS);
+        let devices: Vec<String> =
+            gpus.iter().map(|(backend, gpu)| format!("{backend}: {}", gpu.info().name)).collect();
+        let _ = write!(
+            out,
+            "<h1>Paths against the reference</h1><p class=\"note\">Every path draws the same scene at {width} × {height} \
+             pixels: one directional light with shadow, a dim studio around, a coat of roughness 0.25. The reference gathers light \
+             between points of the surface by their distances in space. PSNR is of display values over the pixels that the \
+             mesh covers in either picture; SSIM is of the whole picture. Times are medians of whole frames until the device \
+             is through, the light turning from frame to frame; those of one device come from one run and compare with each \
+             other only. {}.</p>",
+            devices.join("; ")
+        );
+        out.push_str(
+            "<table><thead><tr><th>material</th><th>mesh</th><th>path</th><th>device</th><th>PSNR, dB</th><th>SSIM</th>\
+             <th>frame, ms</th><th>p95</th><th>gather, ms</th><th>material</th><th>buffers</th></tr></thead>",
+        );
+        self.rows.iter().for_each(|row| out.push_str(&row.cells()));
+        out.push_str(
+            "</table><p class=\"note\">Pictures: reference, splat, separable, homogeneous; below each its difference from \
+             the reference, ten times.</p>",
+        );
+        for (title, file) in &self.pictures {
+            let bytes = std::fs::read(self.folder.join(file))?;
+            let data = base64::engine::general_purpose::STANDARD.encode(bytes);
+            let _ = write!(out, "<h3>{title}</h3><img style=\"max-width:100%\" src=\"data:image/png;base64,{data}\">");
+        }
+        out.push_str("</body></html>\n");
+        write_bytes(&self.folder.join("index.html"), out.as_bytes())?;
+        outln!("\n{}", self.folder.join("index.html").display());
+        Ok(())
+    }
+}

@@ -1,0 +1,34 @@
+//! The program, in a folder of its own.
+
+#![allow(dead_code, unused_imports, reason = "every test file takes what it needs")]
+
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+use subsurf_tests::program::Program;
+
+pub(crate) use subsurf_tests::program::{Run, assert_refused, files};
+
+const STUDY: Program = Program(env!("CARGO_BIN_EXE_subsurf-study"));
+
+/// The program, to be given arguments.
+pub(crate) fn command(folder: &Path) -> Command {
+    STUDY.command(folder)
+}
+
+/// Runs with arguments separated by spaces.
+pub(crate) fn run(folder: &Path, args: &str) -> Run {
+    STUDY.run(folder, args)
+}
+
+/// Runs, and takes success for granted.
+pub(crate) fn succeed(folder: &Path, args: &str) -> Run {
+    STUDY.succeed(folder, args)
+}
+
+/// Runs, and takes JSON on stdout for granted.
+pub(crate) fn json(folder: &Path, args: &str) -> Value {
+    let run = succeed(folder, args);
+    serde_json::from_str(&run.out).unwrap_or_else(|error| panic!("subsurf-study {args}: {error} in {}", run.out))
+}

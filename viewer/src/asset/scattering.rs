@@ -1,0 +1,129 @@
+//! What a technique needs of a translucent material and a mesh, computed without a device.
+
+use std::sync::Arc;
+
+use subsurf_decoder::Bssrdf;
+use subsurf_runtime::{
+    AmbientTransfer, Gpu, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial, VertexData,
+};
+use subsurf_scene::{Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
+use subsurf_shaders::separable::{BasisSize, SeparableBasis};
+
+use super::gpu::GpuAsset;
+use crate::error::Result;
+
+/// Longest edge of the mesh between whose vertices light is gathered, in pixels of the material.
+const LONGEST_EDGE: f32 = 1.5;
+/// How close to the gather the separable path has to come on a flat patch, in dB.
+const LEAST_DB: f32 = 40.0;
+
+/// Technique by which a translucent material is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scattering {
+    /// Every point gathers light from all others within reach: the reference.
+    Gather,
+    /// Every place that the light reaches is spread over what lies around it.
+    Splat,
+    /// Weighted irradiance maps and shared Gaussians: many times faster, and an approximation.
+    Separable,
+    /// The same with one mean profile everywhere, as if the material were not heterogeneous; for comparison.
+    Homogeneous,
+}
+
+/// Translucent material and mesh as a technique needs them: what takes long to compute, and needs no device.
+pub struct Asset {
+    mapping: Mapping,
+    parts: Parts,
+}
+
+enum Parts {
+    Gather { fine: Mesh, surface: SurfacePoints },
+    Splat { sky: Arc<Vec<AmbientTransfer>>, factors: SeparableBasis },
+    Separable { sky: Arc<Vec<AmbientTransfer>>, factors: SeparableBasis },
+}
+
+impl Asset {
+    /// Computes what `technique` needs; the lights of the scene count for gathers only.
+    ///
+    /// `sky`, where it is known already for this mesh and material, is not computed again.
+    ///
+    /// # Errors
+    /// The mesh is broken, or too fine a one would be needed.
+    pub fn compute(
+        material: &Bssrdf<'_>,
+        mesh: &Mesh,
+        mapping: Mapping,
+        scene: &Scene,
+        technique: Scattering,
+        sky: Option<Arc<Vec<AmbientTransfer>>>,
+    ) -> Result<Self> {
+        let sky = || match sky {
+            Some(sky) => Ok(sky),
+            None => AmbientTransfer::of(mesh, material).map(Arc::new),
+        };
+        let parts = match technique {
+            Scattering::Gather => {
+                let (fine, surface) = points(mesh, mapping, material, scene)?;
+                Parts::Gather { fine, surface }
+            }
+            Scattering::Splat => {
+                Parts::Splat { sky: sky()?, factors: SeparableBasis::of(material, BasisSize::default()) }
+            }
+            Scattering::Separable | Scattering::Homogeneous => {
+                Parts::Separable { sky: sky()?, factors: factors(material, technique) }
+            }
+        };
+        Ok(Self { mapping, parts })
+    }
+
+    /// Light from all around at every vertex, the same for all techniques that want it; none for gathers.
+    #[must_use]
+    pub fn sky(&self) -> Option<&Arc<Vec<AmbientTransfer>>> {
+        match &self.parts {
+            Parts::Splat { sky, .. } | Parts::Separable { sky, .. } => Some(sky),
+            Parts::Gather { .. } => None,
+        }
+    }
+
+    /// Brings everything to a device; material and mesh have to be those that it was computed for.
+    ///
+    /// # Errors
+    /// The device cannot draw it, or has no room for it.
+    pub fn upload(&self, gpu: &Gpu, material: &Bssrdf<'_>, mesh: &Mesh) -> Result<GpuAsset> {
+        let placement = Placement::new(mesh, self.mapping, material.header());
+        let shared = |sky: &[AmbientTransfer]| GpuMesh::upload(gpu, mesh, &placement, VertexData::Ambient(sky));
+        Ok(match &self.parts {
+            Parts::Gather { fine, surface } => GpuAsset::Gather {
+                mesh: GpuMesh::upload(gpu, fine, &placement, VertexData::Points(&surface.point_of))?,
+                points: GpuPoints::upload(gpu, surface)?,
+                material: Material::upload(gpu, material)?,
+            },
+            Parts::Splat { sky, factors } => {
+                GpuAsset::Splat { mesh: shared(sky)?, material: SplatMaterial::upload(gpu, material, factors)? }
+            }
+            Parts::Separable { sky, factors } => {
+                GpuAsset::Separable { mesh: shared(sky)?, material: SeparableMaterial::upload(gpu, factors)? }
+            }
+        })
+    }
+}
+
+/// Factors of a material, or of its mean for [`Scattering::Homogeneous`].
+#[must_use]
+pub fn factors(material: &Bssrdf<'_>, technique: Scattering) -> SeparableBasis {
+    match technique {
+        Scattering::Homogeneous => SeparableBasis::homogeneous(material, BasisSize::default().gaussians),
+        Scattering::Gather | Scattering::Splat | Scattering::Separable => SeparableBasis::within(material, LEAST_DB),
+    }
+}
+
+/// The mesh with vertices close enough to gather light at, and them as points that exchange light.
+///
+/// # Errors
+/// The mesh would have too many vertices.
+pub fn points(mesh: &Mesh, mapping: Mapping, material: &Bssrdf<'_>, scene: &Scene) -> Result<(Mesh, SurfacePoints)> {
+    let fine = mesh.clone().subdivided(LONGEST_EDGE * material.header().pitch_mm)?;
+    let visibilities = visibility(&fine, &scene.lights);
+    let surface = SurfacePoints::new(&fine, mapping, material.header(), &visibilities);
+    Ok((fine, surface))
+}

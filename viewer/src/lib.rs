@@ -1,0 +1,21 @@
+//! Window in which a material is turned, lit and compared; and how materials and meshes become pictures.
+//!
+//! [`Viewer`] is the window, the same on every platform: files come from a [`Config`], pictures and news go to a [`Host`].
+//! [`Asset`], [`GpuAsset`] and [`RenderSession`] are the steps from a file to a picture, with and without a window.
+
+mod asset;
+mod error;
+mod file;
+mod request;
+mod units;
+mod window;
+
+pub use asset::{
+    Asset, BtfImageSet, GpuAsset, MappingChoice, RenderSession, Scattering, TexturedMesh, choose_mapping, expect_uvs,
+    exposure_of, factors, light_of, points, repeats, upload_images,
+};
+pub use error::{Error, Result, one_line};
+pub use file::{Content, material_number, parse, parse_btf, read};
+pub use request::{Angles, DEFAULT_LIGHT, ROUGHNESS, RenderRequest};
+pub use units::human;
+pub use window::{Config, Event, Host, KEYS, LoadImages, Picture, Viewer, event_loop, options};

@@ -1,0 +1,175 @@
+//! Material files, and the mesh that is made of them.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use subsurf_scene::{Mesh, SHAPES, UpAxis, load_mesh};
+
+use crate::error::{Error, Result};
+use crate::file::{Content, material_number, parse, read};
+
+/// Material of a file that was found to be in order.
+pub(super) struct MaterialFile {
+    path: PathBuf,
+    bytes: Arc<[u8]>,
+    name: String,
+    /// Which material of a BTF.
+    number: usize,
+    is_btf: bool,
+}
+
+impl MaterialFile {
+    /// The material of a file; of a BTF all of its materials, or the one that is asked for by name or number.
+    pub(super) fn open(path: &Path, asked: Option<&str>) -> Result<Vec<Arc<Self>>> {
+        let bytes: Arc<[u8]> = read(path)?.into();
+        let one = |name: String, number, is_btf| {
+            Arc::new(Self { path: path.to_owned(), bytes: bytes.clone(), name, number, is_btf })
+        };
+        match parse(path, &bytes)? {
+            Content::Bssrdf(_) => Ok(vec![one(stem(path), 0, false)]),
+            Content::Btf(btf) => {
+                let names: Vec<String> = btf.materials().map(|material| material.name().to_owned()).collect();
+                let of = |number: usize| match &names[..] {
+                    [_] => one(stem(path), number, true),
+                    names => one(format!("{} {}", stem(path), names[number]), number, true),
+                };
+                let Some(asked) = asked else {
+                    return Ok((0..names.len()).map(of).collect());
+                };
+                let number = material_number(&names, asked).ok_or_else(|| {
+                    let last = names.len().saturating_sub(1);
+                    Error::Request(format!("no material {asked}: the file has {}, and 0 to {last}", names.join(", ")))
+                })?;
+                Ok(vec![of(number)])
+            }
+        }
+    }
+
+    pub(super) fn name(&self) -> String {
+        self.name.clone()
+    }
+
+    pub(super) fn number(&self) -> usize {
+        self.number
+    }
+
+    pub(super) fn is_btf(&self) -> bool {
+        self.is_btf
+    }
+
+    pub(super) fn read(&self) -> Result<Content<'_>> {
+        parse(&self.path, &self.bytes)
+    }
+}
+
+/// Name of a file without folder and extension.
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+/// How mesh files are read: to which size, and which way is up in them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MeshReading {
+    pub(super) extent_mm: f32,
+    pub(super) up: UpAxis,
+}
+
+/// Materials to choose from, and the mesh that is made of one of them.
+pub(super) struct Assets {
+    pub(super) materials: Vec<Arc<MaterialFile>>,
+    pub(super) mesh: Arc<Mesh>,
+    pub(super) mesh_name: String,
+    /// Tells meshes apart.
+    pub(super) mesh_number: u32,
+    reading: MeshReading,
+}
+
+/// Kind of a file that was dropped onto the window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Dropped {
+    /// The material of this number.
+    Material(usize),
+    Mesh,
+}
+
+impl Assets {
+    /// Opens material files and a mesh; `asked` is the one material of BTF files that is wanted.
+    pub(super) fn open(materials: &[PathBuf], asked: Option<&str>, mesh: &Path, reading: MeshReading) -> Result<Self> {
+        let open = |path: &PathBuf| MaterialFile::open(path, asked);
+        let files = materials.iter().map(open).collect::<Result<Vec<_>>>()?;
+        Ok(Self {
+            materials: files.concat(),
+            mesh: Arc::new(load_mesh(mesh, reading.extent_mm, reading.up)?),
+            mesh_name: stem(mesh),
+            mesh_number: 0,
+            reading,
+        })
+    }
+
+    /// Opens a file that was dropped onto the window. If it fails, everything stays as it was.
+    pub(super) fn drop(&mut self, path: &Path) -> Result<Dropped> {
+        let extension = path.extension().map_or_else(String::new, |text| text.to_string_lossy().to_ascii_lowercase());
+        match extension.as_str() {
+            "subsurf" => {
+                let first = self.materials.len();
+                // The material that was asked for is one of other files. The same file again replaces nothing: it may have
+                // been encoded anew.
+                let files = MaterialFile::open(path, None)?;
+                self.materials.extend(files);
+                Ok(Dropped::Material(first))
+            }
+            "obj" | "ply" | "glb" | "gltf" => {
+                self.set_mesh(path)?;
+                Ok(Dropped::Mesh)
+            }
+            _ => Err(Error::Request(format!(
+                "{}: neither a material (.subsurf) nor a mesh (.obj, .ply, .glb, .gltf); drop one of these",
+                path.display()
+            ))),
+        }
+    }
+
+    /// The shape after this one; the first where the mesh is from a file.
+    pub(super) fn next_shape(&mut self) -> Result<()> {
+        let next = SHAPES.iter().position(|name| *name == self.mesh_name).map_or(0, |at| (at + 1) % SHAPES.len());
+        self.set_mesh(Path::new(SHAPES[next]))
+    }
+
+    fn set_mesh(&mut self, path: &Path) -> Result<()> {
+        self.mesh = Arc::new(load_mesh(path, self.reading.extent_mm, self.reading.up)?);
+        self.mesh_name = stem(path);
+        self.mesh_number += 1;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_dropped_is_opened_or_refused_and_nothing_is_lost() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str, text: &str| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, text).unwrap();
+            path
+        };
+        let reading = MeshReading { extent_mm: 60.0, up: UpAxis::Y };
+        let mut assets = Assets::open(&[], None, Path::new("torus"), reading).unwrap();
+        let triangle = file("triangle.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        assert_eq!(assets.drop(&triangle).unwrap(), Dropped::Mesh);
+        assert_eq!((assets.mesh_name.as_str(), assets.mesh_number, assets.mesh.triangles.len()), ("triangle", 1, 1));
+        for (name, text, reason) in [
+            ("broken.subsurf", "no material", "broken.subsurf"),
+            ("broken.obj", "v 0 0", "broken.obj"),
+            ("notes.txt", "hello", "drop one of these"),
+        ] {
+            let error = assets.drop(&file(name, text)).unwrap_err();
+            assert!(format!("{error:#}").contains(reason), "{error:#}");
+        }
+        assert_eq!((assets.mesh_name.as_str(), assets.materials.len()), ("triangle", 0), "as before");
+        assets.next_shape().unwrap();
+        assert_eq!(assets.mesh_name, SHAPES[0]);
+    }
+}

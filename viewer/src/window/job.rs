@@ -1,0 +1,171 @@
+//! Jobs: what is to be known of material and mesh is computed on a thread of its own, and the window goes on.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use subsurf_runtime::{AmbientTransfer, BtfMaterial, Gpu};
+use subsurf_scene::{Mesh, Scene};
+
+use super::assets::MaterialFile;
+use super::config::LoadImages;
+use crate::asset::{
+    Asset, BtfImageSet, GpuAsset, MappingChoice, Scattering, choose_mapping, expect_uvs, repeats, upload_images,
+};
+use crate::error::{Error, Result};
+use crate::file::Content;
+
+/// Way in which a material is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum RenderMode {
+    /// A translucent one, by a technique.
+    Scattering(Scattering),
+    /// A BTF, from its file.
+    Btf,
+    /// A BTF, from the images that it was made from.
+    Images,
+}
+
+/// Identity of a picture: what it is of, and how it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Key {
+    pub(super) material: usize,
+    pub(super) mesh: u32,
+    pub(super) mode: RenderMode,
+    /// The light from which vertices are shaded, where a path knows it beforehand.
+    pub(super) light: Option<Vec3>,
+}
+
+impl Key {
+    /// Whether light from all around is the same for both.
+    fn shares_sky(&self, other: &Self) -> bool {
+        (self.material, self.mesh) == (other.material, other.mesh)
+    }
+}
+
+/// Work to do before a picture can be drawn.
+pub(super) struct Job {
+    pub(super) key: Key,
+    pub(super) material: Arc<MaterialFile>,
+    pub(super) mesh: Arc<Mesh>,
+    pub(super) mapping: MappingChoice,
+    /// Copies of a BTF along u and v, if they were asked for.
+    pub(super) repeats: Option<[f32; 2]>,
+    pub(super) images: Option<Arc<LoadImages>>,
+    pub(super) scene: Scene,
+}
+
+/// What a job computes: all that takes long and needs no device.
+pub(super) enum Computed {
+    Scattering(Asset),
+    Btf { repeats: [f32; 2] },
+    Images { repeats: [f32; 2], images: Box<dyn BtfImageSet> },
+}
+
+impl Computed {
+    /// Brings everything to a device.
+    pub(super) fn upload(&self, gpu: &Gpu, file: &MaterialFile, mesh: &Mesh) -> Result<GpuAsset> {
+        match (self, file.read()?) {
+            (Self::Scattering(asset), Content::Bssrdf(material)) => asset.upload(gpu, &material, mesh),
+            (Self::Btf { repeats }, Content::Btf(btf)) => {
+                GpuAsset::btf(gpu, mesh, *repeats, BtfMaterial::upload(gpu, &btf)?, file.number())
+            }
+            (Self::Images { repeats, images }, _) => {
+                GpuAsset::btf(gpu, mesh, *repeats, upload_images(gpu, images.as_ref())?, 0)
+            }
+            _ => Err(Error::Request(format!("{}: the file is of another kind than it was", file.name()))),
+        }
+    }
+
+    /// Light from all around, where it was computed.
+    fn sky(&self) -> Option<&Arc<Vec<AmbientTransfer>>> {
+        match self {
+            Self::Scattering(asset) => asset.sky(),
+            Self::Btf { .. } | Self::Images { .. } => None,
+        }
+    }
+}
+
+impl Job {
+    fn compute(&self, sky: Option<Arc<Vec<AmbientTransfer>>>) -> Result<Computed> {
+        match (self.material.read()?, self.key.mode) {
+            (Content::Bssrdf(material), RenderMode::Scattering(technique)) => {
+                let mapping = choose_mapping(&self.mesh, self.mapping, &material)?;
+                let asset = Asset::compute(&material, &self.mesh, mapping, &self.scene, technique, sky)?;
+                Ok(Computed::Scattering(asset))
+            }
+            (Content::Btf(btf), mode) => {
+                expect_uvs(&self.mesh)?;
+                let size = btf.materials().nth(self.material.number()).map_or([1; 2], |material| material.size(0));
+                let repeats = self.repeats.unwrap_or_else(|| repeats(&self.mesh, size));
+                match (&self.images, mode) {
+                    (Some(load), RenderMode::Images) => Ok(Computed::Images { repeats, images: load()? }),
+                    _ => Ok(Computed::Btf { repeats }),
+                }
+            }
+            (Content::Bssrdf(_), RenderMode::Btf | RenderMode::Images) => {
+                Err(Error::Request(format!("{} is no BTF", self.material.name())))
+            }
+        }
+    }
+}
+
+/// Outcome of a job.
+pub(super) struct JobResult {
+    key: Key,
+    result: Result<Computed>,
+}
+
+/// Queue of one: does a job at a time, and caches what was wanted last.
+pub(super) struct JobQueue {
+    /// Hands a result to the window's thread.
+    send: Arc<dyn Fn(JobResult) + Send + Sync>,
+    pending: Option<Key>,
+    cache: Vec<(Key, Arc<Computed>)>,
+}
+
+/// Results in the cache at most: all techniques of two materials.
+const CACHED: usize = 8;
+
+impl JobQueue {
+    /// `send` is called on another thread.
+    pub(super) fn new(send: Arc<dyn Fn(JobResult) + Send + Sync>) -> Self {
+        Self { send, pending: None, cache: Vec::new() }
+    }
+
+    /// What is being computed.
+    pub(super) fn pending(&self) -> Option<&Key> {
+        self.pending.as_ref()
+    }
+
+    /// What was computed already.
+    pub(super) fn find(&self, key: &Key) -> Option<Arc<Computed>> {
+        self.cache.iter().find(|(cached, _)| cached == key).map(|(_, computed)| computed.clone())
+    }
+
+    /// Starts a job, unless there is one to wait for.
+    pub(super) fn start(&mut self, job: Job) {
+        if self.pending.is_some() {
+            return;
+        }
+        self.pending = Some(job.key);
+        let alike = self.cache.iter().filter(|(key, _)| key.shares_sky(&job.key));
+        let sky = alike.map(|(_, computed)| computed.sky()).find_map(|sky| sky.cloned());
+        let send = self.send.clone();
+        std::thread::spawn(move || send(JobResult { key: job.key, result: job.compute(sky) }));
+    }
+
+    /// Takes a result in; fails with the key of a job that failed.
+    pub(super) fn receive(&mut self, of: JobResult) -> std::result::Result<(), (Key, Error)> {
+        self.pending = None;
+        let computed = of.result.map_err(|error| (of.key, error))?;
+        // Other meshes never come back. Points under another light hardly ever do, and are large.
+        let is_gather = |key: &Key| key.mode == RenderMode::Scattering(Scattering::Gather);
+        let replaces = |key: &Key| is_gather(&of.key) && is_gather(key);
+        self.cache.retain(|(key, _)| key.mesh == of.key.mesh && !replaces(key));
+        if self.cache.len() == CACHED {
+            self.cache.remove(0);
+        }
+        self.cache.push((of.key, Arc::new(computed)));
+        Ok(())
+    }
+}
