@@ -1,7 +1,6 @@
 //! A mesh made of a material, under a scene, drawn by any path on any device.
 
 use glam::Vec3;
-use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::bssrdf::{Options, encode};
@@ -11,7 +10,7 @@ use subsurf_runtime::{
     AmbientTransfer, BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, Renderer, RuntimeOptions,
     SeparableMaterial, SplatMaterial, Technique, VertexData,
 };
-use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene, SurfacePoints};
+use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
 use subsurf_shaders::separable::{BasisSize, SeparableBasis};
 
 use crate::simulated;
@@ -56,7 +55,7 @@ pub fn scene(mesh: &Mesh) -> Scene {
 
 /// What paths draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Way {
+pub enum RenderMode {
     /// The reference.
     Gather,
     /// Splats.
@@ -82,14 +81,14 @@ impl Loaded {
     /// # Panics
     /// If the device takes none of it.
     #[must_use]
-    pub fn new(gpu: &Gpu, way: Way, file: &[u8], mesh: &Mesh) -> Self {
-        Self::under(gpu, way, file, mesh, Mapping::Uv([2.0, 1.0]), &scene(mesh))
+    pub fn new(gpu: &Gpu, mode: RenderMode, file: &[u8], mesh: &Mesh) -> Self {
+        Self::under(gpu, mode, file, mesh, Mapping::Uv([2.0, 1.0]), &scene(mesh))
     }
 
     /// # Panics
     /// If the device takes none of it.
     #[must_use]
-    pub fn under(gpu: &Gpu, way: Way, file: &[u8], mesh: &Mesh, mapping: Mapping, scene: &Scene) -> Self {
+    pub fn under(gpu: &Gpu, mode: RenderMode, file: &[u8], mesh: &Mesh, mapping: Mapping, scene: &Scene) -> Self {
         let material = Bssrdf::parse(file).unwrap();
         let placement = Placement::new(mesh, mapping, material.header());
         let factors = || SeparableBasis::of(&material, BasisSize::default());
@@ -97,18 +96,18 @@ impl Loaded {
             let shares = AmbientTransfer::of(mesh, &material).unwrap();
             GpuMesh::upload(gpu, mesh, &placement, VertexData::Ambient(&shares)).unwrap()
         };
-        match way {
-            Way::Gather => {
+        match mode {
+            RenderMode::Gather => {
                 // Fine enough that the sum is close to its integral.
                 let fine = mesh.clone().subdivided(0.8 * material.header().pitch_mm).unwrap();
-                let visibilities = shadows(&fine, mesh, scene);
+                let visibilities = visibility(&fine, &scene.lights);
                 let surface = SurfacePoints::new(&fine, mapping, material.header(), &visibilities);
                 let on_gpu = GpuMesh::upload(gpu, &fine, &placement, VertexData::Points(&surface.point_of)).unwrap();
                 let points = GpuPoints::upload(gpu, &surface).unwrap();
                 Self::Gather(on_gpu, points, Material::upload(gpu, &material).unwrap())
             }
-            Way::Splat => Self::Splat(lit(), SplatMaterial::upload(gpu, &material, &factors()).unwrap()),
-            Way::Separable => Self::Separable(lit(), SeparableMaterial::upload(gpu, &factors()).unwrap()),
+            RenderMode::Splat => Self::Splat(lit(), SplatMaterial::upload(gpu, &material, &factors()).unwrap()),
+            RenderMode::Separable => Self::Separable(lit(), SeparableMaterial::upload(gpu, &factors()).unwrap()),
         }
     }
 
@@ -149,38 +148,6 @@ impl Loaded {
     }
 }
 
-/// Which vertices of a mesh the first light reaches, by trying all triangles of what is in its way.
-fn shadows(mesh: &Mesh, opaque: &Mesh, scene: &Scene) -> Vec<[f32; 4]> {
-    let light = scene.lights[0];
-    let triangles: Vec<[Vec3; 3]> =
-        opaque.triangles.iter().map(|triangle| triangle.map(|k| opaque.positions[k as usize])).collect();
-    let [low, high] = mesh.bounds();
-    let offset = 2e-3 * (high - low).max_element();
-    let vertices = mesh.positions.par_iter().zip(&mesh.normals);
-    let seen = vertices.map(|(position, normal)| {
-        let (towards, _) = light.direction_from(*position);
-        let from = position + offset * normal;
-        let hidden = normal.dot(towards) > 0.0 && triangles.iter().any(|triangle| is_hit(triangle, from, towards));
-        [f32::from(u8::from(!hidden)); 4]
-    });
-    seen.collect()
-}
-
-/// Möller and Trumbore 1997.
-fn is_hit([a, b, c]: &[Vec3; 3], from: Vec3, towards: Vec3) -> bool {
-    let (ab, ac) = (b - a, c - a);
-    let p = towards.cross(ac);
-    let determinant = ab.dot(p);
-    if determinant.abs() < 1e-12 {
-        return false;
-    }
-    let t = from - a;
-    let u = t.dot(p) / determinant;
-    let q = t.cross(ab);
-    let v = towards.dot(q) / determinant;
-    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && ac.dot(q) / determinant > 0.0
-}
-
 /// A small simulated material, encoded.
 ///
 /// # Panics
@@ -209,14 +176,14 @@ pub fn psnr(reference: &[[u8; 3]], found: &[[u8; 3]]) -> f64 {
 ///
 /// # Panics
 /// If they are further apart than [`EDGE_PIXELS`] or the limits say.
-pub fn assert_close(name: &str, gpus: &[Gpu; 2], limits: [(Way, f64); 2], draw: impl Fn(&Gpu, Way) -> Vec<[u8; 3]>) {
-    let reference = draw(&gpus[0], Way::Gather);
-    for (way, least_db) in limits {
-        let pictures = gpus.each_ref().map(|gpu| draw(gpu, way));
+pub fn assert_close(name: &str, gpus: &[Gpu; 2], limits: [(RenderMode, f64); 2], draw: impl Fn(&Gpu, RenderMode) -> Vec<[u8; 3]>) {
+    let reference = draw(&gpus[0], RenderMode::Gather);
+    for (mode, least_db) in limits {
+        let pictures = gpus.each_ref().map(|gpu| draw(gpu, mode));
         let db = pictures.each_ref().map(|picture| psnr(&reference, picture));
         let share = share_that_differs(&pictures[0], &pictures[1]);
-        println!("{name}, {way:?}: {db:.1?} dB from the gather; {share} of pixels differ between the APIs");
-        assert!(db.iter().all(|db| *db >= least_db), "{name}, {way:?}: {db:?} dB");
-        assert!(share <= EDGE_PIXELS, "{name}, {way:?}: {share}");
+        println!("{name}, {mode:?}: {db:.1?} dB from the gather; {share} of pixels differ between the APIs");
+        assert!(db.iter().all(|db| *db >= least_db), "{name}, {mode:?}: {db:?} dB");
+        assert!(share <= EDGE_PIXELS, "{name}, {mode:?}: {share}");
     }
 }

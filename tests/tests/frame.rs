@@ -8,7 +8,7 @@ use subsurf_encoder::metrics::psnr_db;
 use subsurf_encoder::simulate::diffusion::BuiltinMaterial;
 use subsurf_runtime::{BACKGROUND, Backend, Drawable, Error, Gpu, Renderer, RuntimeOptions, Technique};
 use subsurf_scene::{bowl, drapery, knot, torus};
-use subsurf_tests::frames::{API_TOLERANCE, Loaded, SIZE, Way, assert_close, device, material_of, scene};
+use subsurf_tests::frames::{API_TOLERANCE, Loaded, SIZE, RenderMode, assert_close, device, material_of, scene};
 use subsurf_tests::shape;
 
 /// Every path against the gather, on meshes thick and thin; and both APIs against each other.
@@ -19,8 +19,8 @@ fn paths_come_close_to_the_gather_and_apis_to_each_other() {
     let meshes = [("knot", knot(14.0, 4.5, 32)), ("bowl", bowl(12.0, 2.0, 32)), ("drapery", drapery(14.0, 1.0, 5, 40))];
     for (name, mesh) in &meshes {
         let scene = scene(mesh);
-        let draw = |gpu: &Gpu, way| Loaded::new(gpu, way, &file, mesh).picture(gpu, &scene, SIZE);
-        assert_close(name, &gpus, [(Way::Splat, 36.0), (Way::Separable, 28.0)], draw);
+        let draw = |gpu: &Gpu, mode| Loaded::new(gpu, mode, &file, mesh).picture(gpu, &scene, SIZE);
+        assert_close(name, &gpus, [(RenderMode::Splat, 36.0), (RenderMode::Separable, 28.0)], draw);
     }
 }
 
@@ -31,7 +31,7 @@ fn splats_are_the_same_from_profiles_of_every_pixel() {
     let profiles = per_pixel_of(&Bssrdf::parse(&file).unwrap());
     let mesh = torus(9.0, 4.0, 32);
     let gpu = device(Backend::Vulkan);
-    let draw = |file: &[u8]| Loaded::new(&gpu, Way::Splat, file, &mesh).picture(&gpu, &scene(&mesh), SIZE);
+    let draw = |file: &[u8]| Loaded::new(&gpu, RenderMode::Splat, file, &mesh).picture(&gpu, &scene(&mesh), SIZE);
     let (a, b) = (draw(&file), draw(&profiles));
     let worst = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| a.abs_diff(*b)).max();
     assert!(worst <= Some(API_TOLERANCE), "{worst:?}");
@@ -45,7 +45,7 @@ fn far_meshes_do_not_shimmer() {
     let file = material_of(BuiltinMaterial::Chessboard);
     let mesh = torus(9.0, 4.0, 48);
     let gpu = device(Backend::Vulkan);
-    let loaded = Loaded::new(&gpu, Way::Separable, &file, &mesh);
+    let loaded = Loaded::new(&gpu, RenderMode::Separable, &file, &mesh);
     let mut worst = f64::INFINITY;
     for step in 0..4_u8 {
         let mut far = scene(&mesh);
@@ -89,9 +89,9 @@ fn a_device_of_the_callers_own_draws_the_same() {
     let scene = scene(&mesh);
     let ours = device(Backend::Vulkan);
     let theirs = Gpu::from_device(ours.device().clone(), ours.queue().clone(), ours.info().clone());
-    let draw = |gpu: &Gpu| Loaded::new(gpu, Way::Separable, &file, &mesh).picture(gpu, &scene, SIZE);
+    let draw = |gpu: &Gpu| Loaded::new(gpu, RenderMode::Separable, &file, &mesh).picture(gpu, &scene, SIZE);
     assert!(draw(&ours) == draw(&theirs), "the same picture");
-    let kept = Loaded::new(&ours, Way::Separable, &file, &mesh);
+    let kept = Loaded::new(&ours, RenderMode::Separable, &file, &mesh);
     assert!(ours.ledger().bytes() > 0, "{:?} is there", kept.path());
     assert_eq!(theirs.ledger().bytes(), 0, "each has a ledger of its own");
 }
@@ -102,7 +102,7 @@ fn points_of_another_surface_are_refused() {
     let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
     let gpu = device(Backend::Vulkan);
     let [large, small] = [torus(9.0, 4.0, 24), torus(4.0, 1.5, 24)];
-    let of = |mesh| match Loaded::new(&gpu, Way::Gather, &file, mesh) {
+    let of = |mesh| match Loaded::new(&gpu, RenderMode::Gather, &file, mesh) {
         Loaded::Gather(mesh, points, material) => (mesh, points, material),
         _ => panic!("another path"),
     };

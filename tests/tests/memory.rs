@@ -3,7 +3,7 @@
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_runtime::{Backend, Error, Frame, Gpu, Renderer, RuntimeOptions};
 use subsurf_scene::{Scene, torus};
-use subsurf_tests::frames::{Loaded, SIZE, Way, device, scene};
+use subsurf_tests::frames::{Loaded, SIZE, RenderMode, device, scene};
 use subsurf_tests::shape;
 
 fn prepared(gpu: &Gpu, loaded: &Loaded, scene: &Scene, budget_bytes: Option<u64>) -> Result<Frame, Error> {
@@ -17,27 +17,27 @@ fn budgets_are_kept_or_refused() {
     let mesh = torus(9.0, 4.0, 24);
     let scene = scene(&mesh);
     for gpu in Backend::ALL.map(device) {
-        for way in [Way::Splat, Way::Separable, Way::Gather] {
-            let loaded = Loaded::new(&gpu, way, &file, &mesh);
+        for mode in [RenderMode::Splat, RenderMode::Separable, RenderMode::Gather] {
+            let loaded = Loaded::new(&gpu, mode, &file, &mesh);
             let before = gpu.ledger().bytes();
             let frame = prepared(&gpu, &loaded, &scene, None).unwrap();
             let whole = gpu.ledger().bytes();
             let best = *frame.plan();
             drop(frame);
-            assert_eq!(gpu.ledger().bytes(), before, "{way:?}: all of a frame is gone");
+            assert_eq!(gpu.ledger().bytes(), before, "{mode:?}: all of a frame is gone");
 
             let frame = prepared(&gpu, &loaded, &scene, Some(whole - 1)).unwrap();
-            assert!(gpu.ledger().bytes() < whole, "{way:?}: {} bytes of {whole}", gpu.ledger().bytes());
-            assert_ne!(*frame.plan(), best, "{way:?}: something had to become coarser");
+            assert!(gpu.ledger().bytes() < whole, "{mode:?}: {} bytes of {whole}", gpu.ledger().bytes());
+            assert_ne!(*frame.plan(), best, "{mode:?}: something had to become coarser");
             drop(frame);
 
             match prepared(&gpu, &loaded, &scene, Some(before + 1_000)) {
                 Err(Error::OverBudget { need_bytes, budget_bytes }) => {
                     assert!(need_bytes > budget_bytes, "{need_bytes} {budget_bytes}");
                 }
-                other => panic!("{way:?}: {other:?}"),
+                other => panic!("{mode:?}: {other:?}"),
             }
-            assert_eq!(gpu.ledger().bytes(), before, "{way:?}: nothing was allocated");
+            assert_eq!(gpu.ledger().bytes(), before, "{mode:?}: nothing was allocated");
         }
     }
 }
@@ -51,13 +51,13 @@ fn a_thousand_loads_and_resizes_leave_nothing() {
     let scene = scene(&mesh);
     let options = RuntimeOptions { light_texels: 128, ..RuntimeOptions::default() };
     let allocated = || gpu.device().generate_allocator_report().map_or(0, |report| report.total_allocated_bytes);
-    for way in [Way::Splat, Way::Separable] {
-        let first = Loaded::new(&gpu, way, &file, &mesh);
+    for mode in [RenderMode::Splat, RenderMode::Separable] {
+        let first = Loaded::new(&gpu, mode, &file, &mesh);
         let renderer = Renderer::new(&gpu, first.path(), options).unwrap();
         drop(first);
         let mut after_some = (0, 0);
         for cycle in 0..1_000_u32 {
-            let loaded = Loaded::new(&gpu, way, &file, &mesh);
+            let loaded = Loaded::new(&gpu, mode, &file, &mesh);
             let size = [16 + cycle % 29, 16 + cycle % 31];
             let mut frame = renderer.prepare(&gpu, &loaded.model(), &scene, size).unwrap();
             if cycle % 50 == 0 {
@@ -69,11 +69,11 @@ fn a_thousand_loads_and_resizes_leave_nothing() {
                 after_some = (gpu.ledger().bytes(), allocated());
             }
         }
-        println!("{way:?}: {after_some:?} bytes after 100 cycles, {} after 1000", allocated());
-        assert_eq!(gpu.ledger().bytes(), after_some.0, "{way:?}: by the ledger");
-        assert_eq!(gpu.ledger().bytes(), 0, "{way:?}: by the ledger");
+        println!("{mode:?}: {after_some:?} bytes after 100 cycles, {} after 1000", allocated());
+        assert_eq!(gpu.ledger().bytes(), after_some.0, "{mode:?}: by the ledger");
+        assert_eq!(gpu.ledger().bytes(), 0, "{mode:?}: by the ledger");
         // The allocator keeps pages; it must not need more and more of them.
-        assert!(allocated() <= after_some.1 + (1 << 20), "{way:?}: {} after {after_some:?}", allocated());
+        assert!(allocated() <= after_some.1 + (1 << 20), "{mode:?}: {} after {after_some:?}", allocated());
     }
 }
 
@@ -86,15 +86,15 @@ fn the_ledger_agrees_with_the_allocator() {
     let mesh = torus(9.0, 4.0, 48);
     let scene = scene(&mesh);
     let file = shape([128, 128], 6, Addressing::Mirror).bmpp();
-    for way in [Way::Splat, Way::Separable] {
-        let loaded = Loaded::new(&gpu, way, &file, &mesh);
+    for mode in [RenderMode::Splat, RenderMode::Separable] {
+        let loaded = Loaded::new(&gpu, mode, &file, &mesh);
         let options = RuntimeOptions::default();
         let renderer = Renderer::new(&gpu, loaded.path(), options).unwrap();
         let frame = renderer.prepare(&gpu, &loaded.model(), &scene, [640, 480]).unwrap();
         gpu.finish().unwrap();
         let (ours, theirs) = (gpu.ledger().bytes(), allocated() - before);
-        println!("{way:?}: {ours} bytes by the ledger, {theirs} by the allocator");
-        assert!(ours <= theirs && theirs <= ours + ours / 8 + (2 << 20), "{way:?}: {ours} {theirs}");
+        println!("{mode:?}: {ours} bytes by the ledger, {theirs} by the allocator");
+        assert!(ours <= theirs && theirs <= ours + ours / 8 + (2 << 20), "{mode:?}: {ours} {theirs}");
         drop((frame, renderer, loaded));
         gpu.finish().unwrap();
     }

@@ -12,7 +12,7 @@ use subsurf_runtime::{
 };
 use subsurf_scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
 use subsurf_tests::frames::{
-    API_TOLERANCE, EDGE_PIXELS, Loaded, SIZE, Way, assert_close, device, material_of, psnr, scene, share_that_differs,
+    API_TOLERANCE, EDGE_PIXELS, Loaded, SIZE, RenderMode, assert_close, device, material_of, psnr, scene, share_that_differs,
 };
 use subsurf_tests::shape;
 
@@ -36,8 +36,8 @@ fn lights_close_by_and_boxes_come_close_to_the_gather() {
         ("spot, uv", drapery(14.0, 1.0, 5, 40), Mapping::Uv([2.0, 1.0]), close_light(&drapery(14.0, 1.0, 5, 40), spot)),
     ];
     for (name, mesh, mapping, scene) in &cases {
-        let draw = |gpu: &Gpu, way| Loaded::under(gpu, way, &file, mesh, *mapping, scene).picture(gpu, scene, SIZE);
-        assert_close(name, &gpus, [(Way::Splat, 32.0), (Way::Separable, 28.0)], draw);
+        let draw = |gpu: &Gpu, mode| Loaded::under(gpu, mode, &file, mesh, *mapping, scene).picture(gpu, scene, SIZE);
+        assert_close(name, &gpus, [(RenderMode::Splat, 32.0), (RenderMode::Separable, 28.0)], draw);
     }
 }
 
@@ -49,8 +49,8 @@ fn targets_of_srgb_and_of_several_samples_show_the_same() {
     let scene = scene(&mesh);
     let usual = RuntimeOptions::default();
     for gpu in Backend::ALL.map(device) {
-        for way in [Way::Gather, Way::Splat, Way::Separable] {
-            let loaded = Loaded::new(&gpu, way, &file, &mesh);
+        for mode in [RenderMode::Gather, RenderMode::Splat, RenderMode::Separable] {
+            let loaded = Loaded::new(&gpu, mode, &file, &mesh);
             let draw = |options| loaded.picture_with(&gpu, &scene, SIZE, options);
             let plain = draw(usual);
             let is_covered = |k: &usize| plain[*k] != [BACKGROUND; 3];
@@ -59,7 +59,7 @@ fn targets_of_srgb_and_of_several_samples_show_the_same() {
             let covered = (0..plain.len()).filter(is_covered);
             let worst =
                 covered.flat_map(|k| (0..3).map(move |c| (k, c))).map(|(k, c)| plain[k][c].abs_diff(there[k][c]));
-            assert!(worst.max() <= Some(1), "{way:?}: encoded by the target");
+            assert!(worst.max() <= Some(1), "{mode:?}: encoded by the target");
 
             let smooth = draw(RuntimeOptions { samples: 4, ..usual });
             let width = SIZE[0] as usize;
@@ -70,9 +70,9 @@ fn targets_of_srgb_and_of_several_samples_show_the_same() {
             let inside = (width + 1..plain.len() - width - 1).filter(is_inside);
             let (a, b): (Vec<_>, Vec<_>) = inside.map(|k| (plain[k], smooth[k])).unzip();
             let db = psnr(&a, &b);
-            println!("{way:?}: {db:.1} dB between one sample and four");
-            assert!(db >= 35.0, "{way:?}: {db} dB");
-            assert!(plain != smooth, "{way:?}: edges are smooth");
+            println!("{mode:?}: {db:.1} dB between one sample and four");
+            assert!(db >= 35.0, "{mode:?}: {db} dB");
+            assert!(plain != smooth, "{mode:?}: edges are smooth");
         }
     }
 }
@@ -100,10 +100,10 @@ fn devices_without_half_floats_to_draw_to_draw_the_same() {
         for (a, b) in halves.iter().flatten().zip(bits.iter().flatten()) {
             assert!((a - b).abs() <= a.abs() / 1024.0 + 6e-8, "{backend}: {a} {b}");
         }
-        for way in [Way::Gather, Way::Separable] {
-            let draw = |gpu: &Gpu| Loaded::new(gpu, way, &file, &mesh).picture(gpu, &scene, SIZE);
+        for mode in [RenderMode::Gather, RenderMode::Separable] {
+            let draw = |gpu: &Gpu| Loaded::new(gpu, mode, &file, &mesh).picture(gpu, &scene, SIZE);
             let share = share_that_differs(&draw(&gpu), &draw(&packed));
-            assert!(share <= EDGE_PIXELS, "{backend}, {way:?}: {share} of pixels differ by more than {API_TOLERANCE}");
+            assert!(share <= EDGE_PIXELS, "{backend}, {mode:?}: {share} of pixels differ by more than {API_TOLERANCE}");
         }
         match Renderer::new(&packed, Technique::Splat(MaterialLayout::Bmpp2), RuntimeOptions::default()) {
             Err(Error::NoHalfFloats { what }) => assert_eq!(what, "splats"),
