@@ -12,7 +12,7 @@ use subsurf_encoder::btf::{Images, Survey};
 
 use super::survey::{SEED, surveyed};
 
-/// A way to compress, and for baselines whose bytes they may take.
+/// Codec: a way to compress. Baselines may take as many bytes as another codec takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Codec {
     Nested,
@@ -45,7 +45,7 @@ impl Made {
 /// Clusters that local PCA is tried with.
 const CLUSTERS: [usize; 4] = [2, 3, 4, 6];
 
-/// What the encoders of one file are told.
+/// Options of the encoders of one file.
 pub(super) fn common(method: MethodArg, names: &[String], images: &[Images]) -> anyhow::Result<Common> {
     let grid = grid(&images[0], &usual_nodes(method, &images[0]))?;
     Ok(Common { grid, names: names.to_vec(), has_mipmaps: false, seed: SEED })
@@ -89,7 +89,7 @@ impl Codec {
         }
     }
 
-    /// Whose bytes a baseline may take.
+    /// Codec whose bytes a baseline may take.
     pub(super) fn budget_of(self) -> Option<Self> {
         match self {
             Self::Nested | Self::Paper | Self::Factored => None,
