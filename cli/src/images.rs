@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use subsurf_decoder::btf::Tone;
+use subsurf_decoder::btf::ColourEncoding;
 use subsurf_encoder::btf::{Folder, Images};
 use subsurf_encoder::{Error, Result};
 use subsurf_shaders::cpu;
@@ -50,8 +50,8 @@ impl BtfImageSet for FolderImages {
 
     fn white(&self) -> f32 {
         match self.0.tone() {
-            Tone::Display { white } => white,
-            Tone::LogLuv { .. } => 1.0,
+            ColourEncoding::Display { white } => white,
+            ColourEncoding::LogLuv { .. } => 1.0,
         }
     }
 

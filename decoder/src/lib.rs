@@ -1,36 +1,38 @@
 //! Reads `.subsurf` files: measured, heterogeneous, translucent materials in 48 bits per pixel, and the bidirectional
 //! texture functions of rough ones in a few hundred kilobytes.
 //!
-//! [`Bssrdf::parse`] and [`Btf::parse`] check a file once and borrow it; after that nothing can fail. No `std`, no
-//! allocation, no `unsafe`, no panic: any byte string yields a value or a [`ReadError`]. The input needs no alignment, and
-//! the host may be of either endianness. Files are described byte by byte in `FORMAT.md`.
+//! [`File::parse`] checks a file of any family once and borrows it; after that nothing can fail. Who knows the family
+//! calls [`Bssrdf::parse`], [`NestedBtf::parse`] or [`FactoredBtf::parse`]. No `std`, no allocation, no `unsafe`, no panic:
+//! any byte string yields a value or a [`ReadError`]. The input needs no alignment, and the host may be of either
+//! endianness. Files are described byte by byte in `FORMAT.md`.
 //!
 //! ```
 //! # fn show(file: &[u8]) -> Result<(), subsurf_decoder::ReadError> {
-//! use subsurf_decoder::Bssrdf;
+//! use subsurf_decoder::{Content, File};
 //!
-//! let material = Bssrdf::parse(file)?;
-//! // Light that enters at pixel (3, 4) and leaves at pixel (5, 4), in mm⁻².
-//! let rd = material.rd([3, 4], [5, 4]);
-//! # let _ = rd; Ok(()) }
-//! # assert!(show(b"not a file").is_err());
-//! ```
-//!
-//! ```
-//! # fn show(file: &[u8]) -> Result<(), subsurf_decoder::ReadError> {
-//! use subsurf_decoder::Btf;
-//!
-//! let cloth = Btf::parse(file)?;
-//! if let Some(texel) = cloth.texel(0, 0, [3, 4]) {
-//!     // What an eye 60° from the normal sees under light from above, and a light to look for next.
-//!     let (light, eye) = ([0.0, 0.0, 1.0], [0.866, 0.0, 0.5]);
-//!     let rgb = cloth.eval(texel, light, eye);
-//!     let next = cloth.sample(texel, eye, [0.3, 0.7]);
-//! #   let _ = (rgb, next);
+//! match File::parse(file)?.content() {
+//!     Content::Bssrdf(material) => {
+//!         // Light that enters at pixel (3, 4) and leaves at pixel (5, 4), in mm⁻².
+//!         let rd = material.rd([3, 4], [5, 4]);
+//! #       let _ = rd;
+//!     }
+//!     Content::NestedBtf(cloth) => {
+//!         if let Some(texel) = cloth.texel(0, 0, [3, 4]) {
+//!             // What an eye 60° from the normal sees under light from above, and a light to look for next.
+//!             let (light, eye) = ([0.0, 0.0, 1.0], [0.866, 0.0, 0.5]);
+//!             let rgb = cloth.eval(texel, light, eye);
+//!             let next = cloth.sample(texel, eye, [0.3, 0.7]);
+//! #           let _ = (rgb, next);
+//!         }
+//!     }
+//!     other => println!("a {}: expand it first", other.family()),
 //! }
 //! # Ok(()) }
 //! # assert!(show(b"not a file").is_err());
 //! ```
+//!
+//! The feature `alloc` adds what allocates: [`FactoredBtf::expand`] needs buffers from its caller, `expand_in` takes them
+//! from the heap.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(
@@ -41,14 +43,21 @@
     clippy::panic
 )]
 
-pub mod bits;
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
 pub mod bssrdf;
 pub mod btf;
-pub mod bytes;
 pub mod container;
-mod crc;
+mod detect;
 mod error;
+mod family;
+mod file;
+mod section;
 
 pub use bssrdf::Bssrdf;
-pub use btf::{Btf, Evaluate, Factored};
-pub use error::{ReadError, Section};
+pub use btf::{Evaluate, FactoredBtf, NestedBtf};
+pub use error::ReadError;
+pub use family::Family;
+pub use file::{Content, File};
+pub use section::Section;

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{BIDX, MIXR, MODEL, PITCH, PROF, PROFILES, SAMPLES, WIDTH, crc32, example, seal};
-use subsurf_decoder::bssrdf::{Addressing, Mixtures, Model, Profiles};
+use subsurf_decoder::bssrdf::{Addressing, BssrdfModel, Mixtures, Profiles};
 use subsurf_decoder::container::Crc;
 use subsurf_decoder::{Bssrdf, ReadError, Section};
 
@@ -37,7 +37,7 @@ fn reads_the_example() {
     assert_eq!(header.base_materials, 2);
     assert_eq!(header.addressing, Addressing::Clamp);
     assert_eq!((header.pitch_mm, header.r_max_mm, header.eta), (0.5, 1.0, 1.5));
-    let Model::BaseMaterials(planes) = material.model() else {
+    let BssrdfModel::BaseMaterials(planes) = material.model() else {
         panic!("model 2 is two base materials");
     };
     let (Profiles::F32(profiles), Mixtures::Two { ratios, indices }) = (planes.profiles, planes.mixtures) else {

@@ -4,7 +4,7 @@ mod nested;
 
 use rayon::prelude::*;
 use subsurf_decoder::bssrdf::layout::{MODEL_2BMPP, MODEL_PER_PIXEL};
-use subsurf_decoder::bssrdf::{Addressing, Coding, Header, LocalProfile, Mixture};
+use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, Coding, LocalProfile, Mixture};
 use subsurf_decoder::{Bssrdf, Section};
 
 use crate::bssrdf::{mixtures, profiles, write_file};
@@ -37,11 +37,11 @@ pub fn unit(n: u32) -> f32 {
 }
 
 impl Shape {
-    /// Header of the 2-BMPP file of this shape: 0.5 mm pitch, nodes up to the window's corner, η = 1.4.
+    /// BssrdfHeader of the 2-BMPP file of this shape: 0.5 mm pitch, nodes up to the window's corner, η = 1.4.
     #[must_use]
-    pub fn header(&self) -> Header {
+    pub fn header(&self) -> BssrdfHeader {
         let pitch_mm = 0.5;
-        Header {
+        BssrdfHeader {
             model: MODEL_2BMPP,
             coding: Coding::Exact,
             addressing: self.addressing,
@@ -74,7 +74,7 @@ impl Shape {
     /// Likewise with `k` base materials per pixel and another coding, and perhaps profiles in half precision.
     #[must_use]
     pub fn k_bmpp(&self, k: u8, coding: Coding, half_profiles: bool) -> Vec<u8> {
-        let header = Header { model: k, coding, ..self.header() };
+        let header = BssrdfHeader { model: k, coding, ..self.header() };
         let nodes = || (0..self.samples).flat_map(|h| (0..3).map(move |c| (h, c)));
         let values = (0..self.base_materials).flat_map(|b| nodes().map(move |(h, c)| (b, h, c)));
         let values = values.map(|(b, h, c)| self.log_profile(b, h, c));
@@ -108,7 +108,7 @@ impl Shape {
     /// A file of per-pixel profiles.
     #[must_use]
     pub fn per_pixel(&self) -> Vec<u8> {
-        let header = Header { model: MODEL_PER_PIXEL, base_materials: 0, ..self.header() };
+        let header = BssrdfHeader { model: MODEL_PER_PIXEL, base_materials: 0, ..self.header() };
         let planes = (0..self.samples).flat_map(|h| (0..3).map(move |c| (h, c)));
         let values = planes.flat_map(|(h, c)| (0..self.size[0] * self.size[1]).map(move |pixel| (pixel, h, c)));
         let values = values.flat_map(|(pixel, h, c)| self.log_profile(pixel, h, c).to_le_bytes()).collect();
@@ -119,7 +119,8 @@ impl Shape {
 /// A file of per-pixel profiles with the profiles that a material's pixels have: as large as what Song et al. 2009 store.
 #[must_use]
 pub fn per_pixel_of(material: &Bssrdf<'_>) -> Vec<u8> {
-    let header = Header { model: MODEL_PER_PIXEL, coding: Coding::Exact, base_materials: 0, ..*material.header() };
+    let header =
+        BssrdfHeader { model: MODEL_PER_PIXEL, coding: Coding::Exact, base_materials: 0, ..*material.header() };
     let pixels = (0..header.height).flat_map(|y| (0..header.width).map(move |x| [x, y].map(u32::cast_signed)));
     let profiles: Vec<_> = pixels.map(|pixel| material.profile(pixel)).collect();
     let mut values = Vec::new();

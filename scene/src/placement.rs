@@ -1,6 +1,6 @@
 //! Where a mesh is and how a material lies on it.
 
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use crate::mapping::Mapping;
 use crate::mesh::{BoundingSphere, Mesh};
@@ -25,7 +25,7 @@ pub struct Placement {
 impl Placement {
     /// Placement of a scattering material, of which `header` says the size.
     #[must_use]
-    pub fn new(mesh: &Mesh, mapping: Mapping, header: &Header) -> Self {
+    pub fn new(mesh: &Mesh, mapping: Mapping, header: &BssrdfHeader) -> Self {
         Self {
             bounds: mesh.bounding_sphere(),
             mapping,

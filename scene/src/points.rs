@@ -1,7 +1,7 @@
 //! The vertices of a mesh as points that exchange light: area, pixel of the material, and a grid to find neighbours.
 
 use glam::{UVec3, Vec2, Vec3, Vec4};
-use subsurf_decoder::bssrdf::{Addressing, Header};
+use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader};
 
 use crate::light::MAX_LIGHTS;
 use crate::mapping::{Mapping, place_in_box};
@@ -52,7 +52,7 @@ impl SurfacePoints {
     /// # Panics
     /// If `visibilities` is shorter than the mesh.
     #[must_use]
-    pub fn new(mesh: &Mesh, mapping: Mapping, header: &Header, visibilities: &[[f32; MAX_LIGHTS]]) -> Self {
+    pub fn new(mesh: &Mesh, mapping: Mapping, header: &BssrdfHeader, visibilities: &[[f32; MAX_LIGHTS]]) -> Self {
         let [low, high] = mesh.bounds();
         let extent = (high - low).max_element();
         // Half the radius of scattering: a row of cells has few points that are too far away.
@@ -105,7 +105,7 @@ impl SurfacePoints {
     }
 }
 
-fn pixel_of(mesh: &Mesh, vertex: usize, mapping: Mapping, header: &Header) -> [u16; 2] {
+fn pixel_of(mesh: &Mesh, vertex: usize, mapping: Mapping, header: &BssrdfHeader) -> [u16; 2] {
     #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
     let size = Vec2::new(header.width as f32, header.height as f32);
     // Pixels, y down.

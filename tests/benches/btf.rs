@@ -4,8 +4,8 @@
 
 use divan::Bencher;
 use divan::counter::{BytesCount, ItemsCount};
-use subsurf_decoder::Btf;
-use subsurf_decoder::btf::{Texel, Tone, View};
+use subsurf_decoder::NestedBtf;
+use subsurf_decoder::btf::{ColourEncoding, Texel, View};
 use subsurf_encoder::synthetic::{NestedShape, unit};
 use subsurf_tests::nested::{direction, single};
 
@@ -23,7 +23,7 @@ fn file(kind: &str) -> Vec<u8> {
         "display" => typical,
         "one colour" => NestedShape { chroma: [4096, 1, 1, 1], ..typical },
         "relative and tints" => NestedShape { is_relative: true, tints: 64, ..typical },
-        "LogLuv" => NestedShape { tone: Tone::LogLuv { toe: 0.01, peak: 20.0 }, ..typical },
+        "LogLuv" => NestedShape { tone: ColourEncoding::LogLuv { toe: 0.01, peak: 20.0 }, ..typical },
         // As large as the others.
         "three stages" => NestedShape { stages: 3, luma: [512, 1024, 1024, 512], ..typical },
         other => unreachable!("no file is called {other}"),
@@ -34,7 +34,7 @@ fn file(kind: &str) -> Vec<u8> {
 /// A texel, a light, a view and two random numbers.
 type Query = (Texel, [f32; 3], [f32; 3], [f32; 2]);
 
-fn queries(btf: &Btf<'_>) -> Vec<Query> {
+fn queries(btf: &NestedBtf<'_>) -> Vec<Query> {
     let query = |n: u32| {
         let random = |k: u32| unit(8 * n + k);
         // Most views are from 88° or less: random textures do not fold over.
@@ -55,7 +55,7 @@ fn run<T>(bencher: Bencher<'_, '_>, items: &[T], one: impl Fn(&T) -> f32) {
 #[divan::bench(args = KINDS, sample_count = 400)]
 fn eval(bencher: Bencher<'_, '_>, kind: &str) {
     let file = file(kind);
-    let btf = Btf::parse(&file).expect("a file of our own");
+    let btf = NestedBtf::parse(&file).expect("a file of our own");
     run(bencher, &queries(&btf), |(texel, light, view, _)| btf.eval(*texel, *light, *view).iter().sum());
 }
 
@@ -63,7 +63,7 @@ fn eval(bencher: Bencher<'_, '_>, kind: &str) {
 #[divan::bench(args = KINDS, sample_count = 400)]
 fn eval_for(bencher: Bencher<'_, '_>, kind: &str) {
     let file = file(kind);
-    let btf = Btf::parse(&file).expect("a file of our own");
+    let btf = NestedBtf::parse(&file).expect("a file of our own");
     let queries = queries(&btf);
     let prepared: Vec<(Query, View)> = queries.iter().map(|query| (*query, btf.grid().view(query.2))).collect();
     run(bencher, &prepared, |((texel, light, ..), view)| btf.eval_for(*texel, *light, view).iter().sum());
@@ -72,7 +72,7 @@ fn eval_for(bencher: Bencher<'_, '_>, kind: &str) {
 #[divan::bench(args = KINDS, sample_count = 400)]
 fn sample(bencher: Bencher<'_, '_>, kind: &str) {
     let file = file(kind);
-    let btf = Btf::parse(&file).expect("a file of our own");
+    let btf = NestedBtf::parse(&file).expect("a file of our own");
     run(bencher, &queries(&btf), |(texel, _, view, random)| {
         let sample = btf.sample(*texel, *view, *random);
         sample.light.iter().sum::<f32>() + sample.pdf
@@ -83,7 +83,7 @@ fn sample(bencher: Bencher<'_, '_>, kind: &str) {
 #[divan::bench(args = ["display"], sample_count = 400)]
 fn sample_prepared(bencher: Bencher<'_, '_>, kind: &str) {
     let file = file(kind);
-    let btf = Btf::parse(&file).expect("a file of our own");
+    let btf = NestedBtf::parse(&file).expect("a file of our own");
     let queries = queries(&btf);
     let samplers: Vec<_> = queries
         .iter()
@@ -98,14 +98,14 @@ fn sample_prepared(bencher: Bencher<'_, '_>, kind: &str) {
 #[divan::bench(args = ["display"], sample_count = 400)]
 fn pdf(bencher: Bencher<'_, '_>, kind: &str) {
     let file = file(kind);
-    let btf = Btf::parse(&file).expect("a file of our own");
+    let btf = NestedBtf::parse(&file).expect("a file of our own");
     run(bencher, &queries(&btf), |(texel, light, view, _)| btf.pdf(*texel, *light, *view));
 }
 
 #[divan::bench(args = ["display", "LogLuv"])]
 fn albedo(bencher: Bencher<'_, '_>, kind: &str) {
     let file = file(kind);
-    let btf = Btf::parse(&file).expect("a file of our own");
+    let btf = NestedBtf::parse(&file).expect("a file of our own");
     run(bencher, &queries(&btf)[..20], |(texel, _, view, _)| btf.albedo(*texel, *view).iter().sum());
 }
 
@@ -115,5 +115,5 @@ fn parse(bencher: Bencher<'_, '_>, kind: &str) {
     let file = file(kind);
     bencher
         .counter(BytesCount::of_slice(&file))
-        .bench_local(|| Btf::parse(divan::black_box(&file)).map(|btf| btf.header().materials));
+        .bench_local(|| NestedBtf::parse(divan::black_box(&file)).map(|btf| btf.header().materials));
 }

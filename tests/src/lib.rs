@@ -7,7 +7,7 @@ pub mod program;
 use std::path::{Path, PathBuf};
 
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
-use subsurf_decoder::bssrdf::{Addressing, Coding, Header};
+use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, Coding};
 use subsurf_decoder::container::crc32;
 use subsurf_decoder::{Bssrdf, Section};
 use subsurf_encoder::bssrdf::write_file;
@@ -84,7 +84,7 @@ pub fn open(path: &Path) -> Capture {
 /// The example of `decoder/FORMAT.md`, section 3, with its profiles filled in.
 #[must_use]
 pub fn format_example() -> Vec<u8> {
-    let header = Header {
+    let header = BssrdfHeader {
         model: MODEL_2BMPP,
         coding: Coding::Exact,
         addressing: Addressing::Clamp,

@@ -3,8 +3,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use subsurf_decoder::btf::layout::Scales;
-use subsurf_decoder::btf::{Grid, Tone};
+use subsurf_decoder::btf::nested::layout::Scales;
+use subsurf_decoder::btf::{ColourEncoding, Grid};
 use subsurf_encoder::btf::nested::Database;
 
 /// Few nodes, each axis with another number of them, that reach less far than hemispheres.
@@ -115,12 +115,12 @@ pub fn channels(database: &Database, texel: usize, light: [f64; 3], view: [f64; 
 #[must_use]
 pub fn value(database: &Database, texel: usize, light: [f64; 3], view: [f64; 3]) -> [f64; 3] {
     let [y, a, b] = channels(database, texel, light, view);
-    let rgb = match database.header.tone {
-        Tone::Display { .. } => {
+    let rgb = match database.header.encoding {
+        ColourEncoding::Display { .. } => {
             let (r, b) = (y + a / 0.713, y + b / 0.564);
             [r, (y - 0.299 * r - 0.114 * b) / 0.587, b].map(|value| value.clamp(0.0, 1.0))
         }
-        Tone::LogLuv { toe, peak } => {
+        ColourEncoding::LogLuv { toe, peak } => {
             let (toe, peak) = (f64::from(toe), f64::from(peak));
             let luminance = toe * ((y.clamp(0.0, 2.0) * (1.0 + peak / toe).log2()).exp2() - 1.0);
             // CIE 1976: u' = 4 X / (X + 15 Y + 3 Z), v' = 9 Y / (X + 15 Y + 3 Z).

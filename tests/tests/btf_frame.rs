@@ -1,8 +1,8 @@
 //! Pictures of meshes of BTFs on Vulkan and on OpenGL ES 3.0 against their CPU twin, and against themselves.
 
 use glam::{Vec2, Vec3};
-use subsurf_decoder::Btf;
-use subsurf_decoder::btf::{Grid, Tone};
+use subsurf_decoder::NestedBtf;
+use subsurf_decoder::btf::{ColourEncoding, Grid};
 use subsurf_encoder::synthetic::NestedShape;
 use subsurf_runtime::{
     BACKGROUND, Backend, BtfFiltering, BtfLayout, BtfMaterial, BtfOptions, Drawable, Error, Gpu, GpuMesh, Renderer,
@@ -52,7 +52,7 @@ fn scene(lights: usize) -> Scene {
 
 fn picture(
     gpu: &Gpu,
-    btf: &Btf<'_>,
+    btf: &NestedBtf<'_>,
     mesh: &Mesh,
     copies: [f32; 2],
     scene: &Scene,
@@ -73,7 +73,7 @@ fn picture(
     renderer.picture(gpu, &mut frame, &model, scene).unwrap()
 }
 
-fn twin(btf: &Btf<'_>, mesh: &Mesh, copies: [f32; 2], scene: &Scene, options: BtfOptions) -> Vec<[u8; 3]> {
+fn twin(btf: &NestedBtf<'_>, mesh: &Mesh, copies: [f32; 2], scene: &Scene, options: BtfOptions) -> Vec<[u8; 3]> {
     let block = uniform::Scene::new(scene, &Placement::of_btf(mesh, copies), SIZE, 512);
     let uvs = mesh.uvs.as_ref().unwrap().iter().map(|uv| *uv * Vec2::from(copies));
     let uvs: Vec<Vec2> = uvs.map(|uv| Vec2::new(uv.x, 1.0 - uv.y)).collect();
@@ -100,7 +100,7 @@ fn pixels(backend: Backend) {
     let gpu = device(backend);
     let mesh = dome();
     let small = NestedShape { materials: vec![(12, 8, 3), (4, 4, 1)], ..NestedShape::typical() };
-    let bright = Tone::LogLuv { toe: 0.01, peak: 9.0 };
+    let bright = ColourEncoding::LogLuv { toe: 0.01, peak: 9.0 };
     let grid = Grid { cos_light_min: 0.2, theta_max: 1.3, ..Grid::PAPER };
     let files = [
         ("display", small.database(2).to_bytes()),
@@ -110,7 +110,7 @@ fn pixels(backend: Backend) {
         ),
     ];
     for (name, file) in &files {
-        let btf = Btf::parse(file).unwrap();
+        let btf = NestedBtf::parse(file).unwrap();
         // Copies so large that texels are seen, and so small that coarser levels are.
         for (copies, filtering, lights, samples) in [
             ([2.0, 3.0], BtfFiltering::Bilinear, 2, 0),
@@ -148,7 +148,7 @@ fn pixels_are_those_of_the_twin_on_gles_3_0() {
 fn white_surroundings_show_the_albedo() {
     let shape = NestedShape { materials: vec![(1, 1, 1)], ..NestedShape::typical() };
     let file = shape.database(11).to_bytes();
-    let btf = Btf::parse(&file).unwrap();
+    let btf = NestedBtf::parse(&file).unwrap();
     let mesh = dome();
     let scene = Scene { environment: Environment::uniform([2.0 * std::f32::consts::PI; 3]), ..scene(0) };
     let options = BtfOptions { filtering: BtfFiltering::Nearest, samples: 256 };
@@ -171,7 +171,7 @@ fn white_surroundings_show_the_albedo() {
 #[test]
 fn what_cannot_be_drawn_is_said() {
     let file = NestedShape::small().database(1).to_bytes();
-    let btf = Btf::parse(&file).unwrap();
+    let btf = NestedBtf::parse(&file).unwrap();
     let gpu = device(Backend::Gl);
     let mesh = torus(6.0, 2.0, 12);
     let placement = Placement::of_btf(&mesh, [4.0, 2.0]);

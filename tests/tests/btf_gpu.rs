@@ -1,8 +1,8 @@
 //! BTFs on Vulkan and on OpenGL ES 3.0 against the decoder.
 
 use glam::Vec3;
-use subsurf_decoder::Btf;
-use subsurf_decoder::btf::{Grid, Texel, Tone};
+use subsurf_decoder::NestedBtf;
+use subsurf_decoder::btf::{ColourEncoding, Grid, Texel};
 use subsurf_decoder::container::Crc;
 use subsurf_encoder::btf::bonn;
 use subsurf_encoder::synthetic::{NestedShape, unit};
@@ -21,7 +21,7 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
     let typical = NestedShape { materials: vec![(32, 32, 1)], ..NestedShape::typical() };
     let small = NestedShape::small();
     let large = Grid { n_alpha: 64, n_beta: 63, n_theta: 5, n_phi: 64, ..Grid::PAPER };
-    let bright = Tone::LogLuv { toe: 0.01, peak: 20.0 };
+    let bright = ColourEncoding::LogLuv { toe: 0.01, peak: 20.0 };
     let shapes = [
         ("display", typical.clone()),
         ("one colour", NestedShape { chroma: [4096, 1, 1, 1], ..typical.clone() }),
@@ -37,7 +37,7 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
 }
 
 /// Random texels of all materials and levels, lights and views, some of them below the horizon or straight above.
-fn queries(btf: &Btf<'_>, count: u32) -> (Vec<Texel>, Vec<BtfQuery>) {
+fn queries(btf: &NestedBtf<'_>, count: u32) -> (Vec<Texel>, Vec<BtfQuery>) {
     let query = |n: u32| {
         let random = |k: u32| unit(16 * n + k);
         let towards = |k: u32| match n % 16 {
@@ -64,17 +64,17 @@ fn queries(btf: &Btf<'_>, count: u32) -> (Vec<Texel>, Vec<BtfQuery>) {
 }
 
 /// What the decoder says.
-fn expected(btf: &Btf<'_>, texel: Texel, query: &BtfQuery) -> BtfAnswer {
+fn expected(btf: &NestedBtf<'_>, texel: Texel, query: &BtfQuery) -> BtfAnswer {
     let BtfQuery { light, view, random, .. } = *query;
     BtfAnswer {
-        value: btf.header().tone.linear(btf.eval(texel, light, view)),
+        value: btf.header().encoding.linear(btf.eval(texel, light, view)),
         pdf: btf.pdf(texel, light, view),
         sample: btf.sample(texel, view, random),
     }
 }
 
 /// Largest errors of values, densities and samples, in tolerances.
-fn errors(btf: &Btf<'_>, (texels, queries): &(Vec<Texel>, Vec<BtfQuery>), found: &[BtfAnswer]) -> [f32; 3] {
+fn errors(btf: &NestedBtf<'_>, (texels, queries): &(Vec<Texel>, Vec<BtfQuery>), found: &[BtfAnswer]) -> [f32; 3] {
     assert_eq!(queries.len(), found.len(), "every query is answered");
     let wanted = texels.iter().zip(queries).map(|(texel, query)| expected(btf, *texel, query));
     let wanted: Vec<BtfAnswer> = wanted.collect();
@@ -107,7 +107,7 @@ fn values_and_samples(backend: Backend) {
     let gpu = gles(backend);
     let answers = BtfQueries::new(&gpu, BtfLayout::Nested).unwrap();
     for (name, file) in files() {
-        let btf = Btf::parse(&file).unwrap();
+        let btf = NestedBtf::parse(&file).unwrap();
         let before = gpu.ledger().bytes();
         let material = BtfMaterial::upload(&gpu, &btf).unwrap();
         assert_eq!(gpu.ledger().bytes() - before, material.gpu_bytes(), "{name}: counted");
@@ -147,7 +147,7 @@ fn hostile(backend: Backend) {
             let random = (256.0 * unit(n ^ (seed << 24))) as u8;
             *byte = random;
         }
-        let btf = Btf::parse_with(&file, Crc::Skip).unwrap();
+        let btf = NestedBtf::parse_with(&file, Crc::Skip).unwrap();
         let material = BtfMaterial::upload(&gpu, &btf).unwrap();
         let queries = queries(&btf, 3_000);
         let found = answers.answer(&gpu, &material, &queries.1).unwrap();
@@ -187,7 +187,7 @@ fn images(backend: Backend) {
     assert_eq!(gpu.ledger().bytes() - before, material.gpu_bytes(), "counted");
     assert!((81 * 81 * 12 * 4..81 * 81 * 12 * 4 + 2_000).contains(&material.gpu_bytes()), "four bytes a pixel");
 
-    let tone = Tone::Display { white: 2.0 };
+    let tone = ColourEncoding::Display { white: 2.0 };
     let query = |texel: usize, light: Vec3, view: Vec3| BtfQuery {
         texel: u32::try_from(texel).unwrap(),
         light: light.to_array(),

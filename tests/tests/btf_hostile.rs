@@ -1,10 +1,10 @@
 //! Hostile BTF files: every outcome is an error or a bounded value.
 
 use proptest::prelude::*;
-use subsurf_decoder::btf::layout::Scales;
-use subsurf_decoder::btf::{Grid, Tone};
+use subsurf_decoder::btf::nested::layout::Scales;
+use subsurf_decoder::btf::{ColourEncoding, Grid};
 use subsurf_decoder::container::{Crc, ENTRY_BYTES, FILE_HEADER_BYTES, crc32};
-use subsurf_decoder::{Btf, ReadError, Section};
+use subsurf_decoder::{NestedBtf, ReadError, Section};
 use subsurf_encoder::btf::nested::Database;
 use subsurf_encoder::synthetic::NestedShape;
 
@@ -25,7 +25,7 @@ fn shape() -> NestedShape {
 /// The same with every choice made otherwise.
 fn other_shape() -> NestedShape {
     NestedShape {
-        tone: Tone::LogLuv { toe: 0.01, peak: 50.0 },
+        tone: ColourEncoding::LogLuv { toe: 0.01, peak: 50.0 },
         is_relative: true,
         scale_bits: 10,
         stages: 1,
@@ -54,7 +54,7 @@ fn seal(file: &mut [u8]) {
 }
 
 /// Uses everything a parsed file offers and checks the bounds that hold for any file.
-fn exercise(btf: &Btf<'_>) {
+fn exercise(btf: &NestedBtf<'_>) {
     let directions = [
         [0.0, 0.0, 1.0],
         [0.6, 0.0, 0.8],
@@ -100,9 +100,9 @@ fn exercise(btf: &Btf<'_>) {
 fn cut_at_every_length() {
     for shape in [shape(), other_shape()] {
         let file = shape.database(1).to_bytes();
-        exercise(&Btf::parse(&file).unwrap());
+        exercise(&NestedBtf::parse(&file).unwrap());
         for length in 0..file.len() {
-            let error = Btf::parse(&file[..length]).unwrap_err();
+            let error = NestedBtf::parse(&file[..length]).unwrap_err();
             assert!(matches!(error, ReadError::Truncated { .. }), "{length}: {error:?}");
         }
     }
@@ -116,14 +116,14 @@ fn every_bit_of_every_byte_flipped() {
             let mut bad = file.clone();
             bad[at] ^= 1 << bit;
             // Fill between sections is no part of any.
-            let is_fill = Btf::parse(&bad).is_ok();
+            let is_fill = NestedBtf::parse(&bad).is_ok();
             assert!(!is_fill || file[at] == 0, "a CRC covers byte {at}");
-            if let Ok(btf) = Btf::parse_with(&bad, Crc::Skip) {
+            if let Ok(btf) = NestedBtf::parse_with(&bad, Crc::Skip) {
                 exercise(&btf);
             }
             // The same damage by someone who recomputes the CRCs.
             seal(&mut bad);
-            if let Ok(btf) = Btf::parse(&bad) {
+            if let Ok(btf) = NestedBtf::parse(&bad) {
                 exercise(&btf);
             }
         }
@@ -156,7 +156,7 @@ fn the_largest_and_smallest_scales_are_bounded() {
                 database.chroma.first = [16.0, -16.0];
                 database.chroma.step = [16.0; 2];
             });
-            exercise(&Btf::parse(&file).unwrap());
+            exercise(&NestedBtf::parse(&file).unwrap());
         }
     }
 }
@@ -173,7 +173,7 @@ fn what_is_out_of_range_is_refused_for_what_it_is() {
         let (start, _) = bytes_of(&file, section);
         file[start + at..start + at + bytes.len()].copy_from_slice(bytes);
         seal(&mut file);
-        (Btf::parse(&file).unwrap_err(), (start + at) as u64)
+        (NestedBtf::parse(&file).unwrap_err(), (start + at) as u64)
     };
     let header = |at, value: u8| refused(Section::BtfHeader, at, &[value]);
     for (at, value) in [(0, 3), (1, 0), (2, 0), (4, 1), (4, 65), (5, 1), (6, 0), (7, 0), (7, 255)] {
@@ -192,9 +192,9 @@ fn what_is_out_of_range_is_refused_for_what_it_is() {
     }
     // More bits, entries that are not there, scales above 2^24, a signed first stage.
     for (at, bytes) in [(44, &[17, 0][..]), (44, &[0, 7]), (0, &[0; 4]), (40, &[0xFF; 4]), (76, &[1]), (46, &[1, 6])] {
-        let (error, place) = refused(Section::Books, at, bytes);
+        let (error, place) = refused(Section::CodebookSizes, at, bytes);
         let ReadError::BadField { section, offset, .. } = error else { panic!("{at}: {error:?}") };
-        assert_eq!(section, Section::Books, "byte {at}");
+        assert_eq!(section, Section::CodebookSizes, "byte {at}");
         assert!(place.abs_diff(offset) <= 2, "byte {at}: {offset} is not {place}");
     }
     // Five rows are counted in three bits, three in two.
@@ -221,8 +221,8 @@ fn what_is_out_of_range_is_refused_for_what_it_is() {
     for (section, at, bytes) in [
         (Section::BtfHeader, 5, &[3][..]),
         (Section::Materials, 24, &[4, 0]),
-        (Section::Books, 12, &[9, 0, 0, 0]),
-        (Section::Books, 40 + 32, &[9, 0, 0, 0]),
+        (Section::CodebookSizes, 12, &[9, 0, 0, 0]),
+        (Section::CodebookSizes, 40 + 32, &[9, 0, 0, 0]),
     ] {
         let (error, _) = refused(section, at, bytes);
         assert!(matches!(error, ReadError::WrongSize { .. }), "{section} byte {at}: {error:?}");
@@ -239,10 +239,10 @@ fn sections_that_are_needed_are_missed() {
         let section = Section::from_kind(bad[entry..entry + 4].try_into().unwrap());
         bad[entry..entry + 4].copy_from_slice(b"XXXX");
         seal(&mut bad);
-        assert_eq!(Btf::parse(&bad).unwrap_err(), ReadError::Missing { section });
+        assert_eq!(NestedBtf::parse(&bad).unwrap_err(), ReadError::Missing { section });
     }
     assert_eq!(
-        Btf::parse(&subsurf_tests::format_example()).unwrap_err(),
+        NestedBtf::parse(&subsurf_tests::format_example()).unwrap_err(),
         ReadError::Missing { section: Section::BtfHeader }
     );
     assert_eq!(
@@ -254,7 +254,7 @@ fn sections_that_are_needed_are_missed() {
 proptest! {
     #[test]
     fn any_bytes(bytes in proptest::collection::vec(any::<u8>(), 0..1200)) {
-        prop_assert!(Btf::parse(&bytes).is_err());
+        prop_assert!(NestedBtf::parse(&bytes).is_err());
     }
 
     #[test]
@@ -268,7 +268,7 @@ proptest! {
             file[at % (length - 8) + 8] = value;
         }
         seal(&mut file);
-        if let Ok(btf) = Btf::parse(&file) {
+        if let Ok(btf) = NestedBtf::parse(&file) {
             exercise(&btf);
         }
     }
@@ -283,12 +283,12 @@ proptest! {
         let shape = NestedShape { luma: [4, 8, 4, 8], chroma: [8, 4, 4, 4], ..shape };
         let mut file = shape.database(7).to_bytes();
         let container = subsurf_decoder::container::Container::parse(&file).unwrap();
-        let (entry, books) = container.section(Section::Books, Crc::Check).unwrap();
+        let (entry, books) = container.section(Section::CodebookSizes, Crc::Check).unwrap();
         let start = usize::try_from(entry.offset).unwrap() + books.len();
         for (byte, random) in file[start..].iter_mut().zip(bytes) {
             *byte = random;
         }
         seal(&mut file);
-        exercise(&Btf::parse(&file).unwrap());
+        exercise(&NestedBtf::parse(&file).unwrap());
     }
 }

@@ -2,9 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use subsurf_decoder::Btf;
-use subsurf_decoder::btf::layout::Scales;
-use subsurf_decoder::btf::{Grid, Texel, Tone};
+use subsurf_decoder::NestedBtf;
+use subsurf_decoder::btf::nested::layout::Scales;
+use subsurf_decoder::btf::{ColourEncoding, Grid, Texel};
 use subsurf_encoder::btf::nested::{Database, slice_mean};
 use subsurf_encoder::synthetic::{NestedShape, unit};
 use subsurf_tests::nested::{angles, channels, direction, single};
@@ -23,7 +23,7 @@ fn databases() -> Vec<Database> {
         cos_light_min: 0.2,
         ..NestedShape::small().grid
     };
-    let bright = Tone::LogLuv { toe: 0.01, peak: 9.0 };
+    let bright = ColourEncoding::LogLuv { toe: 0.01, peak: 9.0 };
     let shapes = [
         NestedShape::small(),
         NestedShape { grid: narrow, tone: bright, scale_bits: 10, ..NestedShape::small() },
@@ -33,10 +33,10 @@ fn databases() -> Vec<Database> {
 }
 
 /// Runs a check for texels and views of all files.
-fn for_all(check: impl Fn(&Database, &Btf<'_>, usize, Texel, [f64; 3])) {
+fn for_all(check: impl Fn(&Database, &NestedBtf<'_>, usize, Texel, [f64; 3])) {
     for database in databases() {
         let file = database.to_bytes();
-        let btf = Btf::parse(&file).unwrap();
+        let btf = NestedBtf::parse(&file).unwrap();
         for (number, x) in [(0, 0), (2, 2)] {
             let texel = btf.texel(0, 0, [x, 0]).unwrap();
             for [theta, phi] in VIEWS_DEG {
@@ -212,7 +212,7 @@ fn later_stages_do_not_change_the_density() {
     let database = NestedShape { stages: 3, ..NestedShape::small() }.database(9);
     let first = Database { stages: database.stages[..1].to_vec(), ..database.clone() };
     let files = [first, database].map(|database| database.to_bytes());
-    let [one, three] = files.each_ref().map(|file| Btf::parse(file).unwrap());
+    let [one, three] = files.each_ref().map(|file| NestedBtf::parse(file).unwrap());
     let texel = one.texel(0, 0, [1, 0]).unwrap();
     let (light, view) = (single(angles(40.0, 80.0)), single(angles(50.0, 10.0)));
     assert_eq!(one.pdf(texel, light, view).to_bits(), three.pdf(texel, light, view).to_bits());
@@ -220,11 +220,11 @@ fn later_stages_do_not_change_the_density() {
 }
 
 /// Mean of linear values over even points of the hemisphere, times 2.
-fn dense_albedo(btf: &Btf<'_>, texel: Texel, view: [f64; 3], side: u32) -> [f64; 3] {
+fn dense_albedo(btf: &NestedBtf<'_>, texel: Texel, view: [f64; 3], side: u32) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for (alpha, sin_beta) in middles(side, FRAC_PI_2).flat_map(|a| middles(side, 1.0).map(move |s| (a, s))) {
         let value = btf.eval(texel, single(light(alpha, sin_beta, view)), single(view));
-        for (sum, value) in sum.iter_mut().zip(btf.header().tone.linear(value)) {
+        for (sum, value) in sum.iter_mut().zip(btf.header().encoding.linear(value)) {
             *sum += f64::from(value);
         }
     }
@@ -241,7 +241,7 @@ fn albedo_is_the_mean_of_sampled_light() {
         let (mut sum, mut squares) = ([0.0; 3], [0.0; 3]);
         for n in 0..DRAWS {
             let sample = sampler.sample([unit(2 * n), unit(2 * n + 1)]);
-            let value = btf.header().tone.linear(btf.eval(texel, sample.light, single(view)));
+            let value = btf.header().encoding.linear(btf.eval(texel, sample.light, single(view)));
             for (channel, value) in value.into_iter().enumerate() {
                 let weight = f64::from(value) / f64::from(sample.pdf) / PI;
                 sum[channel] += weight;
@@ -275,7 +275,7 @@ fn a_constant_function_has_an_albedo_of_twice_itself() {
     chain.scales = [Scales { bits: 0, step: 0, offset: -16 }; 4];
     (database.chroma.first, database.chroma.step) = ([0.0; 2], [0.0; 2]);
     let file = database.to_bytes();
-    let btf = Btf::parse(&file).unwrap();
+    let btf = NestedBtf::parse(&file).unwrap();
     let texel = btf.texel(0, 0, [0, 0]).unwrap();
     for [theta, phi] in VIEWS_DEG {
         let view = single(angles(theta, phi));

@@ -1,7 +1,7 @@
 //! Values of BTF files against eq. 4 of Havran et al. 2010, worked out in f64 from what the files were made of.
 
-use subsurf_decoder::Btf;
-use subsurf_decoder::btf::{Grid, Tone};
+use subsurf_decoder::NestedBtf;
+use subsurf_decoder::btf::{ColourEncoding, Grid};
 use subsurf_encoder::btf::nested::Database;
 use subsurf_encoder::synthetic::{NestedShape, unit};
 use subsurf_tests::nested::{ODD_GRID, angles, direction, single, value};
@@ -9,7 +9,7 @@ use subsurf_tests::nested::{ODD_GRID, angles, direction, single, value};
 /// Files of every kind.
 fn databases() -> Vec<Database> {
     let small = NestedShape::small();
-    let bright = Tone::LogLuv { toe: 0.01, peak: 9.0 };
+    let bright = ColourEncoding::LogLuv { toe: 0.01, peak: 9.0 };
     let shapes = [
         small.clone(),
         NestedShape { stages: 4, tints: 5, materials: vec![(5, 3, 3), (1, 7, 2)], ..small.clone() },
@@ -26,7 +26,7 @@ fn databases() -> Vec<Database> {
 /// The largest error over random texels and directions, of values up to about 1.
 fn largest_error(database: &Database, count: u32) -> f64 {
     let file = database.to_bytes();
-    let btf = Btf::parse(&file).unwrap();
+    let btf = NestedBtf::parse(&file).unwrap();
     let errors = (0..count).map(|n| {
         let random = |k: u32| unit(8 * n + k);
         let (light, view) = (direction([random(0), random(1)]), direction([random(2), random(3)]));
@@ -74,7 +74,7 @@ fn texels_of_all_materials_and_levels_are_found() {
     let shape = NestedShape { materials: vec![(5, 3, 3), (1, 7, 2)], ..NestedShape::small() };
     let database = shape.database(5);
     let file = database.to_bytes();
-    let btf = Btf::parse(&file).unwrap();
+    let btf = NestedBtf::parse(&file).unwrap();
     let (light, view) = (angles(20.0, 40.0), angles(50.0, 200.0));
     // 5 × 3, 2 × 1 and 1 × 1 texels of the first material; 1 × 7 and 1 × 3 of the second.
     let first_texels = [(0, 0, 0), (0, 1, 15), (0, 2, 17), (1, 0, 18), (1, 1, 25)];
@@ -100,16 +100,16 @@ fn lights_fade_out_at_the_horizon() {
     let grid = Grid { cos_light_min: 0.25, ..NestedShape::small().grid };
     let database = NestedShape { grid, ..NestedShape::small() }.database(3);
     let file = database.to_bytes();
-    let btf = Btf::parse(&file).unwrap();
+    let btf = NestedBtf::parse(&file).unwrap();
     let texel = btf.texel(0, 0, [1, 1]).unwrap();
     let view = grid.view(single(angles(40.0, 10.0)));
-    let cell = grid.cell(single(angles(60.0, 100.0)), &view);
-    let full = btf.eval_cell(texel, &cell);
+    let cell = grid.coord_for(single(angles(60.0, 100.0)), &view);
+    let full = btf.eval_at(texel, &cell);
     for (cos, expected) in [(0.5_f32, 1.0), (0.25, 1.0), (0.1, 0.4), (0.0, 0.0), (-0.5, 0.0)] {
         let light = [0.0, (1.0 - cos * cos).sqrt(), cos];
-        let fade = grid.cell(light, &view).fade;
+        let fade = grid.coord_for(light, &view).fade;
         assert!((fade - expected).abs() < 1e-6, "cos θ = {cos}: {fade}");
-        let faded = btf.eval_cell(texel, &subsurf_decoder::btf::Cell { fade, ..cell });
+        let faded = btf.eval_at(texel, &subsurf_decoder::btf::GridCoord { fade, ..cell });
         for (faded, full) in faded.into_iter().zip(full) {
             assert!((faded - full * expected).abs() < 1e-6, "{faded} {full}");
         }

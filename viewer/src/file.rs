@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use subsurf_decoder::btf::{Catalog, Model};
-use subsurf_decoder::container::{Container, Crc};
-use subsurf_decoder::{Bssrdf, Btf, ReadError, Section};
+use subsurf_decoder::{Bssrdf, Family, File, NestedBtf, ReadError};
 
 use crate::error::{Error, Result};
 
@@ -15,7 +13,7 @@ pub enum Content<'a> {
     /// A translucent material.
     Bssrdf(Bssrdf<'a>),
     /// Bidirectional texture functions in nested codebooks.
-    Btf(Btf<'a>),
+    Btf(NestedBtf<'a>),
 }
 
 /// Bytes of a material file.
@@ -29,31 +27,31 @@ pub fn read(path: &Path) -> Result<Vec<u8>> {
 /// Parses a material file with all checks, CRC-32 included; `path` is for messages only.
 ///
 /// # Errors
-/// [`Error::File`] for broken files, [`Error::Request`] for a BTF in factors, which is not drawn.
+/// [`Error::File`] for broken files, [`Error::Request`] for a factored BTF, which is not drawn.
 pub fn parse<'a>(path: &Path, bytes: &'a [u8]) -> Result<Content<'a>> {
-    let wrong = |kind, source: ReadError| Error::File { path: path.to_owned(), kind, source };
-    let container = Container::parse(bytes).map_err(|error| wrong("material", error))?;
-    if !container.entries().any(|entry| entry.section == Section::BtfHeader) {
-        let material = Bssrdf::parse_with(bytes, Crc::Check);
-        return material.map(Content::Bssrdf).map_err(|error| wrong("material", error));
+    let file = File::parse(bytes);
+    let file = file.map_err(|source| Error::File { path: path.to_owned(), kind: "material", source })?;
+    match file.content() {
+        subsurf_decoder::Content::Bssrdf(material) => Ok(Content::Bssrdf(material)),
+        subsurf_decoder::Content::NestedBtf(btf) => Ok(Content::Btf(btf)),
+        other => Err(not_drawn(path, other.family())),
     }
-    parse_btf(path, bytes).map(Content::Btf)
 }
 
 /// [`parse`] of a file that has to be a BTF.
 ///
 /// # Errors
 /// As [`parse`].
-pub fn parse_btf<'a>(path: &Path, bytes: &'a [u8]) -> Result<Btf<'a>> {
-    Btf::parse_with(bytes, Crc::Check).map_err(|source| {
-        match Catalog::parse(bytes, Crc::Check).map(|catalog| catalog.header().model) {
-            Ok(Model::Factored) => Error::Request(format!(
-                "{}: a BTF of factors, which only the library evaluates; encode it with --method nested to draw it",
-                path.display()
-            )),
-            _ => Error::File { path: path.to_owned(), kind: "BTF", source },
-        }
+pub fn parse_btf<'a>(path: &Path, bytes: &'a [u8]) -> Result<NestedBtf<'a>> {
+    NestedBtf::parse(bytes).map_err(|source| match source {
+        ReadError::OtherFamily { found: found @ Family::FactoredBtf, .. } => not_drawn(path, found),
+        source => Error::File { path: path.to_owned(), kind: "BTF", source },
     })
+}
+
+fn not_drawn(path: &Path, family: Family) -> Error {
+    let why = "which only the library evaluates; encode it with --method nested to draw it";
+    Error::Request(format!("{}: a {family}, {why}", path.display()))
 }
 
 /// Index of the material that is asked for by its name, or else by its number from 0.

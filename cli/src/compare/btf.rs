@@ -115,11 +115,11 @@ fn pictures(folder: &Path, images: &Images, file: &(dyn Evaluate + Sync), materi
     std::fs::create_dir_all(folder)
         .map_err(|error| bad_request(format!("{}: cannot make the folder: {error}", folder.display())))?;
     let [width, _] = images.size();
-    let tone = file.catalog().header().tone;
+    let tone = file.catalog().header().encoding;
     // Linear images are shown at an exposure that makes their mean a middle grey.
     let exposure = match tone {
-        subsurf_decoder::btf::Tone::Display { .. } => None,
-        subsurf_decoder::btf::Tone::LogLuv { toe, .. } => Some(0.01 / toe),
+        subsurf_decoder::btf::ColourEncoding::Display { .. } => None,
+        subsurf_decoder::btf::ColourEncoding::LogLuv { toe, .. } => Some(0.01 / toe),
     };
     let mut rows = Vec::new();
     for share in PICTURED {

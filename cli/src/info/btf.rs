@@ -4,18 +4,22 @@ use std::path::Path;
 
 use anyhow::Context;
 use serde_json::{Value, json};
-use subsurf_decoder::bits::index_bits;
-use subsurf_decoder::btf::{Catalog, Model};
-use subsurf_decoder::container::{Container, Crc};
-use subsurf_decoder::{Btf, Factored, ReadError};
+use subsurf_decoder::container::bits::index_bits;
+use subsurf_decoder::{Content, Family, File, NestedBtf, ReadError};
 
 use super::{Args, read_error};
 use crate::outln;
 use subsurf_viewer::human;
 
-pub(super) fn info(args: &Args, bytes: &[u8], container: &Container<'_>) -> anyhow::Result<()> {
-    let parts = Parts::of(&args.file, bytes)?;
-    let catalog = Catalog::parse(bytes, Crc::Skip).map_err(|error| read_error(&args.file, error))?;
+pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>) -> anyhow::Result<()> {
+    let content = file.content();
+    let catalog = match &content {
+        Content::NestedBtf(btf) => btf.catalog(),
+        Content::FactoredBtf(btf) => btf.catalog(),
+        other => return Err(not_a_btf(&args.file, other)),
+    };
+    let parts = Parts::of_content(&args.file, &content)?;
+    let container = file.container();
     let (header, grid) = (catalog.header(), catalog.grid());
     let nodes = [grid.n_alpha, grid.n_beta, grid.n_theta, grid.n_phi];
     if args.json {
@@ -24,7 +28,7 @@ pub(super) fn info(args: &Args, bytes: &[u8], container: &Container<'_>) -> anyh
             .map(|of| json!({ "name": of.name(), "width": of.width, "height": of.height, "levels": of.levels }))
             .collect();
         let value = json!({
-            "model": parts.model(), "tone": format!("{:?}", header.tone), "nodes": nodes, "materials": materials,
+            "model": parts.model(), "tone": format!("{:?}", header.encoding), "nodes": nodes, "materials": materials,
             "parts": parts.to_json(), "bytes": bytes.len(),
         });
         outln!("{value:#}");
@@ -40,12 +44,17 @@ pub(super) fn info(args: &Args, bytes: &[u8], container: &Container<'_>) -> anyh
         grid.cos_light_min.acos().to_degrees(),
         grid.theta_max.to_degrees(),
     );
-    outln!("  {:?}", header.tone);
+    outln!("  {:?}", header.encoding);
     parts.print();
     for entry in container.entries() {
         outln!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
     }
     Ok(())
+}
+
+fn not_a_btf(path: &Path, content: &Content<'_>) -> anyhow::Error {
+    let other = ReadError::OtherFamily { found: content.family(), expected: Family::NestedBtf };
+    anyhow::Error::new(read_error(path, other)).context("not a usable BTF")
 }
 
 /// What a file is made of.
@@ -71,24 +80,26 @@ pub struct FactorSizes {
 impl Parts {
     /// Checks all of a file.
     pub fn of(path: &Path, bytes: &[u8]) -> anyhow::Result<Self> {
-        let parts = || -> Result<Self, ReadError> {
-            match Catalog::parse(bytes, Crc::Check)?.header().model {
-                Model::Nested => Ok(Self::Books(books(&Btf::parse(bytes)?))),
-                Model::Factored => {
-                    let file = Factored::parse(bytes)?;
-                    let shape = file.shape();
-                    Ok(Self::Factors(FactorSizes {
-                        luma: shape.luma,
-                        chroma: shape.chroma,
-                        words: shape.stages().iter().map(|stage| stage.words).collect(),
-                        view_axes: shape.view_axes,
-                        light_axes: shape.light_axes,
-                        expanded: file.table_len() + 2 * file.words_len(),
-                    }))
-                }
+        let file = File::parse(bytes).map_err(|error| read_error(path, error)).context("not a usable BTF")?;
+        Self::of_content(path, &file.content())
+    }
+
+    fn of_content(path: &Path, content: &Content<'_>) -> anyhow::Result<Self> {
+        match content {
+            Content::NestedBtf(btf) => Ok(Self::Books(books(btf))),
+            Content::FactoredBtf(btf) => {
+                let shape = btf.shape();
+                Ok(Self::Factors(FactorSizes {
+                    luma: shape.luma,
+                    chroma: shape.chroma,
+                    words: shape.stages().iter().map(|stage| stage.words).collect(),
+                    view_axes: shape.view_axes,
+                    light_axes: shape.light_axes,
+                    expanded: btf.table_len() + 2 * btf.words_len(),
+                }))
             }
-        };
-        parts().map_err(|error| read_error(path, error)).context("not a usable BTF")
+            other => Err(not_a_btf(path, other)),
+        }
     }
 
     pub(crate) fn model(&self) -> &'static str {
@@ -158,8 +169,8 @@ impl std::fmt::Display for BookSize {
 }
 
 /// The codebooks of a file, from texels to colours.
-fn books(file: &Btf<'_>) -> Vec<BookSize> {
-    let (books, grid) = (file.nested().books(), file.grid());
+fn books(file: &NestedBtf<'_>) -> Vec<BookSize> {
+    let (books, grid) = (file.codebooks().sizes(), file.grid());
     let chroma = &books.chroma;
     let texels: u64 = file.materials().map(|of| u64::from(of.texels(u8::MAX))).sum();
     let [n_phi, n_theta, n_alpha, n_beta] = [grid.n_phi, grid.n_theta, grid.n_alpha, grid.n_beta].map(u32::from);
@@ -171,7 +182,7 @@ fn books(file: &Btf<'_>) -> Vec<BookSize> {
         for (k, (name, items)) in [("P6", 1), ("P4", n_phi), ("P3", n_theta), ("P2", n_alpha)].iter().enumerate() {
             sizes.push(BookSize {
                 name: format!("{name}{suffix}"),
-                entries: stage.books[k].entries,
+                entries: stage.codebooks[k].entries,
                 items: *items,
                 // Codes of scales of P2 stand in bytes of their own.
                 bits: widths[k] + if k == 3 { 8 } else { 0 },
@@ -188,7 +199,7 @@ fn books(file: &Btf<'_>) -> Vec<BookSize> {
         });
     }
     let slices = texels * u64::from(n_phi) * u64::from(n_theta);
-    let p2_bits = index_bits(books.stages[0].books[3].entries);
+    let p2_bits = index_bits(books.stages[0].codebooks[3].entries);
     let rows = [
         ("M", chroma.merged, 1, p2_bits + index_bits(chroma.i2), slices),
         ("I2", chroma.i2, n_alpha, index_bits(chroma.i1), slices),

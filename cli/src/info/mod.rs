@@ -6,9 +6,8 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use serde_json::json;
-use subsurf_decoder::bssrdf::{Coding, Model, Profiles};
-use subsurf_decoder::container::{Container, Crc};
-use subsurf_decoder::{Bssrdf, Section};
+use subsurf_decoder::bssrdf::{BssrdfModel, Coding, Profiles};
+use subsurf_decoder::{Bssrdf, Content, File};
 use subsurf_encoder::btf::Folder;
 use subsurf_viewer::read;
 
@@ -60,14 +59,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         return folder_info(args);
     }
     let bytes = read(&args.file)?;
-    let container = Container::parse(&bytes).map_err(|error| read_error(&args.file, error))?;
-    if container.entries().any(|entry| entry.section == Section::BtfHeader) {
-        return btf::info(args, &bytes, &container);
-    }
-    let material = parse(&args.file, &bytes)?;
+    let file = File::parse(&bytes).map_err(|error| read_error(&args.file, error)).context("not a usable material")?;
+    let container = file.container();
+    let Content::Bssrdf(material) = file.content() else { return btf::info(args, &bytes, &file) };
     let header = material.header();
     let model = match material.model() {
-        Model::BaseMaterials(planes) => {
+        BssrdfModel::BaseMaterials(planes) => {
             let coding = match header.coding {
                 Coding::Exact => "",
                 Coding::SmallRatios => ", ratios in 8 bits",
@@ -76,7 +73,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             let half = if matches!(planes.profiles, Profiles::F16(_)) { ", profiles in half precision" } else { "" };
             format!("{}-BMPP (base materials per pixel: {}{coding}{half})", header.model, header.model)
         }
-        Model::PerPixel(_) => "per-pixel profiles".to_owned(),
+        BssrdfModel::PerPixel(_) => "per-pixel profiles".to_owned(),
     };
     if args.json {
         let sections: Vec<_> = container
@@ -116,7 +113,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 
 /// Parses with all checks, and names the file if it fails.
 pub fn parse<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Bssrdf<'a>> {
-    Bssrdf::parse_with(bytes, Crc::Check).map_err(|error| read_error(path, error)).context("not a usable material")
+    Bssrdf::parse(bytes).map_err(|error| read_error(path, error)).context("not a usable material")
 }
 
 pub(crate) fn read_error(path: &std::path::Path, source: subsurf_decoder::ReadError) -> subsurf_encoder::Error {

@@ -2,7 +2,7 @@
 
 use image::RgbImage;
 use serde_json::{Map, Value, json};
-use subsurf_decoder::Btf;
+use subsurf_decoder::NestedBtf;
 use subsurf_runtime::{BACKGROUND, BtfMaterial, Gpu, RuntimeOptions};
 use subsurf_scene::{Mesh, Placement, REFLECTION_SIZE, Scene};
 use subsurf_shaders::{cpu, uniform};
@@ -19,7 +19,7 @@ use crate::program::failure::bad_request;
 /// Draws a mesh made of a BTF; where there are images, they come second.
 pub(crate) fn draw_btf(
     gpu: Option<&Gpu>,
-    btf: &Btf<'_>,
+    btf: &NestedBtf<'_>,
     mesh: &Mesh,
     args: &BtfArgs,
     request: &RenderRequest,

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use subsurf_decoder::Btf;
+use subsurf_decoder::NestedBtf;
 use subsurf_runtime::{BtfFiltering, BtfOptions};
 use subsurf_scene::Mesh;
 use subsurf_viewer::{material_number, repeats};
@@ -102,7 +102,7 @@ impl BtfArgs {
     }
 
     /// The number of the material that is asked for; the first one if none is.
-    pub(crate) fn number(&self, btf: &Btf<'_>) -> anyhow::Result<usize> {
+    pub(crate) fn number(&self, btf: &NestedBtf<'_>) -> anyhow::Result<usize> {
         let Some(asked) = &self.material else {
             return Ok(0);
         };

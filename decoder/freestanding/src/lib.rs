@@ -5,10 +5,10 @@
 #![no_std]
 
 use core::panic::PanicInfo;
-use subsurf_decoder::bssrdf::Model;
+use subsurf_decoder::bssrdf::BssrdfModel;
+use subsurf_decoder::btf::factored::ExpansionBuffers;
 use subsurf_decoder::container::Crc;
-use subsurf_decoder::{Bssrdf, Btf, Evaluate, Factored, ReadError};
-use subsurf_decoder::btf::factored::Buffers;
+use subsurf_decoder::{Bssrdf, Content, Evaluate, FactoredBtf, File, NestedBtf, ReadError};
 
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
@@ -45,13 +45,13 @@ pub struct Probe {
     btf_albedo: [f32; 3],
     drawn: [f32; 3],
     pdfs: [f32; 2],
-    /// Room for factors that are small.
+    /// Room for a factored BTF that is small.
     table: [i8; 4096],
     words: [i16; 4096],
     scratch: [f32; 512],
 }
 
-/// Parses `file` as a BSSRDF or as a BTF of either model and calls every accessor; false if the file was refused.
+/// Parses a file of any family and calls every accessor; false if the file was refused.
 ///
 /// # Safety
 /// `file` must point to `len` readable bytes.
@@ -68,41 +68,42 @@ fn decode(file: &[u8], probe: &mut Probe) -> Result<(), ReadError> {
         probe.sum = f32::from(file[probe.x_i[0] as usize]);
     }
     let crc = if probe.check_crc { Crc::Check } else { Crc::Skip };
-    if let Ok(btf) = Btf::parse_with(file, crc) {
-        look_at(&btf, probe);
-        return Ok(());
+    match File::parse_with(file, crc)?.content() {
+        Content::Bssrdf(material) => evaluate(&material, probe),
+        Content::NestedBtf(btf) => look_at(&btf, probe),
+        Content::FactoredBtf(btf) => expand(&btf, probe),
+        _ => {}
     }
-    if let Ok(factored) = Factored::parse_with(file, crc) {
-        expand(&factored, probe);
-        return Ok(());
-    }
-    let material = Bssrdf::parse_with(file, crc)?;
+    Ok(())
+}
+
+/// Every accessor of a BSSRDF.
+fn evaluate(material: &Bssrdf<'_>, probe: &mut Probe) {
     probe.rd = material.rd(probe.x_i, probe.x_o);
     probe.albedo = material.albedo(probe.x_i);
     if let Some(knot) = material.knot(probe.r_mm) {
         probe.log_profile = material.profile(probe.x_i).at(knot);
     }
     probe.sum = match material.model() {
-        Model::BaseMaterials(planes) => {
+        BssrdfModel::BaseMaterials(planes) => {
             let mixture = planes.mixtures.at(probe.x_i[0] as usize, probe.x_i[1] as usize);
             planes.profiles.rgb_at(probe.x_o[0] as usize).iter().chain(&mixture.ratios).sum()
         }
-        Model::PerPixel(planes) => planes.profiles.iter().sum(),
+        BssrdfModel::PerPixel(planes) => planes.profiles.iter().sum(),
     };
-    Ok(())
 }
 
-/// Every accessor of a BTF.
-fn look_at(btf: &Btf<'_>, probe: &mut Probe) {
+/// Every accessor of a nested BTF.
+fn look_at(btf: &NestedBtf<'_>, probe: &mut Probe) {
     probe.sum =
         btf.materials().map(|material| material.name().len() as f32 + material.size(probe.level)[0] as f32).sum();
     let Some(texel) = btf.texel(probe.material, probe.level, probe.texel) else { return };
     probe.value = btf.eval(texel, probe.light, probe.view);
-    probe.linear = btf.header().tone.linear(probe.value);
-    probe.sum += btf.header().tone.encode(probe.linear)[0];
+    probe.linear = btf.header().encoding.linear(probe.value);
+    probe.sum += btf.header().encoding.encode(probe.linear)[0];
     let view = btf.grid().view(probe.view);
     let prepared = btf.eval_for(texel, probe.light, &view);
-    probe.sum += prepared[0] + f32::from(btf.nested().books().chroma.is_relative);
+    probe.sum += prepared[0] + f32::from(btf.codebooks().sizes().chroma.is_relative);
     probe.btf_albedo = btf.albedo(texel, probe.view);
     let sample = btf.sample(texel, probe.view, probe.random);
     probe.drawn = sample.light;
@@ -110,10 +111,10 @@ fn look_at(btf: &Btf<'_>, probe: &mut Probe) {
     probe.pdfs = [sampler.sample(probe.random).pdf, sampler.pdf(probe.light) + btf.pdf(texel, probe.drawn, probe.view)];
 }
 
-/// Expanded factors, and one value of them.
-fn expand(factored: &Factored<'_>, probe: &mut Probe) {
+/// A factored BTF expanded, and one value of it.
+fn expand(btf: &FactoredBtf<'_>, probe: &mut Probe) {
     let Probe { table, words, scratch, .. } = probe;
-    let Some(expanded) = factored.expand(Buffers { table, words, scratch }) else { return };
+    let Some(expanded) = btf.expand(ExpansionBuffers { table, words, scratch }) else { return };
     let Some(texel) = expanded.catalog().texel(probe.material, probe.level, probe.texel) else { return };
     let view = expanded.catalog().grid().view(probe.view);
     probe.value = expanded.eval(texel, probe.light, probe.view);

@@ -1,11 +1,15 @@
 //! Rd, profiles and albedo of a checked file (Yatagawa et al. 2020, eq. 1-4).
 
 use super::layout::MAX_PER_PIXEL;
-use super::planes::{Model, Profiles};
+use super::planes::{BssrdfModel, Profiles};
 use super::reader::Bssrdf;
-use crate::bytes::F32Le;
+use crate::container::bytes::F32Le;
+use crate::container::index::row_major;
 
-/// Where a distance falls between the nodes of a profile (eq. 3).
+/// Colour channels.
+const RGB: usize = 3;
+
+/// Place of a distance between two nodes of a profile (eq. 3).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Knot {
     /// Node h below, 0 to S − 2.
@@ -41,7 +45,7 @@ impl LocalProfile<'_> {
             Source::Blend { profiles, starts, ratios, count } => {
                 let mut sum = [0.0; 3];
                 for (start, t) in starts.iter().zip(ratios).take(count) {
-                    let p = profiles.rgb_at(start.saturating_add(h.saturating_mul(3)));
+                    let p = profiles.rgb_at(row_major(h, RGB, *start));
                     for (sum, p) in sum.iter_mut().zip(p) {
                         *sum += t * p;
                     }
@@ -50,9 +54,8 @@ impl LocalProfile<'_> {
             }
             Source::Own { profiles, pixel, pixels } => {
                 let channel = |c: usize| {
-                    let plane = h.saturating_mul(3).saturating_add(c);
-                    let at = plane.saturating_mul(pixels).saturating_add(pixel);
-                    profiles.get(at).unwrap_or(0.0)
+                    let plane = row_major(h, RGB, c);
+                    profiles.get(row_major(plane, pixels, pixel)).unwrap_or(0.0)
                 };
                 [channel(0), channel(1), channel(2)]
             }
@@ -100,20 +103,20 @@ impl<'a> Bssrdf<'a> {
         let [column, row] = x;
         let column = header.addressing.map(column, header.width) as usize;
         let row = header.addressing.map(row, header.height) as usize;
-        let pixel = row.saturating_mul(header.width as usize).saturating_add(column);
+        let pixel = row_major(row, header.width as usize, column);
         let pixels = usize::try_from(header.pixels()).unwrap_or(usize::MAX);
         let source = match *self.model() {
-            Model::BaseMaterials(planes) => {
-                let stride = usize::from(header.samples).saturating_mul(3);
+            BssrdfModel::BaseMaterials(planes) => {
+                let values = row_major(header.samples.into(), RGB, 0);
                 let mixture = planes.mixtures.at(pixel, pixels);
                 Source::Blend {
                     profiles: planes.profiles,
-                    starts: mixture.bases.map(|index| usize::from(index).saturating_mul(stride)),
+                    starts: mixture.bases.map(|index| row_major(index.into(), values, 0)),
                     ratios: mixture.ratios,
                     count: header.model.into(),
                 }
             }
-            Model::PerPixel(planes) => Source::Own { profiles: planes.profiles, pixel, pixels },
+            BssrdfModel::PerPixel(planes) => Source::Own { profiles: planes.profiles, pixel, pixels },
         };
         LocalProfile { source, samples: header.samples.into() }
     }

@@ -5,9 +5,10 @@ mod evaluate;
 pub mod layout;
 mod planes;
 mod reader;
+mod values;
 
 pub use addressing::Addressing;
 pub use evaluate::{Knot, LocalProfile};
-pub use layout::{Coding, Header};
-pub use planes::{BaseMaterials, Mixture, Mixtures, Model, PerPixelProfiles, Profiles};
+pub use layout::{BssrdfHeader, Coding};
+pub use planes::{BaseMaterials, BssrdfModel, Mixture, Mixtures, PerPixelProfiles, Profiles};
 pub use reader::Bssrdf;

@@ -1,11 +1,12 @@
 //! The borrowed planes of a checked file.
 
 use super::layout::{MAX_CODED_RATIO, MAX_PAIRS, MAX_PER_PIXEL};
-use crate::bytes::{F16Le, F32Le, U16Le};
+use crate::container::bytes::{F16Le, F32Le, U16Le};
+use crate::container::index::row_major;
 
 /// The planes of a file, by model.
 #[derive(Clone, Copy, Debug)]
-pub enum Model<'a> {
+pub enum BssrdfModel<'a> {
     /// K-BMPP (Yatagawa et al. 2020, eq. 4).
     BaseMaterials(BaseMaterials<'a>),
     /// A profile for every pixel (Song et al. 2009).
@@ -131,7 +132,7 @@ impl Mixtures<'_> {
                 let mut mixture = none;
                 let slots = mixture.bases.iter_mut().zip(&mut mixture.ratios);
                 for (k, (base, t)) in slots.enumerate().take(count) {
-                    let at = k.saturating_mul(pixels).saturating_add(pixel);
+                    let at = row_major(k, pixels, pixel);
                     *base = indices.get(at).copied().unwrap_or(0).into();
                     *t = ratios.get(at).unwrap_or(0.0);
                 }

@@ -1,17 +1,20 @@
-//! What BTF files of both models begin with: tone, grid and materials.
+//! What BTF files of both models begin with: colour encoding, grid and materials.
 
 use super::grid::Grid;
-use super::layout::{Header, MATERIAL_BYTES, Material};
-use super::sections::Sections;
-use crate::container::{Container, Crc};
-use crate::error::{ReadError, Section};
+use super::layout::BtfHeader;
+use super::material::{MATERIAL_BYTES, Material};
+use crate::container::sections::Sections;
+use crate::detect;
+use crate::error::ReadError;
+use crate::family::Family;
+use crate::section::Section;
 
-/// A texel of one of the mipmap levels of one of the materials of a file.
+/// Texel of one of the mipmap levels of one of the materials of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Texel(pub(super) u32);
 
 impl Texel {
-    /// Its number in the file: texels row by row, level by level, material by material.
+    /// Number in the file: texels row by row, level by level, material by material.
     #[must_use]
     pub fn number(self) -> u32 {
         let Self(number) = self;
@@ -19,38 +22,33 @@ impl Texel {
     }
 }
 
-/// Header and materials of a BTF file of any model, checked.
+/// Checked header and materials of a BTF file of either model.
 #[derive(Clone, Copy, Debug)]
 pub struct Catalog<'a> {
-    header: Header,
+    header: BtfHeader,
     materials: &'a [[u8; MATERIAL_BYTES]],
 }
 
 impl<'a> Catalog<'a> {
-    /// Checks header and materials, not the sections of the model: says what [`Btf`](super::Btf) or
-    /// [`Factored`](super::Factored) is to read the file.
-    ///
-    /// # Errors
-    /// The first thing that is wrong.
-    pub fn parse(bytes: &'a [u8], crc: Crc) -> Result<Self, ReadError> {
-        Self::read(&Sections { container: &Container::parse(bytes)?, crc })
-    }
-
-    /// [`Self::parse`] of a container's sections.
-    pub(super) fn read(sections: &Sections<'a, '_>) -> Result<Self, ReadError> {
-        let (start, bytes) = sections.any(Section::BtfHeader)?;
-        let header = Header::parse(bytes, start)?;
-        let need = usize::from(header.materials).saturating_mul(MATERIAL_BYTES) as u64;
-        let materials: &[[u8; MATERIAL_BYTES]] = sections.sized(Section::Materials, need)?.as_chunks().0;
-        for (at, material) in (0..).step_by(MATERIAL_BYTES).zip(materials) {
-            Material::parse(material, sections.start(Section::Materials).saturating_add(at))?;
+    /// Checks header and materials of a file of the expected family.
+    pub(super) fn read(sections: &Sections<'a>, expected: Family) -> Result<Self, ReadError> {
+        let header = BtfHeader::parse(detect::header(sections, Section::BtfHeader, expected)?)?;
+        let found = header.model.family();
+        if found != expected {
+            return Err(ReadError::OtherFamily { found, expected });
+        }
+        let need_bytes = usize::from(header.materials).wrapping_mul(MATERIAL_BYTES) as u64;
+        let section = sections.sized(Section::Materials, need_bytes)?;
+        let (materials, _) = section.bytes.as_chunks();
+        for (number, material) in materials.iter().enumerate() {
+            Material::from_bytes(material).check(section.origin.at_item(number, MATERIAL_BYTES))?;
         }
         Ok(Self { header, materials })
     }
 
-    /// What the file says of itself.
+    /// Model, colour encoding and grid.
     #[must_use]
-    pub fn header(&self) -> &Header {
+    pub fn header(&self) -> &BtfHeader {
         &self.header
     }
 
@@ -60,19 +58,18 @@ impl<'a> Catalog<'a> {
         &self.header.grid
     }
 
-    /// The materials.
+    /// Materials in file order.
     pub fn materials(&self) -> impl Iterator<Item = Material> + 'a {
-        // All were read before.
-        self.materials.iter().filter_map(|bytes| Material::parse(bytes, 0).ok())
+        self.materials.iter().map(Material::from_bytes)
     }
 
-    /// Texels of all levels of all materials; at most 2³² − 1.
+    /// Number of texels of all levels of all materials; at most 2³² − 1.
     #[must_use]
     pub fn texels(&self) -> u32 {
         self.materials().fold(0, |sum, material| sum.saturating_add(material.texels(u8::MAX)))
     }
 
-    /// A texel by material, mipmap level and coordinates, which repeat; `None` if there is no such material or level.
+    /// Texel by material, mipmap level and coordinates, which repeat; `None` if there is no such material or level.
     #[must_use]
     pub fn texel(&self, material: usize, level: u8, [x, y]: [i32; 2]) -> Option<Texel> {
         let of = self.materials().nth(material).filter(|of| level < of.levels)?;

@@ -14,7 +14,7 @@ mod window;
 mod write;
 
 use subsurf_decoder::Section;
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use crate::capture::Capture;
 use crate::error::Result;
@@ -107,7 +107,12 @@ impl<'a> Problem<'a> {
     }
 
     /// Sections and cost of a model, and in the header the base materials that are left.
-    fn of_bases(&self, header: &mut Header, mut model: Model, half_profiles: bool) -> (Vec<(Section, Vec<u8>)>, f64) {
+    fn of_bases(
+        &self,
+        header: &mut BssrdfHeader,
+        mut model: Model,
+        half_profiles: bool,
+    ) -> (Vec<(Section, Vec<u8>)>, f64) {
         model.drop_unused();
         header.base_materials = u32::try_from(model.count()).expect("at most 65,536 base materials");
         let mut sections = vec![write::profiles(base_profiles(&self.normal, &model), half_profiles)];

@@ -3,7 +3,7 @@
 use subsurf_decoder::bssrdf::layout::{
     LENGTHS_MM, MAX_BASE_MATERIALS, MAX_SAMPLES, MAX_SINGLE_BASE_MATERIALS, MODELS_BMPP,
 };
-use subsurf_decoder::bssrdf::{Coding, Header};
+use subsurf_decoder::bssrdf::{BssrdfHeader, Coding};
 
 use super::window::Geometry;
 use crate::capture::Capture;
@@ -90,14 +90,14 @@ impl Options {
     }
 
     /// The header of the file, base materials as asked for.
-    pub(super) fn header(&self, capture: &Capture, geometry: &Geometry) -> Header {
+    pub(super) fn header(&self, capture: &Capture, geometry: &Geometry) -> BssrdfHeader {
         let model = self.model();
         let bases = if model == 0 { 0 } else { self.base_materials };
         let small = |n: usize| u32::try_from(n).expect("checked when the capture was opened");
         let smaller = |n: usize| u16::try_from(n).expect("checked when the capture was opened");
         #[allow(clippy::cast_possible_truncation, reason = "a radius in pixels")]
         let r_max_px = geometry.r_max_px as f32;
-        Header {
+        BssrdfHeader {
             model: u8::try_from(model).expect("at most 5"),
             coding: self.coding,
             addressing: geometry.addressing,

@@ -3,7 +3,7 @@
 use half::f16;
 use subsurf_decoder::Section;
 use subsurf_decoder::bssrdf::layout::{HEADER_BYTES, MAX_CODED_RATIO, MAX_LOG, MAX_PAIRS, MODEL_2BMPP};
-use subsurf_decoder::bssrdf::{Coding, Header, Mixture};
+use subsurf_decoder::bssrdf::{BssrdfHeader, Coding, Mixture};
 
 use crate::container;
 
@@ -12,14 +12,14 @@ use crate::container;
 /// # Panics
 /// Never for the handful of sections that there are.
 #[must_use]
-pub fn write_file(header: &Header, sections: &[(Section, Vec<u8>)]) -> Vec<u8> {
+pub fn write_file(header: &BssrdfHeader, sections: &[(Section, Vec<u8>)]) -> Vec<u8> {
     let header = header.to_bytes();
     let sections = sections.iter().map(|(section, bytes)| (*section, &bytes[..]));
     container::write(std::iter::once((Section::BssrdfHeader, &header[..])).chain(sections))
 }
 
 /// Length of a K-BMPP file, with the largest palette there can be.
-pub(super) fn file_bytes(header: &Header, half_profiles: bool) -> u64 {
+pub(super) fn file_bytes(header: &BssrdfHeader, half_profiles: bool) -> u64 {
     let profiles = if half_profiles { Section::HalfProfiles } else { Section::BaseProfiles };
     let of_pixels: &[Section] = match (header.coding, header.model) {
         (Coding::Palette, _) => &[Section::Codes],
@@ -56,7 +56,7 @@ pub fn profiles(values: impl Iterator<Item = f32>, half: bool) -> (Section, Vec<
 /// # Panics
 /// If indices do not fit the header's M, or a palette has more than 2,048 pairs.
 #[must_use]
-pub fn mixtures(header: &Header, mixtures: &[Mixture]) -> Vec<(Section, Vec<u8>)> {
+pub fn mixtures(header: &BssrdfHeader, mixtures: &[Mixture]) -> Vec<(Section, Vec<u8>)> {
     let byte = |base: u16| u8::try_from(base).expect("at most 256 base materials");
     let pairs = || mixtures.iter().map(|mixture| [byte(mixture.bases[0]), byte(mixture.bases[1])]);
     let pair_bytes = || pairs().flatten().collect();

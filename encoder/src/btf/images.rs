@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use glam::Vec3;
 use half::f16;
 use rayon::prelude::*;
-use subsurf_decoder::btf::Tone;
+use subsurf_decoder::btf::ColourEncoding;
 
 use crate::btf::{Folder, Ubo};
 use crate::error::{Error, Result};
@@ -103,7 +103,7 @@ pub struct Images {
     lights: Vec<Vec3>,
     views: Vec<Vec3>,
     size: [u32; 2],
-    tone: Tone,
+    tone: ColourEncoding,
     raw_bytes: Option<u64>,
     /// `[light][view][pixel][rgb]`.
     pixels: Store,
@@ -115,7 +115,7 @@ enum Store {
     Linear(Vec<f16>),
 }
 
-/// The toe of [`Tone::LogLuv`], in mean luminances.
+/// The toe of [`ColourEncoding::LogLuv`], in mean luminances.
 const TOE_OF_MEAN: f32 = 0.05;
 
 impl Images {
@@ -147,7 +147,7 @@ impl Images {
                 }
                 Ok(())
             })?;
-            (Store::Display(bytes), Tone::Display { white })
+            (Store::Display(bytes), ColourEncoding::Display { white })
         } else {
             let mut halves = vec![f16::ZERO; values];
             let peak = AtomicU32::new(0);
@@ -171,7 +171,7 @@ impl Images {
             let mean = sums.iter().sum::<f32>() / pairs as f32;
             let toe = (TOE_OF_MEAN * mean).clamp(1e-6, 1e5);
             let peak = f32::from_bits(peak.into_inner()).clamp(2.0 * toe, 1e6);
-            (Store::Linear(halves), Tone::LogLuv { toe, peak })
+            (Store::Linear(halves), ColourEncoding::LogLuv { toe, peak })
         };
         Ok(Self { label: source.label(), lights, views, size, tone, raw_bytes: source.raw_bytes(), pixels })
     }
@@ -208,7 +208,7 @@ impl Images {
 
     /// How their channels are to be read.
     #[must_use]
-    pub fn tone(&self) -> Tone {
+    pub fn tone(&self) -> ColourEncoding {
         self.tone
     }
 

@@ -7,7 +7,7 @@
 use glam::Vec3;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
-use subsurf_decoder::btf::{Grid, Place, View};
+use subsurf_decoder::btf::{Grid, LerpCoord, View};
 
 /// Weight of squared second differences between nodes.
 const SMOOTHNESS: f64 = 2e-3;
@@ -41,8 +41,8 @@ const SAME_AZIMUTH: f32 = 1e-5;
 /// Four weighted nodes of a table, at most.
 type Weights = Vec<(usize, f64)>;
 
-fn product(first: Place, second: Place, stride: usize) -> Weights {
-    let pair = |place: Place| place.nodes.into_iter().zip(place.weights());
+fn product(first: LerpCoord, second: LerpCoord, stride: usize) -> Weights {
+    let pair = |place: LerpCoord| place.nodes.into_iter().zip(place.weights());
     let both = |(a, wa): (u32, f32)| {
         pair(second).map(move |(b, wb)| (a as usize * stride + b as usize, f64::from(wa) * f64::from(wb)))
     };
@@ -51,7 +51,7 @@ fn product(first: Place, second: Place, stride: usize) -> Weights {
 
 /// Nodes `[α][β]` of a light.
 fn light_weights(grid: &Grid, light: Vec3, view: &View) -> Weights {
-    let cell = grid.cell(light.to_array(), view);
+    let cell = grid.coord_for(light.to_array(), view);
     product(cell.alpha, cell.beta, usize::from(grid.n_beta))
 }
 

@@ -1,13 +1,12 @@
 //! How far a file is from the images of a BTF.
 
 use rayon::prelude::*;
-use subsurf_decoder::btf::{Catalog, Evaluate, Model, Tone};
-use subsurf_decoder::container::Crc;
-use subsurf_decoder::{Btf, Factored, ReadError};
+use subsurf_decoder::btf::factored::ExpansionMemory;
+use subsurf_decoder::btf::{ColourEncoding, Evaluate};
+use subsurf_decoder::{Content, Family, File, ReadError};
 
 use super::image::ssim_of_planes;
 use crate::btf::Images;
-use crate::btf::factored::{Memory, expanded};
 use crate::progress::Progress;
 
 /// Means over pairs of directions.
@@ -33,13 +32,17 @@ impl BtfError {
 ///
 /// # Errors
 /// What is wrong with it.
+///
+/// # Panics
+/// If there is no memory to expand it into.
 pub fn with_file<R>(bytes: &[u8], then: impl FnOnce(&(dyn Evaluate + Sync)) -> R) -> Result<R, ReadError> {
-    match Catalog::parse(bytes, Crc::Check)?.header().model {
-        Model::Nested => Ok(then(&Btf::parse(bytes)?)),
-        Model::Factored => {
-            let mut memory = Memory::default();
-            Ok(then(&expanded(&Factored::parse(bytes)?, &mut memory)))
+    match File::parse(bytes)?.content() {
+        Content::NestedBtf(btf) => Ok(then(&btf)),
+        Content::FactoredBtf(btf) => {
+            let mut memory = ExpansionMemory::default();
+            Ok(then(&btf.expand_in(&mut memory).expect("memory for one to four megabytes")))
         }
+        other => Err(ReadError::OtherFamily { found: other.family(), expected: Family::NestedBtf }),
     }
 }
 
@@ -56,7 +59,7 @@ pub fn compare(
     pairs: &[usize],
     progress: &impl Progress,
 ) -> BtfError {
-    let tone = file.catalog().header().tone;
+    let tone = file.catalog().header().encoding;
     compare_images(images, tone, pairs, |pair| decode(images, file, material, pair), progress)
 }
 
@@ -64,7 +67,7 @@ pub fn compare(
 #[must_use]
 pub fn compare_images(
     images: &Images,
-    tone: Tone,
+    tone: ColourEncoding,
     pairs: &[usize],
     decode: impl Fn(usize) -> Vec<[f32; 3]> + Sync,
     progress: &impl Progress,
@@ -99,7 +102,7 @@ pub fn decode(images: &Images, file: &(impl Evaluate + ?Sized), material: usize,
     let (lights, views) = (images.lights(), images.views());
     let (light, view) = (lights[pair / views.len()], views[pair % views.len()]);
     let grid = file.catalog().grid();
-    let cell = grid.cell(light.to_array(), &grid.view(view.to_array()));
+    let cell = grid.coord_for(light.to_array(), &grid.view(view.to_array()));
     let first = file.catalog().texel(material, 0, [0; 2]).expect("the material is there");
     let mut values = vec![[0.0; 3]; images.texels()];
     file.eval_texels(first, &cell, &mut values);
@@ -107,23 +110,31 @@ pub fn decode(images: &Images, file: &(impl Evaluate + ?Sized), material: usize,
 }
 
 /// Structural similarities, and mean squared error.
-fn of_pair(images: &Images, decoded: &[[f32; 3]], pair: usize, tone: Tone, width: usize) -> (Option<[f64; 3]>, f64) {
+fn of_pair(
+    images: &Images,
+    decoded: &[[f32; 3]],
+    pair: usize,
+    tone: ColourEncoding,
+    width: usize,
+) -> (Option<[f64; 3]>, f64) {
     let centre = match tone {
-        Tone::Display { .. } => [0.0, 0.5, 0.5],
-        Tone::LogLuv { .. } => [0.0; 3],
+        ColourEncoding::Display { .. } => [0.0, 0.5, 0.5],
+        ColourEncoding::LogLuv { .. } => [0.0; 3],
     };
     let mut planes = [const { Vec::new() }; 6];
     let mut squares = 0.0;
     images.each(pair, |texel, rgb| {
         // What was measured was clipped to what can be shown; so is what is compared with it.
         let other = match tone {
-            Tone::Display { .. } => decoded[texel].map(|value| value.min(1.0)),
-            Tone::LogLuv { .. } => decoded[texel],
+            ColourEncoding::Display { .. } => decoded[texel].map(|value| value.min(1.0)),
+            ColourEncoding::LogLuv { .. } => decoded[texel],
         };
         let (first, second) = (tone.encode(rgb), tone.encode(other));
         squares += match tone {
-            Tone::Display { .. } => rgb.iter().zip(other).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>() / 3.0,
-            Tone::LogLuv { .. } => f64::from(first[0] - second[0]).powi(2),
+            ColourEncoding::Display { .. } => {
+                rgb.iter().zip(other).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>() / 3.0
+            }
+            ColourEncoding::LogLuv { .. } => f64::from(first[0] - second[0]).powi(2),
         };
         for c in 0..3 {
             planes[c].push(f64::from(first[c] + centre[c]));

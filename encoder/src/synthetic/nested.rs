@@ -1,7 +1,8 @@
 //! Nested codebooks of BTFs at random.
 
-use subsurf_decoder::btf::layout::{NAME_BYTES, Scales};
-use subsurf_decoder::btf::{Grid, Header, Material, Model, Tone};
+use subsurf_decoder::btf::NAME_BYTES;
+use subsurf_decoder::btf::nested::layout::Scales;
+use subsurf_decoder::btf::{BtfHeader, BtfModel, ColourEncoding, Grid, Material};
 
 use super::unit;
 use crate::btf::nested::{Chain, Chroma, Database, Item, slice_mean};
@@ -12,7 +13,7 @@ pub struct NestedShape {
     /// Nodes of directions.
     pub grid: Grid,
     /// What the channels are.
-    pub tone: Tone,
+    pub tone: ColourEncoding,
     /// Width, height and mipmap levels of the materials.
     pub materials: Vec<(u16, u16, u8)>,
     /// Additive stages of luma, 1 to 4.
@@ -35,7 +36,7 @@ impl NestedShape {
     pub fn typical() -> Self {
         Self {
             grid: Grid::PAPER,
-            tone: Tone::Display { white: 1.0 },
+            tone: ColourEncoding::Display { white: 1.0 },
             materials: vec![(128, 128, 1)],
             stages: 1,
             luma: [1024, 2048, 4096, 1024],
@@ -79,8 +80,8 @@ impl NestedShape {
         let codes =
             |entries: u32, numbers: &mut Numbers| (0..entries).map(|_| [numbers.byte(), numbers.byte()]).collect();
         let (first, step) = match self.tone {
-            Tone::Display { .. } => ([-0.05; 2], [0.000_4; 2]),
-            Tone::LogLuv { .. } => ([0.15, 0.42], [0.000_5; 2]),
+            ColourEncoding::Display { .. } => ([-0.05; 2], [0.000_4; 2]),
+            ColourEncoding::LogLuv { .. } => ([0.15, 0.42], [0.000_5; 2]),
         };
         let chroma = Chroma {
             merged: pairs,
@@ -94,7 +95,8 @@ impl NestedShape {
             is_relative: self.is_relative,
         };
         let materials_count = u8::try_from(materials.len()).expect("at most 255 materials");
-        let header = Header { model: Model::Nested, tone: self.tone, materials: materials_count, grid: self.grid };
+        let header =
+            BtfHeader { model: BtfModel::Nested, encoding: self.tone, materials: materials_count, grid: self.grid };
         Database { header, materials, stages, chroma }
     }
 
@@ -109,8 +111,8 @@ impl NestedShape {
         let last = ((1_i16 << bits) - 1) << step;
         let middle = match self.tone {
             _ if is_signed => -256,
-            Tone::Display { .. } => -64,
-            Tone::LogLuv { .. } => -128,
+            ColourEncoding::Display { .. } => -64,
+            ColourEncoding::LogLuv { .. } => -128,
         };
         let scales = [middle, 0, 0, 0];
         let scales = scales.map(|middle| Scales { bits: self.scale_bits, step, offset: middle - last / 2 });

@@ -1,7 +1,7 @@
 //! Scattering materials on the device: the planes of a file, or an uncompressed capture.
 
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::{BaseMaterials, Header, Mixtures, Model, Profiles};
+use subsurf_decoder::bssrdf::{BaseMaterials, BssrdfHeader, BssrdfModel, Mixtures, Profiles};
 use subsurf_shaders::MaterialLayout;
 use subsurf_shaders::uniform::{self, BASE_ROWS, ROW};
 use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
@@ -12,7 +12,7 @@ use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked, layers_of};
 /// Layout of a file on the device.
 #[must_use]
 pub fn layout_of(material: &Bssrdf<'_>) -> MaterialLayout {
-    let Model::BaseMaterials(planes) = material.model() else {
+    let BssrdfModel::BaseMaterials(planes) = material.model() else {
         return MaterialLayout::PerPixel;
     };
     match planes.mixtures {
@@ -28,7 +28,7 @@ pub fn layout_of(material: &Bssrdf<'_>) -> MaterialLayout {
 #[derive(Debug)]
 pub struct Material {
     layout: MaterialLayout,
-    header: Header,
+    header: BssrdfHeader,
     uniform: Tracked<Buffer>,
     textures: Vec<Surface2d>,
     views: Vec<TextureView>,
@@ -46,11 +46,11 @@ impl Material {
         let layout = layout_of(material);
         let mut planes = Planes { gpu, size, all: Vec::new() };
         match material.model() {
-            Model::PerPixel(profiles) => {
+            BssrdfModel::PerPixel(profiles) => {
                 let count = 3 * u32::from(header.samples);
                 planes.layers("local profiles", count, TextureFormat::R32Float, profiles.profiles.as_bytes())?;
             }
-            Model::BaseMaterials(BaseMaterials { profiles, mixtures }) => {
+            BssrdfModel::BaseMaterials(BaseMaterials { profiles, mixtures }) => {
                 planes.base_profiles(header, *profiles)?;
                 planes.mixtures(*mixtures)?;
             }
@@ -64,7 +64,7 @@ impl Material {
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the device has not enough layers.
-    pub fn upload_capture(gpu: &Gpu, header: &Header, entries: &[u8]) -> Result<Self> {
+    pub fn upload_capture(gpu: &Gpu, header: &BssrdfHeader, entries: &[u8]) -> Result<Self> {
         let rows = entries.len().div_ceil(ROW as usize * 4);
         let layers = rows.div_ceil(ROW as usize).max(2);
         let small = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
@@ -84,7 +84,7 @@ impl Material {
     fn new(
         gpu: &Gpu,
         layout: MaterialLayout,
-        header: &Header,
+        header: &BssrdfHeader,
         layer: [u32; 2],
         textures: Vec<Surface2d>,
         views: Vec<TextureView>,
@@ -99,9 +99,9 @@ impl Material {
         self.layout
     }
 
-    /// Header of the file: size, pitch and window of the patch.
+    /// BssrdfHeader of the file: size, pitch and window of the patch.
     #[must_use]
-    pub fn header(&self) -> &Header {
+    pub fn header(&self) -> &BssrdfHeader {
         &self.header
     }
 
@@ -163,7 +163,7 @@ impl Planes<'_> {
     }
 
     /// Adds the table of base profiles, widened to four channels; columns of [`BASE_ROWS`] materials stand beside each other.
-    fn base_profiles(&mut self, header: &Header, profiles: Profiles<'_>) -> Result<()> {
+    fn base_profiles(&mut self, header: &BssrdfHeader, profiles: Profiles<'_>) -> Result<()> {
         let (format, channel, source) = match profiles {
             Profiles::F32(values) => (TextureFormat::Rgba32Float, 4, values.as_bytes()),
             Profiles::F16(values) => (TextureFormat::Rgba16Float, 2, values.as_bytes()),

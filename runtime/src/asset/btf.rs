@@ -1,6 +1,6 @@
 //! BTFs on the device: the file as it is.
 
-use subsurf_decoder::Btf;
+use subsurf_decoder::NestedBtf;
 use subsurf_shaders::BtfLayout;
 use subsurf_shaders::uniform::{BtfCodebooks, BtfTexture};
 use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
@@ -25,7 +25,7 @@ impl BtfMaterial {
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no texture of that size.
-    pub fn upload(gpu: &Gpu, btf: &Btf<'_>) -> Result<Self> {
+    pub fn upload(gpu: &Gpu, btf: &NestedBtf<'_>) -> Result<Self> {
         let file = btf.file();
         let too_large = || Error::Unsupported { what: "bytes of a BTF", need: file.len() as u64, have: 512 << 20 };
         let books = BtfCodebooks::of(btf).ok_or_else(too_large)?;

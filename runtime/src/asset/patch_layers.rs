@@ -1,7 +1,7 @@
 //! Filtered values over a patch on the device, with mipmap levels.
 
 use half::f16;
-use subsurf_decoder::bssrdf::{Addressing, Header};
+use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader};
 use subsurf_shaders::Rgb;
 use wgpu::{AddressMode, FilterMode, MipmapFilterMode, Sampler, SamplerDescriptor, TextureFormat, TextureView};
 
@@ -25,7 +25,7 @@ impl PatchLayers {
     ///
     /// # Errors
     /// [`crate::Error::Unsupported`] if the device takes no texture of that size.
-    pub(crate) fn upload(gpu: &Gpu, header: &Header, layers: Vec<Vec<Rgb>>) -> Result<Self> {
+    pub(crate) fn upload(gpu: &Gpu, header: &BssrdfHeader, layers: Vec<Vec<Rgb>>) -> Result<Self> {
         let size = [header.width, header.height];
         let count = u32::try_from(layers.len()).unwrap_or(u32::MAX);
         let levels = size[0].max(size[1]).ilog2() + 1;

@@ -1,6 +1,6 @@
 //! Materials for separable blurs on the device.
 
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 use subsurf_shaders::separable::SeparableBasis;
 use subsurf_shaders::uniform;
 use subsurf_shaders::{Rgb, cpu};
@@ -25,7 +25,7 @@ pub(super) fn albedo(basis: &SeparableBasis) -> Vec<Rgb> {
 /// Separable material on the device: coefficients c_l and albedo over the patch, and blocks of the cascade of Gaussians.
 #[derive(Debug)]
 pub struct SeparableMaterial {
-    header: Header,
+    header: BssrdfHeader,
     terms: usize,
     /// Layers c_l, l < L, and the albedo under uniform light.
     pub(crate) layers: PatchLayers,
@@ -55,9 +55,9 @@ impl SeparableMaterial {
         })
     }
 
-    /// Header of the file: size, pitch and window of the patch.
+    /// BssrdfHeader of the file: size, pitch and window of the patch.
     #[must_use]
-    pub fn header(&self) -> &Header {
+    pub fn header(&self) -> &BssrdfHeader {
         &self.header
     }
 

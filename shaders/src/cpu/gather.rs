@@ -2,20 +2,20 @@
 
 use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use crate::rgb::Rgb;
 
 /// Rd of a patch from the pixel x_i to the pixel x_o, in mm⁻²; x_i may lie beyond the border.
 pub trait Reflectance: Sync {
     /// Size, pitch, window and addressing.
-    fn header(&self) -> &Header;
+    fn header(&self) -> &BssrdfHeader;
     /// Rd(x_i, x_o), 0 outside the window.
     fn rd(&self, x_i: [i32; 2], x_o: [i32; 2]) -> Rgb;
 }
 
 impl Reflectance for Bssrdf<'_> {
-    fn header(&self) -> &Header {
+    fn header(&self) -> &BssrdfHeader {
         self.header()
     }
 

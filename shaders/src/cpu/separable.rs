@@ -1,7 +1,7 @@
 //! Twin of the separable passes on a flat patch, `blur_patch_*.wgsl`, all together.
 
 use rayon::prelude::*;
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use crate::rgb::Rgb;
 use crate::separable::{CascadeStage, SeparableBasis};
@@ -43,7 +43,7 @@ fn multiply(a: Rgb, b: Rgb) -> Rgb {
 }
 
 /// One stage along rows and then along columns.
-fn blur(image: &[Rgb], header: &Header, stage: &CascadeStage) -> Vec<Rgb> {
+fn blur(image: &[Rgb], header: &BssrdfHeader, stage: &CascadeStage) -> Vec<Rgb> {
     let [width, height] = [header.width, header.height];
     let taps = stage.weights();
     let beside = |x: u32, k: i32, n: u32| header.addressing.map(x.cast_signed() + k, n);

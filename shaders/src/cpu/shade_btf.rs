@@ -3,7 +3,7 @@
 use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3, Vec4};
-use subsurf_decoder::Btf;
+use subsurf_decoder::NestedBtf;
 use subsurf_decoder::btf::{Texel, View};
 use subsurf_scene::MAX_LIGHTS;
 
@@ -15,7 +15,7 @@ use crate::uniform::{BtfFiltering, Scene};
 #[derive(Clone, Copy, Debug)]
 pub struct BtfSurface<'a> {
     /// The file.
-    pub btf: &'a Btf<'a>,
+    pub btf: &'a NestedBtf<'a>,
     /// Number of the material.
     pub material: usize,
     /// Which texels a pixel shows.
@@ -130,7 +130,7 @@ fn random_numbers([x, y]: [u32; 2]) -> [f32; 3] {
 impl BtfSurface<'_> {
     /// Value of a texel: π times the radiance under light of unit irradiance on a plane that faces it.
     fn value(&self, texel: Texel, light: [f32; 3], seen: &View) -> Vec3 {
-        self.btf.header().tone.linear(self.btf.eval_for(texel, light, seen)).into()
+        self.btf.header().encoding.linear(self.btf.eval_for(texel, light, seen)).into()
     }
 
     /// Texels of a mipmap level, columns and rows.

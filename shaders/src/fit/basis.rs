@@ -1,7 +1,7 @@
 //! The fit at a given size.
 
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use super::gaussians;
 use super::radial::Radial;
@@ -18,7 +18,7 @@ impl SeparableBasis {
         Self::from_radial(*material.header(), Radial::of(material, size.terms), size)
     }
 
-    pub(super) fn from_radial(header: Header, radial: Radial, size: BasisSize) -> Self {
+    pub(super) fn from_radial(header: BssrdfHeader, radial: Radial, size: BasisSize) -> Self {
         let (sigmas, weights) = gaussians::fit(&header, &radial, size);
         Self { header, size, coefficients: radial.coefficients, sigmas, weights }
     }

@@ -1,7 +1,7 @@
 //! The cheapest size that an error allows.
 
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use super::radial::Radial;
 use crate::cpu::{gather, separable};
@@ -59,7 +59,7 @@ impl SeparableBasis {
 }
 
 /// Irradiance from everywhere, of a disc of a third of the patch in its middle, and of the row through a third.
-fn lights(header: &Header) -> [Vec<Rgb>; 3] {
+fn lights(header: &BssrdfHeader) -> [Vec<Rgb>; 3] {
     let [width, height] = [header.width, header.height];
     let of = |lit: &dyn Fn(u32, u32) -> bool| -> Vec<Rgb> {
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));

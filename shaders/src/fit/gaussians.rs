@@ -3,7 +3,7 @@
 #![allow(clippy::cast_possible_truncation, reason = "results in double precision are kept in single; counts are small")]
 
 use nalgebra::{DMatrix, DVector};
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use super::radial::Radial;
 use crate::rgb::Rgb;
@@ -29,7 +29,7 @@ struct Ring {
 }
 
 /// Widths σ_a in pixels, shape `[A]`, and weights, shape `[L][L][A]`, for offsets of whole pixels in the window.
-pub(super) fn fit(header: &Header, radial: &Radial, size: BasisSize) -> (Vec<f32>, Vec<Rgb>) {
+pub(super) fn fit(header: &BssrdfHeader, radial: &Radial, size: BasisSize) -> (Vec<f32>, Vec<Rgb>) {
     let rings = rings(header);
     let kernels = kernels(&rings, radial, size.terms);
     let radius = f64::from(header.window_radius.max(1));
@@ -62,7 +62,7 @@ pub(super) fn fit(header: &Header, radial: &Radial, size: BasisSize) -> (Vec<f32
 }
 
 /// Rings of the window within r_max, by rising length.
-fn rings(header: &Header) -> Vec<Ring> {
+fn rings(header: &BssrdfHeader) -> Vec<Ring> {
     let radius = i32::from(header.window_radius);
     let r_max = f64::from(header.r_max_mm / header.pitch_mm);
     let mut squares: Vec<i32> =

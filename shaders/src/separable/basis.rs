@@ -1,6 +1,6 @@
 //! The basis of a material: coefficients, widths and weights.
 
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use crate::rgb::Rgb;
 
@@ -28,7 +28,7 @@ impl Default for BasisSize {
 #[derive(Clone, Debug)]
 pub struct SeparableBasis {
     /// Size, pitch, window and addressing of the material.
-    pub header: Header,
+    pub header: BssrdfHeader,
     /// L and A.
     pub size: BasisSize,
     /// Coefficients c_l of every pixel; shape `[L][height][width]`, linear Rec. 709, mm⁻¹.

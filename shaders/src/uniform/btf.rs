@@ -1,9 +1,9 @@
 //! Blocks of BTFs.
 
 use bytemuck::{Pod, Zeroable};
-use subsurf_decoder::Btf;
-use subsurf_decoder::btf::layout::MAX_STAGES;
-use subsurf_decoder::btf::{Codebooks, PackedTable, Tone};
+use subsurf_decoder::NestedBtf;
+use subsurf_decoder::btf::nested::layout::MAX_STAGES;
+use subsurf_decoder::btf::{CodebookOffsets, ColourEncoding, PackedTable};
 
 /// `BtfTable` of `btf_words.wgsl`.
 #[repr(C)]
@@ -94,12 +94,12 @@ pub struct BtfCodebooks {
 impl BtfCodebooks {
     /// Block for a file of nested codebooks; `None` if its bits are more than 32-bit numbers count, which takes 512 MiB.
     #[must_use]
-    pub fn of(btf: &Btf<'_>) -> Option<Self> {
-        let codebooks = Codebooks::of(btf);
-        let (chroma, grid) = (&codebooks.books.chroma, btf.grid());
+    pub fn of(btf: &NestedBtf<'_>) -> Option<Self> {
+        let codebooks = CodebookOffsets::of(btf);
+        let (chroma, grid) = (&codebooks.sizes.chroma, btf.grid());
         u32::try_from(btf.file().len()).ok()?.checked_mul(8)?;
         let mut books = Self::zeroed();
-        let used = codebooks.stages.iter().zip(&codebooks.books.stages).take(codebooks.books.count).enumerate();
+        let used = codebooks.stages.iter().zip(&codebooks.sizes.stages).take(codebooks.sizes.count).enumerate();
         for (stage, (tables, of_books)) in used {
             for (to, table) in books.chains.iter_mut().skip(4 * stage).zip(&tables.tables) {
                 *to = BtfTable::new(table, of_books.is_signed);
@@ -109,9 +109,9 @@ impl BtfCodebooks {
             books.is_signed[stage] = u32::from(of_books.is_signed);
         }
         let [p6, ..] = &codebooks.stages[0].tables;
-        let (colour_encoding, white, octaves) = match btf.header().tone {
-            Tone::Display { white } => (1, white, 0.0),
-            Tone::LogLuv { toe, peak } => (2, toe, (1.0 + peak / toe).log2()),
+        let (colour_encoding, white, octaves) = match btf.header().encoding {
+            ColourEncoding::Display { white } => (1, white, 0.0),
+            ColourEncoding::LogLuv { toe, peak } => (2, toe, (1.0 + peak / toe).log2()),
         };
         Some(Self {
             merged: BtfTable::new(&codebooks.merged, false),
@@ -123,7 +123,7 @@ impl BtfCodebooks {
             tint_at: p6.index_bits + u32::from(p6.scales.bits),
             i2_mask: mask(codebooks.merged.width - codebooks.merged.index_bits),
             last_i2: chroma.i2 - 1,
-            stages: u32::try_from(codebooks.books.count).unwrap_or(1),
+            stages: u32::try_from(codebooks.sizes.count).unwrap_or(1),
             is_relative: u32::from(chroma.is_relative),
             first: chroma.first,
             step: chroma.step,
@@ -204,7 +204,7 @@ pub struct BtfTexture {
 impl BtfTexture {
     /// Block for one material of a file, trilinear; `None` if there is no such material.
     #[must_use]
-    pub fn of(btf: &Btf<'_>, material: usize) -> Option<Self> {
+    pub fn of(btf: &NestedBtf<'_>, material: usize) -> Option<Self> {
         let of = btf.materials().nth(material)?;
         let mut levels = [[0; 4]; MAX_LEVELS];
         for (to, level) in levels.iter_mut().zip(0..of.levels) {

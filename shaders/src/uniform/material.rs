@@ -1,7 +1,7 @@
 //! Block of a material.
 
 use bytemuck::{Pod, Zeroable};
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 
 /// Texels to a row of textures that hold plain arrays, the words of a BTF file among them; every GLES 3.0 device has as
 /// many.
@@ -42,7 +42,7 @@ pub const BASE_ROWS: u32 = 1_024;
 impl Material {
     /// The block for a file's header; plain arrays have layers of `layer` texels.
     #[must_use]
-    pub fn new(header: &Header, layer: [u32; 2]) -> Self {
+    pub fn new(header: &BssrdfHeader, layer: [u32; 2]) -> Self {
         Self {
             size: [header.width, header.height],
             addressing: header.addressing.code().into(),

@@ -10,7 +10,7 @@ use subsurf_cli::options::Size;
 use subsurf_cli::outln;
 use subsurf_cli::program::failure::bad_request;
 use subsurf_cli::program::progress::Bars;
-use subsurf_decoder::Btf;
+use subsurf_decoder::NestedBtf;
 use subsurf_encoder::Progress as _;
 use subsurf_runtime::{BACKGROUND, Backend, BtfFiltering, BtfLayout, BtfMaterial, BtfOptions, Gpu, RuntimeOptions};
 use subsurf_scene::{Light, LightShape, Mesh, Placement, REFLECTION_SIZE, Scene, relief, sphere};
@@ -195,7 +195,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 /// Number of the material that is asked for; 0 if none is.
-fn number(args: &Args, btf: &Btf<'_>) -> anyhow::Result<usize> {
+fn number(args: &Args, btf: &NestedBtf<'_>) -> anyhow::Result<usize> {
     let Some(asked) = &args.material else {
         return Ok(0);
     };
@@ -245,7 +245,7 @@ impl Setting<'_> {
 
 /// The twin of the shaders on one core, with four texels and without shadows.
 fn on_cpu(
-    btf: &Btf<'_>,
+    btf: &NestedBtf<'_>,
     material: usize,
     copies: [f32; 2],
     test_mesh: &TestMesh,

@@ -8,7 +8,7 @@ use flate2::Compression;
 use flate2::write::DeflateEncoder;
 use serde::{Deserialize, Serialize};
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::Model;
+use subsurf_decoder::bssrdf::BssrdfModel;
 use subsurf_encoder::bssrdf::{self, Method, Options, base_materials_within, file_bytes};
 use subsurf_encoder::capture::Capture;
 use subsurf_encoder::metrics::Light;
@@ -151,7 +151,7 @@ pub(super) fn picture_path(folder: &Path, capture: &str, label: &str, what: &str
 
 /// The largest ratio of every pixel, the second largest, ..: K maps.
 fn sorted_ratios(material: &Bssrdf<'_>) -> Vec<Vec<f32>> {
-    let Model::BaseMaterials(model) = material.model() else {
+    let BssrdfModel::BaseMaterials(model) = material.model() else {
         return Vec::new();
     };
     let header = material.header();

@@ -1,34 +1,34 @@
-//! Binary arithmetic coding with chances that adapt: a range decoder, and what an encoder has to agree with.
+//! Adaptive binary arithmetic coding: a range decoder, and what an encoder has to agree with.
 //!
 //! A code is a number in a range; every bit takes the lower part of the range where it is 0 and the upper part where
-//! it is 1, in the ratio of its chances (Martin 1979). A range below 2²⁴ is made 256 times as wide by the next byte.
+//! it is 1, in the ratio of its probabilities (Martin 1979). A range below 2²⁴ is made 256 times as wide by the next byte.
 
-/// The chance that a bit is 0, learnt from the bits before it: the mean of a fast and a slow estimate.
+/// Adaptive probability that a bit is 0, learnt from the bits before it: the mean of a fast and a slow estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Chance {
+pub struct BitModel {
     fast: u16,
     slow: u16,
 }
 
-/// Shares of what a bit adds to the estimates: 2⁻⁴ and 2⁻⁷.
+/// Binary logarithm of how slowly the fast estimate follows: a bit moves it by 2⁻⁴ of the way.
 const FAST: u32 = 4;
-/// See [`FAST`].
+/// The same of the slow estimate: 2⁻⁷.
 const SLOW: u32 = 7;
 
-impl Chance {
-    /// Nothing is known yet.
+impl BitModel {
+    /// Probability ½: nothing is known yet.
     pub const EVEN: Self = Self { fast: 1 << 15, slow: 1 << 15 };
 
-    /// In 1/65,536: 71 to 65,464, so that neither bit is ever impossible.
+    /// Probability in 1/65,536: 71 to 65,464, so that neither bit is ever impossible.
     #[must_use]
     #[inline]
     pub fn of_zero(self) -> u32 {
         u32::from(self.fast).wrapping_add(self.slow.into()) >> 1
     }
 
-    /// Learns from a bit.
+    /// Moves both estimates towards a bit.
     #[inline]
-    pub fn learn(&mut self, bit: bool) {
+    pub fn update(&mut self, bit: bool) {
         let moved = |estimate: u16, shift: u32| {
             let towards_zero = estimate.wrapping_add(u16::MAX.wrapping_sub(estimate).wrapping_shr(shift));
             if bit { estimate.wrapping_sub(estimate.wrapping_shr(shift)) } else { towards_zero }
@@ -40,31 +40,31 @@ impl Chance {
 /// Range below which a byte is shifted in or out.
 pub const LEAST_RANGE: u32 = 1 << 24;
 
-/// The part of a range that stands for 0.
+/// Part of a range that stands for 0.
 #[must_use]
 #[inline]
-pub fn part_of_zero(range: u32, chance: Chance) -> u32 {
-    (range >> 16).wrapping_mul(chance.of_zero())
+pub fn part_of_zero(range: u32, model: BitModel) -> u32 {
+    (range >> 16).wrapping_mul(model.of_zero())
 }
 
-/// Reads or writes bits: models of what is coded are the same for both.
-pub trait Coder {
+/// Reader or writer of bits: models of what is coded are the same for both.
+pub trait BitCoder {
     /// One bit. Writers write `bit` and return it; readers return what they read.
-    fn bit(&mut self, chance: &mut Chance, bit: bool) -> bool;
-    /// One bit whose chances are even and stay so.
+    fn bit(&mut self, model: &mut BitModel, bit: bool) -> bool;
+    /// One bit of probability ½, which is not learnt.
     fn even(&mut self, bit: bool) -> bool;
 }
 
-/// Reads bits. Beyond its end a code goes on with zeros: any bytes are some sequence of bits.
+/// Reader of bits. Beyond its end a code goes on with zeros: any bytes are some sequence of bits.
 #[derive(Clone, Debug)]
-pub struct Decoder<'a> {
+pub struct RangeDecoder<'a> {
     bytes: &'a [u8],
     range: u32,
     code: u32,
 }
 
-impl<'a> Decoder<'a> {
-    /// At the start of a code.
+impl<'a> RangeDecoder<'a> {
+    /// Reader at the start of a code.
     #[must_use]
     pub fn new(bytes: &'a [u8]) -> Self {
         let mut decoder = Self { bytes, range: u32::MAX, code: 0 };
@@ -101,11 +101,11 @@ impl<'a> Decoder<'a> {
     }
 }
 
-impl Coder for Decoder<'_> {
+impl BitCoder for RangeDecoder<'_> {
     #[inline]
-    fn bit(&mut self, chance: &mut Chance, _: bool) -> bool {
-        let bit = self.take(part_of_zero(self.range, *chance));
-        chance.learn(bit);
+    fn bit(&mut self, model: &mut BitModel, _: bool) -> bool {
+        let bit = self.take(part_of_zero(self.range, *model));
+        model.update(bit);
         bit
     }
 

@@ -1,33 +1,33 @@
-//! What readers and writers of entropy-coded numbers have to agree on: how numbers are bits, and what is expected.
+//! Models of entropy-coded integers, the same for readers and writers: how integers are bits, and which are expected.
 
-use super::coder::{Chance, Coder};
+use super::coder::{BitCoder, BitModel};
 
 /// Largest magnitude of a number.
 pub const MAX_NUMBER: i32 = 32_767;
 /// Classes of expected magnitudes: half octaves from 2⁻⁵.
 const CLASSES: usize = 24;
-/// Bits of different chances in the unary part of a number.
+/// Bits of the unary part of a number that have a model of their own.
 const STEPS: usize = 12;
 /// Longest unary part.
 const LONGEST: u32 = 20;
 
-/// Chances of signed numbers, by the magnitude that is expected.
+/// Models of the bits of signed integers, by the magnitude that is expected.
 #[derive(Clone, Debug)]
-pub struct Numbers {
-    /// Of 0.
-    is_not_zero: [Chance; CLASSES],
-    /// Of the end of the unary part.
-    is_more: [[Chance; STEPS]; CLASSES],
-    /// Of the highest bit of the binary part.
-    high: [Chance; CLASSES],
+pub struct IntegerModel {
+    /// Whether a number is 0.
+    is_not_zero: [BitModel; CLASSES],
+    /// Whether the unary part goes on.
+    is_more: [[BitModel; STEPS]; CLASSES],
+    /// Highest bit of the binary part.
+    high: [BitModel; CLASSES],
 }
 
-impl Default for Numbers {
+impl Default for IntegerModel {
     fn default() -> Self {
         Self {
-            is_not_zero: [Chance::EVEN; CLASSES],
-            is_more: [[Chance::EVEN; STEPS]; CLASSES],
-            high: [Chance::EVEN; CLASSES],
+            is_not_zero: [BitModel::EVEN; CLASSES],
+            is_more: [[BitModel::EVEN; STEPS]; CLASSES],
+            high: [BitModel::EVEN; CLASSES],
         }
     }
 }
@@ -41,12 +41,12 @@ fn class(expected: f32) -> (usize, u32) {
     (half_octaves as usize, half_octaves.saturating_sub(12) >> 1)
 }
 
-impl Numbers {
-    /// One number, −32,767 to 32,767, of which `expected` is known of its magnitude.
+impl IntegerModel {
+    /// One number, −32,767 to 32,767, whose magnitude is expected to be `expected`.
     ///
     /// Whether it is 0, its sign, and its magnitude less 1 by a Golomb-Rice code (Rice and Plaunt 1971).
     #[inline]
-    pub fn code<C: Coder>(&mut self, coder: &mut C, expected: f32, number: i32) -> i32 {
+    pub fn code<C: BitCoder>(&mut self, coder: &mut C, expected: f32, number: i32) -> i32 {
         let (class, bits) = class(expected);
         let (Some(is_not_zero), Some(is_more), Some(high)) =
             (self.is_not_zero.get_mut(class), self.is_more.get_mut(class), self.high.get_mut(class))
@@ -62,8 +62,8 @@ impl Numbers {
         let mut unary = 0_u32;
         let [first @ .., last] = is_more;
         while unary < LONGEST {
-            let chance = first.get_mut(unary as usize).unwrap_or(last);
-            if !coder.bit(chance, goal > unary) {
+            let model = first.get_mut(unary as usize).unwrap_or(last);
+            if !coder.bit(model, goal > unary) {
                 break;
             }
             unary = unary.wrapping_add(1);
@@ -82,8 +82,8 @@ impl Numbers {
     }
 }
 
-/// An exponential Golomb code of even chances; below 2¹⁶.
-fn exponential<C: Coder>(coder: &mut C, number: u32) -> u32 {
+/// Exponential Golomb code of bits of probability ½; below 2¹⁶.
+fn exponential<C: BitCoder>(coder: &mut C, number: u32) -> u32 {
     let length = number.wrapping_add(1).checked_ilog2().unwrap_or(0);
     let mut bits = 0_u32;
     while bits < 15 && coder.even(length > bits) {
@@ -96,7 +96,7 @@ fn exponential<C: Coder>(coder: &mut C, number: u32) -> u32 {
     value.wrapping_sub(1)
 }
 
-/// What is expected in the core of a component at a view axis and a light axis.
+/// Expected magnitude in the core of a component at a view axis and a light axis.
 ///
 /// From what the components before it had there (`usual`), and from this component's magnitudes on the axes before:
 /// one and two light axes back, and on the view axis before, here and one light axis on.
@@ -107,7 +107,7 @@ pub fn expected_core(usual: f32, before: [f32; 2], above: [f32; 2]) -> f32 {
     0.5 * usual + 0.25 * (0.6 * (left + up) + 0.4 * (second + right))
 }
 
-/// What is usual after one more magnitude.
+/// Running mean of magnitudes after one more of them.
 #[must_use]
 #[inline]
 pub fn usual_core(usual: f32, magnitude: f32) -> f32 {
@@ -115,10 +115,10 @@ pub fn usual_core(usual: f32, magnitude: f32) -> f32 {
 }
 
 /// Codes the core of one component, `[view axis][light axis]`, `light_axes` to a row; `usual` goes on from component to
-/// component and begins with zeros. Numbers are whole.
-pub fn code_core<C: Coder>(
+/// component and begins with zeros. IntegerModel are whole.
+pub fn code_core<C: BitCoder>(
     coder: &mut C,
-    numbers: &mut Numbers,
+    numbers: &mut IntegerModel,
     light_axes: usize,
     core: &mut [f32],
     usual: &mut [f32],
@@ -151,8 +151,8 @@ pub fn code_core<C: Coder>(
 
 /// Codes the codewords of one stage, rows of `width` numbers, at most 255. A magnitude is expected to be what the
 /// codewords before had in its place.
-pub fn code_words<C: Coder>(coder: &mut C, width: usize, words: &mut [i16]) {
-    let mut numbers = Numbers::default();
+pub fn code_words<C: BitCoder>(coder: &mut C, width: usize, words: &mut [i16]) {
+    let mut numbers = IntegerModel::default();
     let mut usual = [0.0_f32; 255];
     for word in words.chunks_exact_mut(width.max(1)) {
         for (number, usual) in word.iter_mut().zip(&mut usual) {

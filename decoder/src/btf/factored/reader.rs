@@ -1,65 +1,66 @@
-//! Checks a file of factors once.
+//! Reads and checks a factored BTF file once.
 
-use super::eval::Expanded;
-use super::expand::{Buffers, expand};
-use super::layout::{Factors, Shape, Stage};
+use super::layout::{CodewordStage, TuckerHeader, TuckerShape};
 use crate::btf::catalog::Catalog;
-use crate::btf::layout::Model;
-use crate::btf::sections::Sections;
-use crate::container::{Container, Crc};
-use crate::error::{ReadError, Section};
+use crate::container::Crc;
+use crate::container::sections::{SectionBytes, Sections};
+use crate::error::ReadError;
+use crate::family::Family;
+use crate::section::Section;
+use core::num::Saturating;
 
-/// A checked file of factors.
+/// Checked BTF file of a Tucker decomposition.
 ///
 /// All its numbers are checked but those that are entropy-coded: any bytes are some numbers in their range.
 #[derive(Clone, Copy, Debug)]
-pub struct Factored<'a> {
+pub struct FactoredBtf<'a> {
     catalog: Catalog<'a>,
-    pub(super) factors: Factors<'a>,
-    /// `[view axis][view node]`, then `[light axis][light node]`.
+    pub(super) header: TuckerHeader<'a>,
+    /// i8 `[view axis][view node]`.
     pub(super) view_axes: &'a [u8],
+    /// i8 `[light axis][light node]`.
     pub(super) light_axes: &'a [u8],
+    /// Core tensor, entropy-coded.
     pub(super) core: &'a [u8],
+    /// Codewords, entropy-coded.
     pub(super) words: &'a [u8],
-    /// `[texel][stage]`
+    /// `[texel][stage]`.
     pub(super) indices: &'a [u8],
 }
 
-impl<'a> Factored<'a> {
-    /// Checks everything and borrows the file; nested codebooks are read by [`Btf`](crate::btf::Btf).
+impl<'a> FactoredBtf<'a> {
+    /// Reads and checks a file: structure, sizes, every value and index, and all CRCs.
     ///
     /// # Errors
-    /// The first thing that is wrong.
+    /// The first thing that is wrong, with section, offset and numbers.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, ReadError> {
         Self::parse_with(bytes, Crc::Check)
     }
 
-    /// [`Self::parse`], on request without comparing checksums; all other checks run.
+    /// [`Self::parse`] with a choice about the sections' CRC-32.
     ///
     /// # Errors
-    /// The first thing that is wrong.
+    /// As [`Self::parse`].
     pub fn parse_with(bytes: &'a [u8], crc: Crc) -> Result<Self, ReadError> {
-        let container = Container::parse(bytes)?;
-        let sections = Sections { container: &container, crc };
-        let catalog = Catalog::read(&sections)?;
-        if catalog.header().model != Model::Factored {
-            let offset = sections.start(Section::BtfHeader);
-            return Err(ReadError::BadField { section: Section::BtfHeader, offset, value: 1 });
-        }
+        Self::read(&Sections::parse(bytes, crc)?)
+    }
+
+    /// Reads and checks all sections.
+    pub(crate) fn read(sections: &Sections<'a>) -> Result<Self, ReadError> {
+        let catalog = Catalog::read(sections, Family::FactoredBtf)?;
         let grid = catalog.grid();
-        let (start, bytes) = sections.any(Section::Factors)?;
-        let factors = Factors::parse(bytes, start, grid)?;
-        let shape = &factors.shape;
+        let header = TuckerHeader::parse(sections.any(Section::TuckerHeader)?, grid)?;
+        let shape = &header.shape;
         let of_views = usize::from(shape.view_axes).saturating_mul(grid.view_nodes());
         let of_lights = usize::from(shape.light_axes).saturating_mul(grid.light_nodes());
-        let axes = sections.sized(Section::Axes, of_views.saturating_add(of_lights) as u64)?;
+        let axes = sections.sized(Section::Axes, of_views.saturating_add(of_lights) as u64)?.bytes;
         let (view_axes, light_axes) = axes.split_at_checked(of_views).unwrap_or((&[], &[]));
-        let (_, core) = sections.any(Section::Core)?;
-        let (_, words) = sections.any(Section::Codewords)?;
-        let need = u64::from(catalog.texels()).saturating_mul(shape.count.into());
-        let indices = sections.sized(Section::TexelIndices, need)?;
-        check_indices(indices, shape.stages(), sections.start(Section::TexelIndices))?;
-        Ok(Self { catalog, factors, view_axes, light_axes, core, words, indices })
+        let core = sections.any(Section::Core)?.bytes;
+        let words = sections.any(Section::Codewords)?.bytes;
+        let need_bytes = u64::from(catalog.texels()).saturating_mul(shape.count.into());
+        let indices = sections.sized(Section::TexelIndices, need_bytes)?;
+        check_indices(indices, shape.stages())?;
+        Ok(Self { catalog, header, view_axes, light_axes, core, words, indices: indices.bytes })
     }
 
     /// Header and materials.
@@ -68,57 +69,43 @@ impl<'a> Factored<'a> {
         &self.catalog
     }
 
-    /// Numbers of everything.
+    /// Sizes of the decomposition.
     #[must_use]
-    pub fn shape(&self) -> &Shape {
-        &self.factors.shape
+    pub fn shape(&self) -> &TuckerShape {
+        &self.header.shape
     }
 
     /// Bytes of expanded tables: i8 `[φ_v][θ_v][α][β][column]`.
     #[must_use]
     pub fn table_len(&self) -> usize {
         let grid = self.catalog.grid();
-        grid.view_nodes().saturating_mul(grid.light_nodes()).saturating_mul(self.shape().columns())
+        let [views, lights, columns] = [grid.view_nodes(), grid.light_nodes(), self.shape().columns()].map(Saturating);
+        (views * lights * columns).0
     }
 
     /// Numbers in expanded codewords: i16 `[stage][codeword][coefficient]`.
     #[must_use]
     pub fn words_len(&self) -> usize {
-        self.shape().stages().iter().map(Stage::numbers).fold(0, usize::saturating_add)
+        self.shape().stages().iter().map(CodewordStage::numbers).fold(0, usize::saturating_add)
     }
 
-    /// Numbers that [`Self::expand`] needs for itself.
+    /// Numbers that [`Self::expand`] needs for itself: f32 of all nodes of light, and of two cores.
     #[must_use]
     pub fn scratch_len(&self) -> usize {
-        let shape = self.shape();
-        let core = usize::from(shape.view_axes).wrapping_mul(shape.light_axes.into());
-        self.catalog.grid().light_nodes().wrapping_add(core << 1)
-    }
-
-    /// Undoes the entropy coding of codewords and tables, and multiplies the tables out; `None` where a buffer is
-    /// shorter than [`Self::table_len`], [`Self::words_len`] and [`Self::scratch_len`] say.
-    #[must_use]
-    pub fn expand<'b>(&self, buffers: Buffers<'b, '_>) -> Option<Expanded<'b>>
-    where
-        'a: 'b,
-    {
-        expand(self, buffers)
+        let [lights, core] = [self.catalog.grid().light_nodes(), self.shape().core_len()].map(Saturating);
+        (lights + core + core).0
     }
 }
 
-/// Every index is below the number of its stage's codewords.
-fn check_indices(indices: &[u8], stages: &[Stage], start: u64) -> Result<(), ReadError> {
+/// Every index, `[texel][stage]`, is below the number of its stage's codewords.
+fn check_indices(section: SectionBytes<'_>, stages: &[CodewordStage]) -> Result<(), ReadError> {
     if stages.iter().all(|stage| stage.words == 256) {
         return Ok(());
     }
-    for (number, of_texel) in indices.chunks_exact(stages.len().max(1)).enumerate() {
-        for (within, (index, stage)) in of_texel.iter().zip(stages).enumerate() {
-            if u16::from(*index) >= stage.words {
-                let before = number.saturating_mul(stages.len()).saturating_add(within);
-                let offset = start.saturating_add(before as u64);
-                let (index, len) = (u32::from(*index), u32::from(stage.words));
-                return Err(ReadError::IndexOutOfRange { section: Section::TexelIndices, offset, index, len });
-            }
+    let indices = section.bytes.iter().zip(stages.iter().cycle());
+    for (at, (index, stage)) in indices.enumerate() {
+        if u16::from(*index) >= stage.words {
+            return Err(section.origin.at(at).bad_index((*index).into(), stage.words.into()));
         }
     }
     Ok(())

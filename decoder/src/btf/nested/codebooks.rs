@@ -1,109 +1,143 @@
-//! Where the items of all codebooks stand in a file, for those who read its bytes without this crate's code: shaders.
+//! Sections of nested codebooks, checked once.
 
-use crate::bits::index_bits;
-use crate::btf::layout::{Books, MAX_STAGES, Scales};
-use crate::btf::reader::Btf;
-use crate::container::Container;
-use crate::error::Section;
+use super::layout::{CodebookSizes, MAX_STAGES};
+use super::packed::{Shape, items};
+use super::piecewise_linear::Axis;
+use super::stage::Stage;
+use crate::btf::grid::Grid;
+use crate::container::bits::{Items, field, index_bits, mask};
+use crate::container::sections::Sections;
+use crate::error::ReadError;
+use crate::section::Section;
+use core::f32::consts::FRAC_PI_2;
 
-/// Rows of items of a few bits (`FORMAT.md`, section 4.5).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PackedTable {
-    /// Its first byte in the file.
-    pub start: u64,
-    /// Items of a row.
-    pub nodes: u8,
-    /// Bits of an item.
-    pub width: u32,
-    /// Bits of the index that an item begins with.
-    pub index_bits: u32,
-    /// Entries that the index leads to: it is less.
-    pub len: u32,
-    /// What the code above the index stands for.
-    pub scales: Scales,
+/// Checked codebooks of a file: luma by stages, and chroma.
+#[derive(Clone, Copy, Debug)]
+pub struct NestedCodebooks<'a> {
+    sizes: CodebookSizes,
+    stages: [Stage<'a>; MAX_STAGES],
+    /// M: P2 and I2.
+    merged: Items<'a>,
+    p2_bits: u32,
+    p2_mask: u32,
+    i2_mask: u32,
+    i2: Items<'a>,
+    i1: Items<'a>,
+    /// Two codes of chroma each.
+    colours: &'a [[u8; 2]],
+    tints: &'a [[u8; 2]],
+    tint_mask: u32,
+    /// α and sin β.
+    axes: [Axis; 2],
 }
 
-/// The tables of one stage.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct StageTables {
-    /// P6, P4, P3 and P2; items of P2 have what is above the lowest eight bits of their codes.
-    pub tables: [PackedTable; 4],
-    /// First byte in the file of the lowest eight bits of the codes of P2, rows of n_α bytes.
-    pub p2_bytes: u64,
-    /// First byte in the file of P1, rows of n_β values and a height.
-    pub p1: u64,
-}
-
-/// Where all codebooks of a file are (`FORMAT.md`, sections 4.4 to 4.6).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Codebooks {
-    /// Sizes and scales.
-    pub books: Books,
-    /// Of luma, as many as there are stages.
-    pub stages: [StageTables; MAX_STAGES],
-    /// M: an index of P2 and, above it, one of I2.
-    pub merged: PackedTable,
-    /// I2: indices of I1.
-    pub i2: PackedTable,
-    /// I1: indices of C.
-    pub i1: PackedTable,
-    /// First byte in the file of C, two for each entry.
-    pub colours: u64,
-    /// First byte in the file of the tints, two for each; 0 if there are none.
-    pub tints: u64,
-}
-
-impl Codebooks {
-    /// Of a checked file.
-    #[must_use]
-    pub fn of(btf: &Btf<'_>) -> Self {
-        let (books, grid) = (btf.nested().books(), btf.grid());
-        let chroma = &books.chroma;
-        // The file was checked: it is a container, and has these sections.
-        let container = Container::parse(btf.file()).ok();
-        let start = |section: Section| {
-            let entry = container.as_ref().and_then(|file| file.entries().find(|entry| entry.section == section));
-            entry.map_or(0, |entry| entry.offset)
-        };
-        let mut stages = [StageTables::default(); MAX_STAGES];
-        for ((number, stage), of_books) in (0_u8..).zip(&mut stages).zip(&books.stages).take(books.count) {
-            let is_first = number == 0;
-            let section = |book: u8| start(Section::Codebook { book, stage: number });
-            let [p6, p4, p3, p2] = of_books.books;
-            let below_p3 = if is_first { chroma.merged } else { p2.entries };
-            let lens = [p4.entries, p3.entries, below_p3, of_books.slices];
-            let codes = u64::from(p2.entries).saturating_mul(grid.n_alpha.into());
-            let starts = [section(6), section(4), section(3), section(2).saturating_add(codes)];
-            let nodes = [1, grid.n_phi, grid.n_theta, grid.n_alpha];
-            let scales = [p6.scales, p4.scales, p3.scales, p2.scales];
-            let (widths, bits) = (of_books.widths(is_first, chroma), of_books.index_bits(is_first, chroma));
-            let shapes = starts.into_iter().zip(nodes).zip(widths).zip(bits).zip(lens).zip(scales);
-            for (table, (((((start, nodes), width), index_bits), len), scales)) in stage.tables.iter_mut().zip(shapes) {
-                *table = PackedTable { start, nodes, width, index_bits, len, scales };
-            }
-            (stage.p2_bytes, stage.p1) = (section(2), section(1));
+impl<'a> NestedCodebooks<'a> {
+    /// Reads all codebooks of a file with `texels` texels in all materials and levels.
+    pub(super) fn parse(sections: &Sections<'a>, grid: &Grid, texels: u32) -> Result<Self, ReadError> {
+        let sizes = CodebookSizes::parse(sections.any(Section::CodebookSizes)?)?;
+        let [first, others @ ..] = &sizes.stages;
+        let chroma = &sizes.chroma;
+        let unused = Stage::read(sections, 0, first, chroma, grid, texels)?;
+        let mut stages = [unused; MAX_STAGES];
+        for ((number, stage), of_stage) in (0..).zip(&mut stages).take(sizes.count).skip(1).zip(others) {
+            *stage = Stage::read(sections, number, of_stage, chroma, grid, texels)?;
         }
-        let indices = |section, nodes, len| PackedTable {
-            start: start(section),
-            nodes,
-            width: index_bits(len),
-            index_bits: index_bits(len),
-            len,
-            scales: Scales::default(),
+        let [.., p2] = first.codebooks;
+        let (p2_bits, i2_bits) = (index_bits(p2.entries), index_bits(chroma.i2));
+        let merged = Shape { rows: chroma.merged, nodes: 1, width: p2_bits.saturating_add(i2_bits) };
+        let indices = |section, rows, nodes, len| {
+            items(sections, section, Shape { rows, nodes, width: index_bits(len) }, [(0, len)])
         };
-        let p2 = books.stages.first().map_or(0, |stage| {
-            let [.., p2] = stage.books;
-            p2.entries
-        });
-        let merged = indices(Section::Merged, 1, p2);
-        Self {
-            books: *books,
+        let pairs = |section, entries: u32| sections.sized(section, u64::from(entries).saturating_mul(2));
+        Ok(Self {
+            sizes,
             stages,
-            merged: PackedTable { width: merged.width.saturating_add(index_bits(chroma.i2)), ..merged },
-            i2: indices(Section::ChromaSlices2, grid.n_alpha, chroma.i1),
-            i1: indices(Section::ChromaSlices1, grid.n_beta, chroma.colours),
-            colours: start(Section::Colours),
-            tints: start(Section::Tints),
+            merged: items(sections, Section::Merged, merged, [(0, p2.entries), (p2_bits, chroma.i2)])?,
+            p2_bits,
+            p2_mask: mask(p2_bits),
+            i2_mask: mask(i2_bits),
+            i2: indices(Section::ChromaSlices2, chroma.i2, grid.n_alpha, chroma.i1)?,
+            i1: indices(Section::ChromaSlices1, chroma.i1, grid.n_beta, chroma.colours)?,
+            colours: pairs(Section::Colours, chroma.colours)?.bytes.as_chunks().0,
+            tints: if chroma.tints == 0 { &[] } else { pairs(Section::Tints, chroma.tints)?.bytes.as_chunks().0 },
+            tint_mask: mask(index_bits(chroma.tints)),
+            axes: [Axis::new(grid.n_alpha, grid.alpha_max, FRAC_PI_2), Axis::new(grid.n_beta, grid.sin_beta_max, 1.0)],
+        })
+    }
+
+    /// Sizes and scales of the codebooks.
+    #[must_use]
+    pub fn sizes(&self) -> &CodebookSizes {
+        &self.sizes
+    }
+
+    /// The first stage and the later ones.
+    #[inline]
+    pub(super) fn stages(&self) -> (&Stage<'a>, &[Stage<'a>]) {
+        let [first, others @ ..] = &self.stages;
+        (first, others.get(..self.sizes.count.wrapping_sub(1)).unwrap_or(&[]))
+    }
+
+    #[inline]
+    pub(super) fn is_relative(&self) -> bool {
+        self.sizes.chroma.is_relative
+    }
+
+    /// Chroma of code 0.
+    #[inline]
+    pub(super) fn chroma_first(&self) -> [f32; 2] {
+        self.sizes.chroma.first
+    }
+
+    /// Chroma of a step of a code.
+    #[inline]
+    pub(super) fn chroma_step(&self) -> [f32; 2] {
+        self.sizes.chroma.step
+    }
+
+    /// P2 and I2 of a row of M.
+    #[inline]
+    pub(super) fn merged(&self, row: u32) -> (u32, u32) {
+        let bits = self.merged.bits(row, 0);
+        (field(bits, 0, self.p2_mask), field(bits, self.p2_bits, self.i2_mask))
+    }
+
+    /// I2, rows of n_α rows of I1.
+    #[inline]
+    pub(super) fn i2(&self) -> &Items<'a> {
+        &self.i2
+    }
+
+    /// I1, rows of n_β entries of C.
+    #[inline]
+    pub(super) fn i1(&self) -> &Items<'a> {
+        &self.i1
+    }
+
+    /// Axes that samplers draw from: α, from −π/2 to π/2, and sin β, from −1 to 1.
+    #[inline]
+    pub(super) fn axes(&self) -> &[Axis; 2] {
+        &self.axes
+    }
+
+    /// Codes of a and b of an entry of C.
+    #[inline]
+    pub(super) fn colour(&self, at: u32) -> [u8; 2] {
+        match self.colours.get(at as usize) {
+            Some(codes) => *codes,
+            None => [0; 2],
         }
+    }
+
+    /// Mask of the tint's number, which stands in the highest bits of the items of P6.
+    #[inline]
+    pub(super) fn tint_mask(&self) -> u32 {
+        self.tint_mask
+    }
+
+    /// Tint of both channels in steps of chroma.
+    #[inline]
+    pub(super) fn tint(&self, number: u32) -> [f32; 2] {
+        self.tints.get(number as usize).map_or([0.0; 2], |codes| codes.map(|code| f32::from(code) - 128.0))
     }
 }

@@ -1,14 +1,19 @@
-//! Nested codebooks of luma and chroma (Havran, Filip and Myszkowski 2010, sections 4.2-4.5).
+//! Nested codebooks of luma and chroma (`FORMAT.md`, section 4; Havran, Filip and Myszkowski 2010, sections 4.2-4.5).
 
-mod chain;
+mod albedo;
 mod codebooks;
-mod line;
+mod evaluate;
+pub mod layout;
+mod offsets;
+mod packed;
+mod piecewise_linear;
 mod reader;
 mod sampler;
 mod scale;
 mod stage;
 mod table;
 
-pub use codebooks::{Codebooks, PackedTable, StageTables};
-pub use reader::Nested;
+pub use codebooks::NestedCodebooks;
+pub use offsets::{CodebookOffsets, PackedTable, StageTables};
+pub use reader::NestedBtf;
 pub use sampler::{Sample, Sampler};

@@ -1,19 +1,20 @@
-//! Lights in proportion to what a texel shows of them (section 5.2 of the paper).
+//! Importance sampling: lights in proportion to luma of a texel (Havran et al. 2010, section 5.2).
 //!
 //! dω = dα d(sin β), and luma is linear between nodes of all four axes. So its integral over slices is linear between
 //! nodes of α, and over α its inverse is the root of a quadratic; within the slice there, likewise for sin β. Both move
 //! without jumps as the random numbers grow.
 
-use super::chain::Corner;
-use super::line::{Line, Ruler};
-use super::reader::Nested;
+use super::codebooks::NestedCodebooks;
+use super::evaluate::Corner;
+use super::piecewise_linear::{Axis, PiecewiseLinear};
 use super::scale::{Scale, near};
 use super::stage::Stage;
 use crate::btf::angle::{atan2, sin_cos};
-use crate::btf::grid::{Grid, Place, View};
+use crate::btf::coord::LerpCoord;
+use crate::btf::grid::{Grid, View};
 use core::f32::consts::FRAC_PI_2;
 
-/// A light that was drawn.
+/// Light that was drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Unit vector towards it, z ≥ 0.
@@ -22,7 +23,7 @@ pub struct Sample {
     pub pdf: f32,
 }
 
-/// Draws lights for one texel and view.
+/// Sampler of lights for one texel and view.
 ///
 /// The density follows luma of the first stage before it fades out at the horizon. It is exact but for the means of
 /// slices, which are rounded and so up to 7 % off, and for 1/32 of the draws along either axis, which fall anywhere.
@@ -33,10 +34,10 @@ pub struct Sampler<'a> {
     azimuth: [f32; 2],
     /// P2 of the four nodes of view around the view.
     rows: [Row; 4],
-    /// Of α, from −π/2 to π/2, by the integrals over slices.
-    alpha: Line<'a>,
-    /// What [`Self::beta`] is over.
-    of_beta: &'a Ruler,
+    /// Density of α, from −π/2 to π/2, by the integrals over slices.
+    alpha: PiecewiseLinear<'a>,
+    /// Axis of sin β, for [`Self::beta`].
+    beta_axis: &'a Axis,
 }
 
 /// A row of P2 with c_P4 c_P3 for [`near`], c_P6 being common to all directions, and the weight of the node of view.
@@ -48,17 +49,17 @@ struct Row {
 }
 
 impl<'a> Sampler<'a> {
-    pub(crate) fn new(nested: &'a Nested<'a>, grid: &'a Grid, texel: u32, view: &View) -> Self {
-        let (stage, _) = nested.stages();
+    pub(crate) fn new(codebooks: &'a NestedCodebooks<'a>, grid: &'a Grid, texel: u32, view: &View) -> Self {
+        let (stage, _) = codebooks.stages();
         let (p4, _) = stage.texels.one::<false>(texel, 0);
         let [a, b, c, d] = stage.corners::<false>(p4, Scale::default(), view.phi, view.theta);
         let row = |corner: Corner| {
-            let (p2, _) = nested.merged(corner.row);
+            let (p2, _) = codebooks.merged(corner.row);
             Row { p2, scale: corner.scale.near_bits(), weight: corner.weight }
         };
         let rows = [row(a), row(b), row(c), row(d)];
-        let [of_alpha, of_beta] = nested.rulers();
-        let mut alpha = Line::over(of_alpha);
+        let [alpha_axis, beta_axis] = codebooks.axes();
+        let mut alpha = PiecewiseLinear::over(alpha_axis);
         let mut node = 0_u32;
         for integrals in alpha.fours() {
             for Row { p2, scale, weight } in rows {
@@ -69,35 +70,35 @@ impl<'a> Sampler<'a> {
             node = node.wrapping_add(4);
         }
         alpha.integrate();
-        Self { stage, grid, azimuth: view.azimuth, rows, alpha, of_beta }
+        Self { stage, grid, azimuth: view.azimuth, rows, alpha, beta_axis }
     }
 
-    /// Of sin β, from −1 to 1, by luma between the slices at a node of α and the next.
+    /// Density of sin β, from −1 to 1, by luma between the slices at a node of α and the next.
     #[inline(always)]
-    fn beta(&self, alpha: u32, weight: f32) -> Line<'a> {
+    fn beta(&self, alpha: u32, weight: f32) -> PiecewiseLinear<'a> {
         // First bytes of slices, and what their codes are multiplied by.
         let (mut lows, mut highs) = ([(0, 0.0); 4], [(0, 0.0); 4]);
         for ((low, high), row) in lows.iter_mut().zip(&mut highs).zip(&self.rows) {
             let part = |(slice, c2): (u32, Scale)| {
                 let start = self.stage.start(slice);
-                let scale = row.scale.wrapping_add(c2.near_bits()).wrapping_add(self.stage.near_height(start));
+                let scale = row.scale.wrapping_add(c2.near_bits()).wrapping_add(self.stage.near_exponent(start));
                 (start, row.weight * near(scale))
             };
             let [first, second] = self.stage.p2.two::<false>(row.p2, alpha);
             (*low, *high) = (part(first), part(second));
         }
-        let mut line = Line::over(self.of_beta);
+        let mut density = PiecewiseLinear::over(self.beta_axis);
         // Indices were checked: it does not end early.
-        let _ = self.fill(&mut line, [&lows, &highs], weight);
-        line.integrate();
-        line
+        let _ = self.fill(&mut density, [&lows, &highs], weight);
+        density.integrate();
+        density
     }
 
-    /// Adds up slices.
+    /// Adds up slices, interpolated in α. `None` if bytes are missing.
     #[inline(always)]
-    fn fill(&self, line: &mut Line<'_>, slices: [&[(u32, f32); 4]; 2], weight: f32) -> Option<()> {
+    fn fill(&self, density: &mut PiecewiseLinear<'_>, slices: [&[(u32, f32); 4]; 2], weight: f32) -> Option<()> {
         let mut node = 0_u32;
-        for values in line.fours() {
+        for values in density.fours() {
             let mut sums = [[0.0; 4]; 2];
             for (sums, parts) in sums.iter_mut().zip(slices) {
                 for (start, factor) in parts {
@@ -116,7 +117,7 @@ impl<'a> Sampler<'a> {
         Some(())
     }
 
-    /// A light for two random numbers, 0 to 1: α grows with the first, sin β with the second, and none of them jumps.
+    /// Light for two random numbers, 0 to 1: α grows with the first, sin β with the second, and none of them jumps.
     #[must_use]
     pub fn sample(&self, random: [f32; 2]) -> Sample {
         #[allow(clippy::manual_clamp, reason = "NaN is 0")]
@@ -127,14 +128,14 @@ impl<'a> Sampler<'a> {
         Sample { light, pdf: alpha.density * beta.density }
     }
 
-    /// The density with which [`Self::sample`] draws a light, per steradian; 0 below the horizon.
+    /// Density with which [`Self::sample`] draws a light, per steradian; 0 below the horizon.
     #[must_use]
     pub fn pdf(&self, light: [f32; 3]) -> f32 {
         let [_, _, z] = light;
         if z >= 0.0 {
             let [forward, sin_beta] = Grid::in_frame(light, self.azimuth);
             let alpha = atan2(forward, z);
-            let Place { nodes: [node, _], weight } = self.grid.alpha(alpha);
+            let LerpCoord { nodes: [node, _], weight } = self.grid.alpha(alpha);
             self.alpha.at(alpha + FRAC_PI_2) * self.beta(node, weight).at(sin_beta + 1.0)
         } else {
             0.0

@@ -1,6 +1,6 @@
 //! Scales: powers of two in steps of 1/64 octaves, with a sign in some stages.
 
-use crate::btf::layout::STEPS_PER_OCTAVE;
+use super::layout::STEPS_PER_OCTAVE;
 
 /// Bits of the f32 values 2^(k/64).
 static MANTISSAS: [u32; STEPS_PER_OCTAVE as usize] = mantissas();
@@ -19,7 +19,7 @@ const fn mantissas() -> [u32; STEPS_PER_OCTAVE as usize] {
     table
 }
 
-/// A scale: exponent in 1/64 octaves, and the sign in the highest bit.
+/// Scale: exponent in 1/64 octaves, and the sign in the highest bit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Scale {
     pub(super) exponent: i32,
@@ -41,7 +41,7 @@ impl Scale {
         f32::from_bits(mantissa.wrapping_add(octaves) ^ self.sign)
     }
 
-    /// For [`near`].
+    /// Exponent where f32 have it, for [`near`].
     #[inline]
     pub(super) fn near_bits(self) -> u32 {
         self.exponent.wrapping_shl(NEAR).cast_unsigned()
@@ -51,7 +51,7 @@ impl Scale {
 /// Bits of an f32 below an exponent in 1/64 octaves.
 pub(super) const NEAR: u32 = f32::MANTISSA_DIGITS - 1 - 6;
 
-/// What lies on straight lines between powers of two: 2^(exponent / 64), up to 6.2 % more. Exponents have been shifted to
+/// Approximation by straight lines between powers of two: 2^(exponent / 64), up to 6.2 % more. Exponents have been shifted to
 /// where f32 have them, and added up.
 #[inline]
 pub(super) fn near(bits: u32) -> f32 {

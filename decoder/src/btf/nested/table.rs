@@ -1,18 +1,19 @@
 //! Codebooks whose items point into the next one, with a scale.
 
+use super::layout::Scales;
 use super::scale::{NEAR, Scale};
-use crate::bits::{Items, field, mask};
-use crate::btf::layout::Scales;
+use crate::container::bits::{Items, field, mask};
 
-/// What codes of scales stand for.
+/// Decoder of the codes of scales.
 #[derive(Clone, Copy, Debug)]
 struct Codes {
-    /// Of a code without its sign.
+    /// Mask of a code without its sign.
     mask: u32,
-    /// Where the sign is, and 1 if there is one.
+    /// Bit of the sign.
     sign_at: u32,
+    /// 1 if there is a sign.
     sign_mask: u32,
-    /// 2^step
+    /// 2^step.
     factor: i32,
     offset: i32,
 }

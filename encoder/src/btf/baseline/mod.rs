@@ -8,7 +8,7 @@ mod clusters;
 mod whole;
 
 use nalgebra::DMatrix;
-use subsurf_decoder::btf::{Grid, Tone};
+use subsurf_decoder::btf::{ColourEncoding, Grid};
 
 use super::resample::{Measured, Resampler};
 use super::{Images, Survey};
@@ -19,7 +19,7 @@ use whole::Whole;
 pub struct Baseline {
     /// Bytes that it takes, without any header.
     pub bytes: u64,
-    tone: Tone,
+    tone: ColourEncoding,
     parts: Vec<Part>,
     /// Part of every texel.
     part_of: Vec<u8>,

@@ -16,7 +16,7 @@ fn survey() -> Survey {
     });
     let chroma = DMatrix::from_fn(1, TEXELS, |_, texel| [0.2, -0.4, 0.0][texel % 3]);
     Survey {
-        tone: Tone::Display { white: 1.0 },
+        tone: ColourEncoding::Display { white: 1.0 },
         sizes: vec![[10, 6]],
         weights: (0..PAIRS).map(|pair| 0.5 + unit(pair as u32)).collect(),
         luma: Factors { texels: luma, basis: orthonormal(PAIRS, 2, 100) },

@@ -1,6 +1,6 @@
 //! The writing side of `subsurf_decoder::btf::factored::coder`.
 
-use subsurf_decoder::btf::factored::coder::{Chance, Coder, LEAST_RANGE, part_of_zero};
+use subsurf_decoder::btf::factored::coder::{BitCoder, BitModel, LEAST_RANGE, part_of_zero};
 
 /// Writes bits.
 pub(super) struct Encoder {
@@ -69,10 +69,10 @@ impl Encoder {
     }
 }
 
-impl Coder for Encoder {
-    fn bit(&mut self, chance: &mut Chance, bit: bool) -> bool {
+impl BitCoder for Encoder {
+    fn bit(&mut self, chance: &mut BitModel, bit: bool) -> bool {
         self.put(part_of_zero(self.range, *chance), bit);
-        chance.learn(bit);
+        chance.update(bit);
         bit
     }
 
@@ -86,8 +86,8 @@ impl Coder for Encoder {
 mod tests {
     use super::*;
     use crate::synthetic::unit;
-    use subsurf_decoder::btf::factored::coder::Decoder;
-    use subsurf_decoder::btf::factored::model::Numbers;
+    use subsurf_decoder::btf::factored::coder::RangeDecoder;
+    use subsurf_decoder::btf::factored::model::IntegerModel;
 
     /// Carries run through many bytes when likely bits are followed by unlikely ones.
     #[test]
@@ -96,7 +96,7 @@ mod tests {
             let bit =
                 |k: u32| unit(seed * 10_000 + k) < [0.5, 0.999, 0.001, 0.1][(k as usize / 700 + seed as usize) % 4];
             let mut encoder = Encoder::new();
-            let mut chance = Chance::EVEN;
+            let mut chance = BitModel::EVEN;
             for k in 0..4_000 {
                 if k % 7 == 0 {
                     encoder.even(bit(k))
@@ -105,7 +105,7 @@ mod tests {
                 };
             }
             let bytes = encoder.finish();
-            let (mut decoder, mut chance) = (Decoder::new(&bytes), Chance::EVEN);
+            let (mut decoder, mut chance) = (RangeDecoder::new(&bytes), BitModel::EVEN);
             for k in 0..4_000 {
                 let found = if k % 7 == 0 { decoder.even(false) } else { decoder.bit(&mut chance, false) };
                 assert_eq!(found, bit(k), "bit {k} of {seed}");
@@ -119,12 +119,12 @@ mod tests {
             (0..3_000).map(|k| ((unit(k) - 0.5) * 2.0_f32.powf(16.0 * unit(k + 9_999))) as i32).collect();
         let expected = |k: usize| [0.0, 0.4, 3.0, 200.0, 1e9][k % 5];
         let mut encoder = Encoder::new();
-        let mut model = Numbers::default();
+        let mut model = IntegerModel::default();
         for (k, number) in numbers.iter().enumerate() {
             model.code(&mut encoder, expected(k), *number);
         }
         let bytes = encoder.finish();
-        let (mut decoder, mut model) = (Decoder::new(&bytes), Numbers::default());
+        let (mut decoder, mut model) = (RangeDecoder::new(&bytes), IntegerModel::default());
         for (k, number) in numbers.iter().enumerate() {
             assert_eq!(model.code(&mut decoder, expected(k), 0), *number, "number {k}");
         }
@@ -133,7 +133,7 @@ mod tests {
     #[test]
     fn what_is_expected_costs_little() {
         let mut encoder = Encoder::new();
-        let mut chance = Chance::EVEN;
+        let mut chance = BitModel::EVEN;
         for _ in 0..10_000 {
             encoder.bit(&mut chance, false);
         }

@@ -1,7 +1,7 @@
 //! From what is known of materials to a file of factors.
 
 use nalgebra::DMatrix;
-use subsurf_decoder::btf::{Grid, Header, Model};
+use subsurf_decoder::btf::{BtfHeader, BtfModel, Grid};
 
 use super::angles::{Fineness, Tucker};
 use super::sizes::Sizes;
@@ -112,7 +112,7 @@ impl<'a> Prepared<'a> {
         let factors: Vec<f32> =
             tucker.steps.iter().enumerate().map(|(column, step)| step * coefficient_step(column)).collect();
         Ok(Contents {
-            header: Header { model: Model::Factored, tone: survey.tone, materials: count, grid: *grid },
+            header: BtfHeader { model: BtfModel::Factored, encoding: survey.tone, materials: count, grid: *grid },
             materials: &materials,
             components: [of_luma, of_chroma],
             tucker: &tucker,

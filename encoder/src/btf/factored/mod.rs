@@ -6,7 +6,6 @@
 mod angles;
 mod coder;
 mod encode;
-mod memory;
 mod sizes;
 mod space;
 mod texels;
@@ -14,7 +13,6 @@ mod write;
 
 pub use angles::CoreSize;
 pub use encode::{Options, Prepared};
-pub use memory::{Memory, expanded};
 pub use sizes::Sizes;
 pub use texels::StageSize;
 pub(super) use texels::{means, nearest};

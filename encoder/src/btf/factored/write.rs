@@ -2,9 +2,9 @@
 
 use nalgebra::DMatrix;
 use subsurf_decoder::Section;
-use subsurf_decoder::btf::factored::layout::{MAX_STAGES, Shape, Stage};
-use subsurf_decoder::btf::factored::model::{Numbers, code_core, code_words};
-use subsurf_decoder::btf::{Header, Material};
+use subsurf_decoder::btf::factored::layout::{CodewordStage, MAX_STAGES, TuckerShape};
+use subsurf_decoder::btf::factored::model::{IntegerModel, code_core, code_words};
+use subsurf_decoder::btf::{BtfHeader, Material};
 
 use super::angles::Tucker;
 use super::coder::Encoder;
@@ -13,7 +13,7 @@ use crate::container;
 
 /// All of a file.
 pub(super) struct Contents<'a> {
-    pub(super) header: Header,
+    pub(super) header: BtfHeader,
     pub(super) materials: &'a [Material],
     /// Components of luma and of chroma.
     pub(super) components: [usize; 2],
@@ -31,16 +31,16 @@ fn byte(number: usize) -> u8 {
 
 impl Contents<'_> {
     pub(super) fn to_bytes(&self) -> Vec<u8> {
-        let mut stages = [Stage::default(); MAX_STAGES];
+        let mut stages = [CodewordStage::default(); MAX_STAGES];
         for (stage, words) in stages.iter_mut().zip(&self.texels.words) {
-            *stage = Stage {
+            *stage = CodewordStage {
                 words: u16::try_from(words.ncols()).expect("at most 256"),
                 first: 0,
                 count: byte(words.nrows()),
             };
         }
         let [view_scales, light_scales] = &self.tucker.scales;
-        let shape = Shape {
+        let shape = TuckerShape {
             luma: byte(self.components[0]),
             chroma: byte(self.components[1]),
             view_axes: byte(view_scales.len()),
@@ -60,7 +60,7 @@ impl Contents<'_> {
         container::write([
             (Section::BtfHeader, &self.header.to_bytes()[..]),
             (Section::Materials, &materials),
-            (Section::Factors, &factors),
+            (Section::TuckerHeader, &factors),
             (Section::Axes, &axes),
             (Section::Core, &core),
             (Section::Codewords, &words),
@@ -71,7 +71,7 @@ impl Contents<'_> {
 
 /// `CORE` of columns `[view axis][light axis]`.
 pub(super) fn core(columns: &[Vec<i32>], light_axes: usize) -> Vec<u8> {
-    let (mut coder, mut numbers) = (Encoder::new(), Numbers::default());
+    let (mut coder, mut numbers) = (Encoder::new(), IntegerModel::default());
     let mut usual = vec![0.0; columns.first().map_or(0, Vec::len)];
     for column in columns {
         let mut column: Vec<f32> = column.iter().map(|number| *number as f32).collect();

@@ -68,7 +68,7 @@ impl Source for Merl {
 mod tests {
     use super::super::tests::{pairs, plastic};
     use super::*;
-    use subsurf_decoder::Btf;
+    use subsurf_decoder::NestedBtf;
     use subsurf_decoder::btf::Grid;
 
     use crate::btf::nested::{ChromaSizes, Options, Prepared, Sizes};
@@ -107,7 +107,7 @@ mod tests {
         };
         let stages = [Sizes { p4: 2, p3: 2, p2: 36, p1: 1024 }];
         let bytes = Prepared::new(&materials, &survey, options).encode(&stages, &()).unwrap().to_bytes();
-        let file = Btf::parse(&bytes).unwrap();
+        let file = NestedBtf::parse(&bytes).unwrap();
         for (number, brdf) in [plastic as fn(Vec3, Vec3) -> [f32; 3], swapped].into_iter().enumerate() {
             let texel = file.texel(number, 0, [0, 0]).unwrap();
             let (mut error, mut sum) = ([0.0_f32; 3], [0.0_f32; 3]);

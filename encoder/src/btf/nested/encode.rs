@@ -2,8 +2,9 @@
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use subsurf_decoder::btf::layout::{MAX_STAGES, NAME_BYTES};
-use subsurf_decoder::btf::{Grid, Header, Material, Model, Tone};
+use subsurf_decoder::btf::NAME_BYTES;
+use subsurf_decoder::btf::nested::layout::MAX_STAGES;
+use subsurf_decoder::btf::{BtfHeader, BtfModel, ColourEncoding, Grid, Material};
 
 use super::chroma::{ChromaSizes, Hues};
 use super::luma::{STEPS, Space};
@@ -94,11 +95,11 @@ impl<'a> Prepared<'a> {
             tables: [of_a, of_b],
             node_weights: &node_weights,
             energies: &energies,
-            is_relative: matches!(survey.tone, Tone::Display { .. }),
+            is_relative: matches!(survey.tone, ColourEncoding::Display { .. }),
         };
         let chroma = hues.build(&mut built[0], options.chroma);
         Ok(Database {
-            header: Header { model: Model::Nested, tone: survey.tone, materials: count, grid: options.grid },
+            header: BtfHeader { model: BtfModel::Nested, encoding: survey.tone, materials: count, grid: options.grid },
             materials,
             stages: built.into_iter().map(|stage| stage.chain).collect(),
             chroma,

@@ -2,8 +2,8 @@
 //!
 //! So a sampler knows the integral of luma over a slice without looking at it.
 
-use subsurf_decoder::bits::index_bits;
-use subsurf_decoder::btf::layout::{HEIGHTS_PER_OCTAVE, MAX_OCTAVES, STEPS_PER_OCTAVE, Scales};
+use subsurf_decoder::btf::nested::layout::{MAX_OCTAVES, SLICE_STEPS_PER_OCTAVE, STEPS_PER_OCTAVE, Scales};
+use subsurf_decoder::container::bits::index_bits;
 
 use super::write::{Chain, Item};
 
@@ -15,7 +15,7 @@ pub(super) fn by_means(chain: &Chain, n_beta: usize) -> Chain {
     let rows = || chain.p1.chunks_exact(n_beta + 1);
     // All in 1/64 octaves; heights are multiples of `unit`.
     let step = 1_i32 << chain.scales[3].step;
-    let height_step = STEPS_PER_OCTAVE / HEIGHTS_PER_OCTAVE;
+    let height_step = STEPS_PER_OCTAVE / SLICE_STEPS_PER_OCTAVE;
     let unit = step.max(height_step);
     let depth = |row: &[u8]| i32::from(u8::MAX - row[n_beta]) * height_step;
     let depths = rows().map(|row| if chain.is_signed { 0 } else { (depth(row) + unit / 2) / unit });

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use subsurf_decoder::btf::Grid;
-use subsurf_decoder::btf::layout::Scales;
+use subsurf_decoder::btf::nested::layout::Scales;
 
 use super::clusters::{Match, Samples, product};
 use super::scales::{Fineness, code, gain, scales};

@@ -1,6 +1,6 @@
 //! Logarithmic scales of codebooks.
 
-use subsurf_decoder::btf::layout::{MAX_OCTAVES, STEPS_PER_OCTAVE, Scales};
+use subsurf_decoder::btf::nested::layout::{MAX_OCTAVES, STEPS_PER_OCTAVE, Scales};
 
 /// How finely gains are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

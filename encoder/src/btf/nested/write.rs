@@ -1,9 +1,11 @@
 //! Nested codebooks as they are made, and their file, through the decoder's own layout.
 
 use subsurf_decoder::Section;
-use subsurf_decoder::bits::{PADDING_BYTES, index_bits};
-use subsurf_decoder::btf::layout::{Book, Books, ChromaBooks, HEIGHTS_PER_OCTAVE, MAX_STAGES, Scales, StageBooks};
-use subsurf_decoder::btf::{Header, Material};
+use subsurf_decoder::btf::nested::layout::{
+    ChromaSizes, CodebookSize, CodebookSizes, MAX_STAGES, SLICE_STEPS_PER_OCTAVE, Scales, StageSizes,
+};
+use subsurf_decoder::btf::{BtfHeader, Material};
+use subsurf_decoder::container::bits::{PADDING_BYTES, index_bits};
 
 use super::heights::by_means;
 use crate::container;
@@ -12,7 +14,7 @@ use crate::container;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Database {
     /// Grid, tone and number of materials.
-    pub header: Header,
+    pub header: BtfHeader,
     /// The materials; texels of all levels of the first stand first.
     pub materials: Vec<Material>,
     /// One to four additive stages of luma.
@@ -81,7 +83,7 @@ pub fn slice_mean(values: &[u8]) -> u8 {
     #[allow(clippy::cast_precision_loss, reason = "at most 64 nodes")]
     let mean = sum / (values.len().max(2) - 1) as f32 / 255.0;
     #[allow(clippy::cast_precision_loss, reason = "32")]
-    let per_octave = HEIGHTS_PER_OCTAVE as f32;
+    let per_octave = SLICE_STEPS_PER_OCTAVE as f32;
     // Nothing has the least mean there is.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
     let code = (255.0 + per_octave * mean.log2()).round().clamp(0.0, 255.0) as u8;
@@ -90,22 +92,22 @@ pub fn slice_mean(values: &[u8]) -> u8 {
 
 impl Database {
     /// What `BOOK` says of stages as files have them.
-    fn books(&self, chains: &[Chain]) -> Books {
+    fn books(&self, chains: &[Chain]) -> CodebookSizes {
         let grid = &self.header.grid;
         let entries = |length: usize, row: usize| u32::try_from(length / row).expect("fewer than 2³² entries");
         let [n_phi, n_theta, n_alpha, n_beta] = [grid.n_phi, grid.n_theta, grid.n_alpha, grid.n_beta].map(usize::from);
-        let mut stages = [StageBooks::default(); MAX_STAGES];
+        let mut stages = [StageSizes::default(); MAX_STAGES];
         for (books, chain) in stages[..chains.len()].iter_mut().zip(chains) {
             let rows = [(&chain.texels, 1), (&chain.p4, n_phi), (&chain.p3, n_theta), (&chain.p2, n_alpha)];
-            *books = StageBooks {
-                books: [0, 1, 2, 3]
-                    .map(|k| Book { entries: entries(rows[k].0.len(), rows[k].1), scales: chain.scales[k] }),
+            *books = StageSizes {
+                codebooks: [0, 1, 2, 3]
+                    .map(|k| CodebookSize { entries: entries(rows[k].0.len(), rows[k].1), scales: chain.scales[k] }),
                 slices: entries(chain.p1.len(), n_beta + 1),
                 is_signed: chain.is_signed,
             };
         }
         let chroma = &self.chroma;
-        let chroma = ChromaBooks {
+        let chroma = ChromaSizes {
             merged: entries(chroma.merged.len(), 1),
             i2: entries(chroma.i2.len(), n_alpha),
             i1: entries(chroma.i1.len(), n_beta),
@@ -115,7 +117,7 @@ impl Database {
             step: chroma.step,
             is_relative: chroma.is_relative,
         };
-        Books { chroma, stages, count: chains.len() }
+        CodebookSizes { chroma, stages, count: chains.len() }
     }
 
     /// The file.
@@ -130,11 +132,11 @@ impl Database {
         let books = self.books(&chains);
         assert_eq!(usize::from(self.header.materials), self.materials.len(), "the header counts the materials");
         let mut of_books = books.chroma.to_bytes().to_vec();
-        of_books.extend(books.stages[..books.count].iter().flat_map(StageBooks::to_bytes));
+        of_books.extend(books.stages[..books.count].iter().flat_map(StageSizes::to_bytes));
         let mut sections = vec![
             (Section::BtfHeader, self.header.to_bytes().to_vec()),
             (Section::Materials, self.materials.iter().flat_map(Material::to_bytes).collect()),
-            (Section::Books, of_books),
+            (Section::CodebookSizes, of_books),
         ];
         for ((number, chain), of_chain) in (0_u8..).zip(&chains).zip(&books.stages) {
             sections.extend(self.stage(number, chain, of_chain, &books.chroma));
@@ -143,7 +145,7 @@ impl Database {
         container::write(sections.iter().map(|(section, bytes)| (*section, &bytes[..])))
     }
 
-    fn stage(&self, number: u8, chain: &Chain, books: &StageBooks, chroma: &ChromaBooks) -> [(Section, Vec<u8>); 5] {
+    fn stage(&self, number: u8, chain: &Chain, books: &StageSizes, chroma: &ChromaSizes) -> [(Section, Vec<u8>); 5] {
         let section = |book| Section::Codebook { book, stage: number };
         let widths = books.index_bits(number == 0, chroma);
         let fields =
@@ -173,9 +175,9 @@ impl Database {
         ]
     }
 
-    fn chroma_sections(&self, books: &Books) -> Vec<(Section, Vec<u8>)> {
+    fn chroma_sections(&self, books: &CodebookSizes) -> Vec<(Section, Vec<u8>)> {
         let (chroma, sizes) = (&self.chroma, &books.chroma);
-        let p2 = index_bits(books.stages[0].books[3].entries);
+        let p2 = index_bits(books.stages[0].codebooks[3].entries);
         let merged = chroma.merged.iter().map(|[luma, hue]| [(*luma, p2), (*hue, index_bits(sizes.i2))]);
         let indices = |items: &[u32], len: u32| pack(items.iter().map(|item| [(*item, index_bits(len))]));
         let mut sections = vec![

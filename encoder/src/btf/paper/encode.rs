@@ -1,7 +1,7 @@
 //! Three steps of sampling (Havran et al. 2010, section 5.1.1).
 
 use rayon::prelude::*;
-use subsurf_decoder::btf::{Grid, Header, Model};
+use subsurf_decoder::btf::{BtfHeader, BtfModel, Grid};
 
 use super::functions::Functions;
 use super::halton;
@@ -108,7 +108,7 @@ pub fn encode(materials: &[Images], options: &Options, progress: &impl Progress)
     }
     (chain.scales[0], chain.texels) = quantised(&texels, 8);
     Ok(Database {
-        header: Header { model: Model::Nested, tone, materials: count, grid: options.grid },
+        header: BtfHeader { model: BtfModel::Nested, encoding: tone, materials: count, grid: options.grid },
         materials: named,
         stages: vec![chain],
         chroma,

@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use subsurf_decoder::btf::{Grid, Tone};
+use subsurf_decoder::btf::{ColourEncoding, Grid};
 
 use super::rows::Slices;
 use crate::btf::{Images, Resampler};
@@ -21,23 +21,23 @@ pub(super) struct Function {
 }
 
 /// What is added to chroma: images store Cr and Cb around ½, and u' and v' as they are.
-pub(super) fn centre(tone: Tone) -> f32 {
+pub(super) fn centre(tone: ColourEncoding) -> f32 {
     match tone {
-        Tone::Display { .. } => 0.5,
-        Tone::LogLuv { .. } => 0.0,
+        ColourEncoding::Display { .. } => 0.5,
+        ColourEncoding::LogLuv { .. } => 0.0,
     }
 }
 
 /// Where apparent BRDFs come from.
 pub(super) struct Functions<'a> {
     materials: &'a [Images],
-    tone: Tone,
+    tone: ColourEncoding,
     grid: Grid,
     resampler: Resampler,
 }
 
 impl<'a> Functions<'a> {
-    pub(super) fn new(materials: &'a [Images], tone: Tone, grid: Grid) -> Self {
+    pub(super) fn new(materials: &'a [Images], tone: ColourEncoding, grid: Grid) -> Self {
         let resampler = Resampler::new(&grid, materials[0].lights(), materials[0].views());
         Self { materials, tone, grid, resampler }
     }

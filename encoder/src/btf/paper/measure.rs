@@ -1,7 +1,7 @@
 //! What similarity is computed from: slices along β, one at a time, until it is known whether it is enough.
 
 use glam::Vec4;
-use subsurf_decoder::btf::{Grid, Tone};
+use subsurf_decoder::btf::{ColourEncoding, Grid};
 
 use super::functions::Function;
 use super::rows::{Group, Row, Slices};
@@ -122,7 +122,7 @@ pub(super) struct Measure {
 }
 
 impl Measure {
-    pub(super) fn new(similarity: &Similarity, grid: &Grid, tone: Tone) -> Self {
+    pub(super) fn new(similarity: &Similarity, grid: &Grid, tone: ColourEncoding) -> Self {
         let n_beta = usize::from(grid.n_beta);
         let mut shares = vec![1.0; n_beta];
         if grid.sin_beta_max >= 1.0 {
@@ -131,13 +131,13 @@ impl Measure {
         let sum: f32 = shares.iter().sum();
         shares.iter_mut().for_each(|share| *share /= sum);
         let rgb = match tone {
-            Tone::Display { .. } => {
+            ColourEncoding::Display { .. } => {
                 // Around a grey that is bright enough for nothing to be cut off at black.
                 let at = |channels: [f32; 3]| tone.decode([8.0 + channels[0], channels[1], channels[2]]);
                 let (grey, columns) = (at([0.0; 3]), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(at));
                 [0, 1, 2].map(|k: usize| columns.map(|column| column[k] - grey[k]))
             }
-            Tone::LogLuv { .. } => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            ColourEncoding::LogLuv { .. } => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         };
         Self { is_mse: matches!(similarity, Similarity::Mse { .. }), shares, rgb }
     }

@@ -1,7 +1,7 @@
 //! Scalar quantisation (Havran et al. 2010, section 4.5), once all codebooks are there.
 
-use subsurf_decoder::btf::Tone;
-use subsurf_decoder::btf::layout::Scales;
+use subsurf_decoder::btf::ColourEncoding;
+use subsurf_decoder::btf::nested::layout::Scales;
 
 use super::books::{Books, Scaled};
 use super::functions::centre;
@@ -46,7 +46,7 @@ fn scaled(scales: Scales, items: &[Item]) -> Vec<Scaled> {
 }
 
 impl Quantised {
-    pub(super) fn new(found: &Books, tone: Tone) -> Self {
+    pub(super) fn new(found: &Books, tone: ColourEncoding) -> Self {
         let n_beta = found.n_beta();
         let mut books = Books::new(found.grid);
         let p1 = to_bytes(found.p1.values(), n_beta, false);
@@ -55,7 +55,7 @@ impl Quantised {
             row.iter_mut().zip(bytes).for_each(|(value, byte)| *value = f32::from(*byte) / 255.0);
             books.push_p1(&row);
         }
-        let bits = if matches!(tone, Tone::LogLuv { .. }) { 2 * BITS } else { BITS };
+        let bits = if matches!(tone, ColourEncoding::LogLuv { .. }) { 2 * BITS } else { BITS };
         let (scales2, p2) = quantised(&found.p2, bits);
         let (scales3, p3) = quantised(&found.p3, BITS);
         let (scales4, p4) = quantised(&found.p4, BITS);

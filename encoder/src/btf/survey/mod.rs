@@ -4,7 +4,7 @@ mod svd;
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use subsurf_decoder::btf::Tone;
+use subsurf_decoder::btf::ColourEncoding;
 
 use super::images::Images;
 use crate::error::{Error, Result};
@@ -18,7 +18,7 @@ use svd::{Columns, PASSES};
 /// errors count as they do in structural similarity: little where an image has much contrast.
 pub struct Survey {
     /// What the channels are.
-    pub tone: Tone,
+    pub tone: ColourEncoding,
     /// Texels in x and in y of every material; their texels follow each other.
     pub sizes: Vec<[u32; 2]>,
     /// Weight w of each pair of directions.
@@ -51,7 +51,7 @@ const SQUARE: usize = 11;
 const FOLLOWING: f32 = 0.6;
 
 /// The tone that fits all materials, which were measured in the same directions.
-pub(super) fn common_tone(materials: &[Images]) -> Result<Tone> {
+pub(super) fn common_tone(materials: &[Images]) -> Result<ColourEncoding> {
     let Some((first, others)) = materials.split_first() else {
         return Err(Error::Request("no material".to_owned()));
     };
@@ -59,9 +59,13 @@ pub(super) fn common_tone(materials: &[Images]) -> Result<Tone> {
     for other in others {
         tone = match (tone, other.tone()) {
             _ if other.lights() != first.lights() || other.views() != first.views() => None,
-            (Tone::Display { white }, Tone::Display { white: same }) if white.to_bits() == same.to_bits() => Some(tone),
-            (Tone::LogLuv { toe, peak }, Tone::LogLuv { toe: other_toe, peak: other_peak }) => {
-                Some(Tone::LogLuv { toe: toe.min(other_toe), peak: peak.max(other_peak) })
+            (ColourEncoding::Display { white }, ColourEncoding::Display { white: same })
+                if white.to_bits() == same.to_bits() =>
+            {
+                Some(tone)
+            }
+            (ColourEncoding::LogLuv { toe, peak }, ColourEncoding::LogLuv { toe: other_toe, peak: other_peak }) => {
+                Some(ColourEncoding::LogLuv { toe: toe.min(other_toe), peak: peak.max(other_peak) })
             }
             _ => None,
         }
@@ -80,7 +84,7 @@ pub(super) fn common_tone(materials: &[Images]) -> Result<Tone> {
 /// All materials' images as luma and chroma.
 struct Channels<'a> {
     materials: &'a [Images],
-    tone: Tone,
+    tone: ColourEncoding,
     texels: usize,
 }
 
@@ -177,8 +181,8 @@ impl Survey {
         progress.begin("weighing directions", 2 * pairs as u64);
         let weights = channels.weights(pairs, progress);
         let ratios = match tone {
-            Tone::Display { .. } => channels.ratios(&weights, progress),
-            Tone::LogLuv { .. } => vec![[0.0; 2]; texels],
+            ColourEncoding::Display { .. } => channels.ratios(&weights, progress),
+            ColourEncoding::LogLuv { .. } => vec![[0.0; 2]; texels],
         };
         progress.begin("components of luma", PASSES * pairs as u64);
         let fill = |pair: usize, out: &mut [f32]| {

@@ -1,6 +1,6 @@
 //! Flat patches with one kernel for all pixels.
 
-use subsurf_decoder::bssrdf::Header;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 use subsurf_shaders::passes::table;
 use subsurf_shaders::uniform::{Kernel, MAX_KERNEL};
 use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoderDescriptor, TextureView};
@@ -41,7 +41,7 @@ impl HomogeneousRenderer {
     pub fn prepare(
         &self,
         gpu: &Gpu,
-        header: &Header,
+        header: &BssrdfHeader,
         kernel: &[[f32; 3]],
         light: &PatchLight,
     ) -> Result<HomogeneousPatch> {

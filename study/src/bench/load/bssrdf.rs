@@ -9,7 +9,7 @@ use subsurf_cli::info::parse;
 use subsurf_cli::options::Size;
 use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::{Addressing, Header};
+use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader};
 use subsurf_encoder::Progress;
 use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
 use subsurf_encoder::synthetic::{Shape, capture_row};
@@ -68,7 +68,7 @@ impl Case {
         Ok(Self::new(&header, "files", files))
     }
 
-    fn new(header: &Header, source: &'static str, files: [PathBuf; 3]) -> Self {
+    fn new(header: &BssrdfHeader, source: &'static str, files: [PathBuf; 3]) -> Self {
         Self {
             size: [header.width, header.height],
             window: 2 * u32::from(header.window_radius) + 1,

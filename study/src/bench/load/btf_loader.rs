@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use subsurf_cli::program::failure::bad_request;
-use subsurf_decoder::Btf;
+use subsurf_decoder::NestedBtf;
 use subsurf_encoder::btf::Folder;
 use subsurf_runtime::{
     BtfImages, BtfLayout, BtfMaterial, Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, Technique, VertexData,
@@ -101,7 +101,7 @@ impl<'a> BtfLoader<'a> {
         bytes.get(first..first + len).unwrap_or(&[]).as_chunks().0
     }
 
-    fn upload(&self, gpu: &Gpu, btf: Option<&Btf<'_>>, bytes: &[u8]) -> anyhow::Result<BtfMaterial> {
+    fn upload(&self, gpu: &Gpu, btf: Option<&NestedBtf<'_>>, bytes: &[u8]) -> anyhow::Result<BtfMaterial> {
         Ok(if let Some(btf) = btf {
             BtfMaterial::upload(gpu, btf)?
         } else {
@@ -111,7 +111,7 @@ impl<'a> BtfLoader<'a> {
     }
 
     /// Texels under the last light, seen from the last view.
-    fn picture(&self, btf: Option<&Btf<'_>>, bytes: &[u8]) -> Vec<[f32; 3]> {
+    fn picture(&self, btf: Option<&NestedBtf<'_>>, bytes: &[u8]) -> Vec<[f32; 3]> {
         let (light, view) = (self.lights.len() - 1, self.views.len() - 1);
         let texels = (0..FRAME[0] * FRAME[1]).map(|k| [(k % FRAME[0]).cast_signed(), (k / FRAME[0]).cast_signed()]);
         match btf {

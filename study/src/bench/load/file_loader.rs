@@ -6,7 +6,7 @@ use anyhow::Context;
 use subsurf_cli::info::parse;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
-use subsurf_decoder::bssrdf::{Coding, Header};
+use subsurf_decoder::bssrdf::{BssrdfHeader, Coding};
 use subsurf_encoder::capture::{Capture, Overrides};
 use subsurf_runtime::{Gpu, Material, MaterialLayout, PatchLight, PatchRenderer, Region, layout_of};
 use subsurf_shaders::Rgb;
@@ -19,7 +19,7 @@ use crate::bench::timing::Clock;
 const FRAME: u32 = 64;
 
 /// What the header says, and how the device will hold it.
-pub(super) fn describe(path: &Path, is_capture: bool) -> anyhow::Result<(Header, MaterialLayout)> {
+pub(super) fn describe(path: &Path, is_capture: bool) -> anyhow::Result<(BssrdfHeader, MaterialLayout)> {
     if is_capture {
         let capture = Capture::open(path, &Overrides::default())?;
         return Ok((header_of(&capture)?, MaterialLayout::Capture));
@@ -30,9 +30,9 @@ pub(super) fn describe(path: &Path, is_capture: bool) -> anyhow::Result<(Header,
 }
 
 /// A capture has no profiles; everything else is as in a file.
-fn header_of(capture: &Capture) -> anyhow::Result<Header> {
+fn header_of(capture: &Capture) -> anyhow::Result<BssrdfHeader> {
     let radius = u16::try_from(capture.radius())?;
-    Ok(Header {
+    Ok(BssrdfHeader {
         model: MODEL_2BMPP,
         coding: Coding::Exact,
         addressing: capture.addressing(),
@@ -51,7 +51,7 @@ fn header_of(capture: &Capture) -> anyhow::Result<Header> {
 pub(super) struct FileLoader<'a> {
     gpu: Option<&'a Gpu>,
     path: &'a Path,
-    header: Header,
+    header: BssrdfHeader,
     layout: MaterialLayout,
     /// What an application has before it loads its first material: pipelines, and light.
     renderer: Option<PatchRenderer>,
@@ -64,7 +64,7 @@ impl<'a> FileLoader<'a> {
     pub(super) fn new(
         gpu: Option<&'a Gpu>,
         path: &'a Path,
-        header: Header,
+        header: BssrdfHeader,
         layout: MaterialLayout,
     ) -> anyhow::Result<Self> {
         let renderer = gpu.map(|gpu| PatchRenderer::new(gpu, layout)).transpose()?;
@@ -138,12 +138,12 @@ impl<'a> FileLoader<'a> {
 
 /// Entries of a capture, as the CPU twin of the gather reads them.
 struct Entries<'a> {
-    header: Header,
+    header: BssrdfHeader,
     entries: &'a [u8],
 }
 
 impl Reflectance for Entries<'_> {
-    fn header(&self) -> &Header {
+    fn header(&self) -> &BssrdfHeader {
         &self.header
     }
 

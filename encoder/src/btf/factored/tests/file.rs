@@ -1,13 +1,15 @@
 //! Files of random factors, read back and held against the formulas of `FORMAT.md`.
 
 use nalgebra::DMatrix;
-use subsurf_decoder::btf::layout::NAME_BYTES;
-use subsurf_decoder::btf::{Cell, Evaluate, Expanded, Factored, Grid, Header, Material, Model, Place, Tone};
+use subsurf_decoder::btf::NAME_BYTES;
+use subsurf_decoder::btf::factored::ExpansionMemory;
+use subsurf_decoder::btf::{
+    BtfHeader, BtfModel, ColourEncoding, Evaluate, ExpandedBtf, FactoredBtf, Grid, GridCoord, LerpCoord, Material,
+};
 use subsurf_decoder::container::Crc;
 use subsurf_decoder::{ReadError, Section};
 
 use crate::btf::factored::angles::Tucker;
-use crate::btf::factored::memory::{Memory, expanded};
 use crate::btf::factored::texels::Quantised;
 use crate::btf::factored::write::Contents;
 use crate::synthetic::unit;
@@ -49,10 +51,10 @@ fn random() -> (Tucker, Quantised) {
     (tucker, Quantised { words, indices })
 }
 
-fn file(tone: Tone) -> Vec<u8> {
+fn file(tone: ColourEncoding) -> Vec<u8> {
     let (tucker, texels) = random();
     Contents {
-        header: Header { model: Model::Factored, tone, materials: 1, grid: GRID },
+        header: BtfHeader { model: BtfModel::Factored, encoding: tone, materials: 1, grid: GRID },
         materials: &[Material { name: [b'x'; NAME_BYTES], width: 4, height: 3, levels: 1 }],
         components: [LUMA, CHROMA],
         tucker: &tucker,
@@ -63,13 +65,13 @@ fn file(tone: Tone) -> Vec<u8> {
     .to_bytes()
 }
 
-const DISPLAY: Tone = Tone::Display { white: 1.0 };
+const DISPLAY: ColourEncoding = ColourEncoding::Display { white: 1.0 };
 
 /// Calls with the file expanded.
-fn open<T>(bytes: &[u8], with: impl FnOnce(&Expanded<'_>) -> T) -> T {
-    let file = Factored::parse(bytes).unwrap();
-    let mut memory = Memory::default();
-    with(&expanded(&file, &mut memory))
+fn open<T>(bytes: &[u8], with: impl FnOnce(&ExpandedBtf<'_>) -> T) -> T {
+    let file = FactoredBtf::parse(bytes).unwrap();
+    let mut memory = ExpansionMemory::default();
+    with(&file.expand_in(&mut memory).unwrap())
 }
 
 /// X[v][l] = Σ_ij A_i[v] G[i][j] B_j[l], summed in double precision.
@@ -138,11 +140,11 @@ fn values_follow_the_formula_between_nodes_and_on_them() {
         let first = (unit(number) * (count - u32::from(!is_ring)) as f32) as u32;
         // Some of them on a node.
         let weight = [0.0, 1.0, unit(number + 50), unit(number + 70)][number as usize % 4];
-        Place { nodes: [first, (first + 1) % count], weight }
+        LerpCoord { nodes: [first, (first + 1) % count], weight }
     };
     open(&file(DISPLAY), |found| {
         for number in 0..200_u32 {
-            let cell = Cell {
+            let cell = GridCoord {
                 phi: place(GRID.n_phi, 4 * number, true),
                 theta: place(GRID.n_theta, 5 * number + 1, false),
                 alpha: place(GRID.n_alpha, 7 * number + 2, false),
@@ -152,7 +154,7 @@ fn values_follow_the_formula_between_nodes_and_on_them() {
             let texel = found.catalog().texel(0, 0, [number as i32, 2]).unwrap();
             let mut table = [0.0_f64; COLUMNS];
             for corner in 0..16 {
-                let axis = |k: usize, place: Place| {
+                let axis = |k: usize, place: LerpCoord| {
                     let side = corner >> k & 1;
                     (place.nodes[side] as usize, f64::from(place.weights()[side]))
                 };
@@ -175,20 +177,20 @@ fn values_follow_the_formula_between_nodes_and_on_them() {
                 assert!((f64::from(value) - exact).abs() < 1e-4 * (1.0 + exact.abs()), "{value} {exact}");
             }
             let rgb = DISPLAY.decode(found.channels(texel, &cell));
-            assert_eq!(Evaluate::eval_cell(found, texel, &cell), rgb, "where nothing fades");
+            assert_eq!(Evaluate::eval_at(found, texel, &cell), rgb, "where nothing fades");
         }
     });
 }
 
 /// Uses all a file offers; whatever it says, values are numbers.
 fn exercise(bytes: &[u8]) {
-    let Ok(file) = Factored::parse_with(bytes, Crc::Skip) else { return };
+    let Ok(file) = FactoredBtf::parse_with(bytes, Crc::Skip) else { return };
     // What a damaged file asks for is up to its reader to grant.
     if file.table_len() > 1 << 20 {
         return;
     }
-    let mut memory = Memory::default();
-    let expanded = expanded(&file, &mut memory);
+    let mut memory = ExpansionMemory::default();
+    let expanded = file.expand_in(&mut memory).unwrap();
     for (number, light) in [[0.1, 0.2, 0.9], [0.9, -0.3, 0.1], [0.0, 0.0, 1.0], [f32::NAN; 3]].into_iter().enumerate() {
         if let Some(texel) = expanded.catalog().texel(0, 0, [number as i32; 2]) {
             let rgb = expanded.eval(texel, light, [0.3, -0.1, 0.9]);
@@ -201,21 +203,21 @@ fn exercise(bytes: &[u8]) {
 fn cut_files_are_refused() {
     let bytes = file(DISPLAY);
     for length in 0..bytes.len() {
-        let error = Factored::parse_with(&bytes[..length], Crc::Skip).unwrap_err();
+        let error = FactoredBtf::parse_with(&bytes[..length], Crc::Skip).unwrap_err();
         assert!(matches!(error, ReadError::Truncated { .. }), "{length}: {error:?}");
     }
 }
 
 #[test]
 fn damaged_files_are_refused_or_harmless() {
-    for tone in [DISPLAY, Tone::LogLuv { toe: 0.01, peak: 10.0 }] {
+    for tone in [DISPLAY, ColourEncoding::LogLuv { toe: 0.01, peak: 10.0 }] {
         let bytes = file(tone);
         let mut accepted = 0;
         for at in 0..bytes.len() {
             for flip in [1, 0x80, 0xFF] {
                 let mut bad = bytes.clone();
                 bad[at] ^= flip;
-                accepted += usize::from(Factored::parse_with(&bad, Crc::Skip).is_ok());
+                accepted += usize::from(FactoredBtf::parse_with(&bad, Crc::Skip).is_ok());
                 exercise(&bad);
             }
         }
@@ -234,36 +236,42 @@ fn what_is_wrong_is_named() {
     let with = |at: usize, value: u8| {
         let mut bad = bytes.clone();
         bad[at] = value;
-        Factored::parse_with(&bad, Crc::Skip).err()
+        FactoredBtf::parse_with(&bad, Crc::Skip).err()
     };
-    let factors = find(Section::Factors);
+    let factors = find(Section::TuckerHeader);
     for (at, value) in [(0, 0), (0, 129), (1, 33), (2, 0), (2, 33), (4, 0), (4, 16), (5, 13), (10, 0), (14, 8)] {
         let offset = (factors + at) as u64;
-        let wrong = ReadError::BadField { section: Section::Factors, offset, value: value.into() };
+        let wrong = ReadError::BadField { section: Section::TuckerHeader, offset, value: value.into() };
         assert_eq!(with(factors + at, value), Some(wrong), "byte {at} of FACT");
     }
     assert!(
-        matches!(with(factors, 4), Some(ReadError::WrongSize { section: Section::Factors, .. })),
+        matches!(with(factors, 4), Some(ReadError::WrongSize { section: Section::TuckerHeader, .. })),
         "a component more"
     );
     let exponent = factors + 16 + 3;
-    assert!(matches!(with(exponent, 0x7F), Some(ReadError::BadNumber { section: Section::Factors, .. })), "a step");
+    assert!(
+        matches!(with(exponent, 0x7F), Some(ReadError::BadNumber { section: Section::TuckerHeader, .. })),
+        "a step"
+    );
     let index = find(Section::TexelIndices) + 7;
     let wrong = ReadError::IndexOutOfRange { section: Section::TexelIndices, offset: index as u64, index: 3, len: 3 };
     assert_eq!(with(index, 3), Some(wrong));
-    assert!(matches!(subsurf_decoder::Btf::parse(&bytes), Err(ReadError::BadField { value: 2, .. })), "another model");
+    assert!(
+        matches!(subsurf_decoder::NestedBtf::parse(&bytes), Err(ReadError::BadField { value: 2, .. })),
+        "another model"
+    );
 }
 
 #[test]
 fn short_buffers_are_refused() {
-    use subsurf_decoder::btf::factored::Buffers;
+    use subsurf_decoder::btf::factored::ExpansionBuffers;
     let bytes = file(DISPLAY);
-    let file = Factored::parse(&bytes).unwrap();
+    let file = FactoredBtf::parse(&bytes).unwrap();
     let whole = [file.table_len(), file.words_len(), file.scratch_len()];
     for missing in 0..4 {
         let length = |k: usize| whole[k] - usize::from(k == missing);
         let (mut table, mut words, mut scratch) = (vec![0; length(0)], vec![0; length(1)], vec![0.0; length(2)]);
-        let buffers = Buffers { table: &mut table, words: &mut words, scratch: &mut scratch };
+        let buffers = ExpansionBuffers { table: &mut table, words: &mut words, scratch: &mut scratch };
         assert_eq!(file.expand(buffers).is_some(), missing == 3, "one is missing in {missing}");
     }
 }

@@ -1,9 +1,10 @@
 //! From images to a file and back.
 
 use glam::Vec3;
-use subsurf_decoder::btf::{Evaluate, Factored, Grid};
+use subsurf_decoder::btf::factored::ExpansionMemory;
+use subsurf_decoder::btf::{Evaluate, FactoredBtf, Grid};
 
-use crate::btf::factored::{CoreSize, Memory, Options, Prepared, Sizes, StageSize, expanded};
+use crate::btf::factored::{CoreSize, Options, Prepared, Sizes, StageSize};
 use crate::btf::{Detail, Images, Source, Survey};
 use crate::error::{Error, Result};
 use crate::metrics::btf::{BtfError, compare};
@@ -109,10 +110,10 @@ fn mean(error: &BtfError) -> f64 {
 }
 
 fn quality(images: &Images, bytes: &[u8], material: usize) -> BtfError {
-    let file = Factored::parse(bytes).unwrap();
-    let mut memory = Memory::default();
+    let file = FactoredBtf::parse(bytes).unwrap();
+    let mut memory = ExpansionMemory::default();
     let pairs: Vec<usize> = (0..images.pairs()).step_by(5).collect();
-    compare(images, &expanded(&file, &mut memory), material, &pairs, &())
+    compare(images, &file.expand_in(&mut memory).unwrap(), material, &pairs, &())
 }
 
 #[test]
@@ -167,7 +168,7 @@ fn materials_share_a_file_and_have_mipmaps() {
     let survey = Survey::new(&images, DETAIL, 1, &()).unwrap();
     let options = Options { has_mipmaps: true, ..options(2) };
     let bytes = Prepared::new(&images, &survey, options).unwrap().encode(&sizes(), &()).unwrap();
-    let file = Factored::parse(&bytes).unwrap();
+    let file = FactoredBtf::parse(&bytes).unwrap();
     let materials: Vec<_> = file.catalog().materials().collect();
     assert_eq!(materials.iter().map(|material| material.name()).collect::<Vec<_>>(), ["waves 0", "waves 1"]);
     for (number, images) in images.iter().enumerate() {
@@ -175,8 +176,8 @@ fn materials_share_a_file_and_have_mipmaps() {
         assert!(mean(&error) > 0.9, "{number}: {error:?}");
     }
     // The coarsest level is near the mean of the finest.
-    let mut memory = Memory::default();
-    let file = expanded(&file, &mut memory);
+    let mut memory = ExpansionMemory::default();
+    let file = file.expand_in(&mut memory).unwrap();
     let (light, view) = ([0.3, 0.1, 0.9_f32.sqrt()], [-0.3, 0.1, 0.9_f32.sqrt()]);
     let value = |level: u8, k: i32| file.eval(file.catalog().texel(1, level, [k % 12, k / 12]).unwrap(), light, view);
     let mean = (0..144).map(|k| value(0, k)[1]).sum::<f32>() / 144.0;

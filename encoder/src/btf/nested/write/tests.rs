@@ -1,7 +1,7 @@
 //! Files are read back bit by bit, without the decoder's own tables of items.
 
-use subsurf_decoder::Btf;
-use subsurf_decoder::btf::{Grid, Tone};
+use subsurf_decoder::NestedBtf;
+use subsurf_decoder::btf::{ColourEncoding, Grid};
 use subsurf_decoder::container::{Container, Crc};
 
 use super::*;
@@ -42,10 +42,10 @@ fn bits_of(count: usize) -> u32 {
 
 fn assert_same(database: &Database) {
     let file = database.to_bytes();
-    let btf = Btf::parse(&file).unwrap();
+    let btf = NestedBtf::parse(&file).unwrap();
     assert_eq!(*btf.header(), database.header);
     assert!(btf.materials().eq(database.materials.iter().copied()), "materials");
-    let books = btf.nested().books();
+    let books = btf.codebooks().sizes();
     let (grid, chroma) = (&database.header.grid, &database.chroma);
     let [n_phi, n_theta, n_alpha, n_beta] = [grid.n_phi, grid.n_theta, grid.n_alpha, grid.n_beta].map(usize::from);
     for (number, chain) in (0_u8..).zip(&database.stages) {
@@ -68,7 +68,7 @@ fn assert_same(database: &Database) {
         assert_eq!((of_stage.slices as usize, of_stage.is_signed), (chain.p1.len() / (n_beta + 1), chain.is_signed));
         let rows = [1, n_phi, n_theta, n_alpha];
         for ((k, (book, items, len)), row) in codebooks.into_iter().enumerate().zip(rows) {
-            let of_book = &of_stage.books[k];
+            let of_book = &of_stage.codebooks[k];
             assert_eq!(of_book.entries as usize * row, items.len(), "P{book}");
             let mut reader = Reader::of(&file, section(book));
             let bits = u32::from(of_book.scales.bits);
@@ -128,7 +128,12 @@ fn every_item_comes_back() {
         small.clone(),
         NestedShape { stages: 3, tints: 5, ..small.clone() },
         NestedShape { stages: 2, tints: 1, materials: vec![(5, 3, 3), (1, 7, 16)], ..small.clone() },
-        NestedShape { grid: odd, is_relative: true, tone: Tone::LogLuv { toe: 0.01, peak: 9.0 }, ..small.clone() },
+        NestedShape {
+            grid: odd,
+            is_relative: true,
+            tone: ColourEncoding::LogLuv { toe: 0.01, peak: 9.0 },
+            ..small.clone()
+        },
         // One entry of everything: indices have no bits.
         NestedShape { luma: [1; 4], chroma: [1; 4], scale_bits: 0, ..small.clone() },
         // Powers of two and one more than them; wide scales.

@@ -1,31 +1,6 @@
-//! Little-endian reads from byte slices of any alignment. All offset arithmetic of the crate is here, and all of it is checked.
+//! Slices of a file, and views of them as little-endian numbers of any alignment.
 
 use half::f16;
-
-/// Bytes `offset .. offset + N`, or `None` where they are not all there.
-pub(crate) fn array_at<const N: usize>(bytes: &[u8], offset: usize) -> Option<[u8; N]> {
-    bytes.get(offset..)?.first_chunk::<N>().copied()
-}
-
-/// Little-endian u16 at `offset`.
-pub(crate) fn u16_at(bytes: &[u8], offset: usize) -> Option<u16> {
-    array_at(bytes, offset).map(u16::from_le_bytes)
-}
-
-/// Little-endian u32 at `offset`.
-pub(crate) fn u32_at(bytes: &[u8], offset: usize) -> Option<u32> {
-    array_at(bytes, offset).map(u32::from_le_bytes)
-}
-
-/// Little-endian u64 at `offset`.
-pub(crate) fn u64_at(bytes: &[u8], offset: usize) -> Option<u64> {
-    array_at(bytes, offset).map(u64::from_le_bytes)
-}
-
-/// Little-endian f32 at `offset`.
-pub(crate) fn f32_at(bytes: &[u8], offset: usize) -> Option<f32> {
-    array_at(bytes, offset).map(f32::from_le_bytes)
-}
 
 /// `bytes[offset .. offset + length]` for numbers that came from a file; `None` where they lead outside.
 pub(crate) fn slice_at(bytes: &[u8], offset: u64, length: u64) -> Option<&[u8]> {

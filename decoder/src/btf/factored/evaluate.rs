@@ -1,14 +1,15 @@
-//! Values of texels from expanded factors, linear between the nodes of all four axes.
+//! Values of texels from an expanded factored BTF, linear between the nodes of all four axes.
 
-use super::layout::{MAX_COEFFICIENTS, MAX_COLUMNS, Stage};
-use super::reader::Factored;
+use super::layout::{CodewordStage, MAX_COEFFICIENTS, MAX_COLUMNS};
+use super::reader::FactoredBtf;
 use crate::btf::catalog::{Catalog, Texel};
-use crate::btf::grid::Cell;
+use crate::btf::coord::{GridCoord, LerpCoord};
+use crate::container::index::row_major;
 
-/// Factors, ready to be evaluated.
+/// Factored BTF, ready to be evaluated.
 #[derive(Clone, Copy, Debug)]
-pub struct Expanded<'b> {
-    file: Factored<'b>,
+pub struct ExpandedBtf<'b> {
+    file: FactoredBtf<'b>,
     /// `[φ_v][θ_v][α][β][column]`
     table: &'b [i8],
     /// `[stage][codeword][coefficient]`
@@ -18,8 +19,8 @@ pub struct Expanded<'b> {
 /// Columns that are summed side by side.
 const LANES: usize = 8;
 
-impl<'b> Expanded<'b> {
-    pub(super) fn new(file: &Factored<'b>, table: &'b [i8], words: &'b [i16]) -> Self {
+impl<'b> ExpandedBtf<'b> {
+    pub(super) fn new(file: &FactoredBtf<'b>, table: &'b [i8], words: &'b [i16]) -> Self {
         Self { file: *file, table, words }
     }
 
@@ -35,39 +36,39 @@ impl<'b> Expanded<'b> {
         self.table
     }
 
-    /// Value of a texel at a place of the grid; see [`Evaluate::eval_cell`](crate::btf::Evaluate::eval_cell).
+    /// Value of a texel at coordinates of the grid; see [`Evaluate::eval_at`](crate::btf::Evaluate::eval_at).
     #[must_use]
-    pub fn eval_cell(&self, texel: Texel, cell: &Cell) -> [f32; 3] {
-        self.value(texel, &self.interpolated(cell), cell.fade)
+    pub fn eval_at(&self, texel: Texel, coord: &GridCoord) -> [f32; 3] {
+        self.value(texel, &self.interpolated(coord), coord.fade)
     }
 
-    /// Values of texels that follow each other at one place of the grid, where tables are interpolated once.
-    pub(in crate::btf) fn eval_texels(&self, Texel(first): Texel, cell: &Cell, values: &mut [[f32; 3]]) {
-        let columns = self.interpolated(cell);
+    /// Values of texels that follow each other at one coordinate of the grid, where tables are interpolated once.
+    pub(in crate::btf) fn eval_texels(&self, Texel(first): Texel, coord: &GridCoord, values: &mut [[f32; 3]]) {
+        let columns = self.interpolated(coord);
         let mut texel = first;
         for value in values {
-            *value = self.value(Texel(texel), &columns, cell.fade);
+            *value = self.value(Texel(texel), &columns, coord.fade);
             texel = texel.wrapping_add(1);
         }
     }
 
     fn value(&self, texel: Texel, columns: &[f32; MAX_COLUMNS], fade: f32) -> [f32; 3] {
-        self.catalog().header().tone.decode(self.mixed(texel, columns)).map(|value| value * fade)
+        self.catalog().header().encoding.decode(self.mixed(texel, columns)).map(|value| value * fade)
     }
 
-    /// Coefficients of a texel in steps, as many as [`Shape::coefficients`](super::layout::Shape::coefficients) says
+    /// Coefficients of a texel in steps, as many as [`TuckerShape::coefficients`](super::layout::TuckerShape::coefficients) says
     /// and zeros after them: ρ of both channels, those of chroma, those of luma.
     #[must_use]
     pub fn coefficients(&self, texel: Texel) -> [i32; MAX_COEFFICIENTS] {
         let Texel(texel) = texel;
         let stages = self.file.shape().stages();
-        let first = (texel as usize).wrapping_mul(stages.len());
+        let first = row_major(texel as usize, stages.len(), 0);
         let indices = self.file.indices.get(first..).unwrap_or(&[]);
         let mut sums = [0_i32; MAX_COEFFICIENTS];
         let mut words = self.words;
         for (stage, index) in stages.iter().zip(indices) {
-            let Stage { first, count, .. } = *stage;
-            let at = usize::from(*index).wrapping_mul(count.into());
+            let CodewordStage { first, count, .. } = *stage;
+            let at = row_major((*index).into(), count.into(), 0);
             let word = words.get(at..).unwrap_or(&[]).iter().take(count.into());
             for (sum, number) in sums.get_mut(usize::from(first)..).unwrap_or_default().iter_mut().zip(word) {
                 *sum = sum.wrapping_add((*number).into());
@@ -79,8 +80,8 @@ impl<'b> Expanded<'b> {
 
     /// Luma and chroma of a texel without the fading of low lights.
     #[must_use]
-    pub fn channels(&self, texel: Texel, cell: &Cell) -> [f32; 3] {
-        self.mixed(texel, &self.interpolated(cell))
+    pub fn channels(&self, texel: Texel, coord: &GridCoord) -> [f32; 3] {
+        self.mixed(texel, &self.interpolated(coord))
     }
 
     /// Y = Σ_c u_c b_c, C = ρ Y + Σ_c v_c q_c.
@@ -93,7 +94,7 @@ impl<'b> Expanded<'b> {
         let (of_chroma, of_luma) = others.split_at_checked(chroma).unwrap_or_default();
         let in_order = of_luma.iter().take(luma).chain(of_chroma).chain(of_chroma);
         let mut weights = [0.0_f32; MAX_COLUMNS];
-        for ((weight, step), factor) in weights.iter_mut().zip(in_order).zip(self.file.factors.factors.iter()) {
+        for ((weight, step), factor) in weights.iter_mut().zip(in_order).zip(self.file.header.column_scales.iter()) {
             #[allow(clippy::cast_precision_loss, reason = "below 2²⁰")]
             let value = *step as f32 * factor;
             *weight = value;
@@ -106,29 +107,29 @@ impl<'b> Expanded<'b> {
         let (of_a, others) = others.split_at_checked(chroma).unwrap_or_default();
         let (of_b, _) = others.split_at_checked(chroma).unwrap_or_default();
         let [y, a, b] = [of_luma, of_a, of_b].map(sum);
-        let [step_a, step_b] = [0, 1].map(|c| self.file.factors.ratio_steps.get(c).unwrap_or(0.0));
+        let [step_a, step_b] = [0, 1].map(|c| self.file.header.ratio_steps.get(c).unwrap_or(0.0));
         #[allow(clippy::cast_precision_loss, reason = "below 2²⁰")]
         let [ratio_a, ratio_b] = [ratio_a as f32 * step_a, ratio_b as f32 * step_b];
         [y, ratio_a * y + a, ratio_b * y + b]
     }
 
-    /// All columns at a place, in steps.
-    fn interpolated(&self, cell: &Cell) -> [f32; MAX_COLUMNS] {
+    /// All columns at coordinates, in steps.
+    fn interpolated(&self, coord: &GridCoord) -> [f32; MAX_COLUMNS] {
         let (grid, columns) = (self.catalog().grid(), self.file.shape().columns());
         let mut sums = [0.0_f32; MAX_COLUMNS];
         let row = |view: u32, light: u32| {
-            let node = (view as usize).wrapping_mul(grid.light_nodes()).wrapping_add(light as usize);
-            let first = node.wrapping_mul(columns);
+            let node = row_major(view as usize, grid.light_nodes(), light as usize);
+            let first = row_major(node, columns, 0);
             self.table.get(first..first.wrapping_add(columns)).unwrap_or(&[])
         };
-        let pairs = |first: crate::btf::grid::Place, second: crate::btf::grid::Place, stride: u8| {
+        let pairs = |first: LerpCoord, second: LerpCoord, stride: u8| {
             let ([a0, a1], [b0, b1]) = (first.nodes, second.nodes);
             let ([x0, x1], [y0, y1]) = (first.weights(), second.weights());
             let at = |a: u32, b: u32| a.wrapping_mul(stride.into()).wrapping_add(b);
             [(at(a0, b0), x0 * y0), (at(a0, b1), x0 * y1), (at(a1, b0), x1 * y0), (at(a1, b1), x1 * y1)]
         };
-        let lights = pairs(cell.alpha, cell.beta, grid.n_beta);
-        for (view, view_weight) in pairs(cell.phi, cell.theta, grid.n_theta) {
+        let lights = pairs(coord.alpha, coord.beta, grid.n_beta);
+        for (view, view_weight) in pairs(coord.phi, coord.theta, grid.n_theta) {
             let rows = lights.map(|(light, weight)| (row(view, light), view_weight * weight));
             add_rows(&mut sums, rows);
         }

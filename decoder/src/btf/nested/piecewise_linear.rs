@@ -1,4 +1,4 @@
-//! Densities that are linear between nodes and constant beyond them: integral, value and inverse.
+//! Densities that are piecewise linear between nodes and constant beyond them: integral, value and inverse.
 
 use crate::btf::angle::sqrt;
 use crate::btf::grid::MAX_NODES;
@@ -9,21 +9,22 @@ const ZEROS: Values = [[0.0; 4]; MAX_NODES as usize / 4];
 /// Share of all draws that fall anywhere with the same density, so that it is nowhere 0.
 const ANYWHERE: f32 = 1.0 / 32.0;
 
-/// A line with equidistant nodes, and pieces beyond the outer ones.
+/// Axis with equidistant nodes, and pieces beyond the outer ones.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ruler {
-    /// Of nodes, at least two.
+pub(super) struct Axis {
+    /// Number of nodes, at least two.
     count: u8,
-    /// Distance of two nodes, and one by that.
+    /// Distance of two nodes.
     step: f32,
+    /// 1 / `step`.
     per_length: f32,
     /// Length of the piece before the first node, and of that after the last.
     end: f32,
-    /// One by the length of the line.
+    /// Density that is the same everywhere: 1 / length of the axis.
     even: f32,
 }
 
-impl Ruler {
+impl Axis {
     /// From −`half` to `half` with `count` nodes from −`max` to `max`.
     pub(super) fn new(count: u8, max: f32, half: f32) -> Self {
         let pieces = f32::from(count) - 1.0;
@@ -31,43 +32,44 @@ impl Ruler {
     }
 }
 
-/// A density over a line, in proportion to values at its nodes but for draws that fall anywhere.
+/// Density over an axis, in proportion to values at its nodes but for draws that fall anywhere.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line<'a> {
-    ruler: &'a Ruler,
-    /// At the nodes.
+pub(super) struct PiecewiseLinear<'a> {
+    axis: &'a Axis,
+    /// Values at the nodes.
     values: Values,
-    /// What is added to all values.
+    /// Number that is added to all values.
     floor: f32,
-    /// Of the values and what is added, and one by that.
+    /// Integral of the values and what is added.
     integral: f32,
+    /// 1 / `integral`.
     per_integral: f32,
 }
 
-/// A place on a line.
+/// Place on an axis that was drawn.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drawn {
     /// The node before it.
     pub(super) node: u32,
     /// Weight of the next, 0 to 1.
     pub(super) weight: f32,
-    /// Length from the beginning of the line.
+    /// Length from the beginning of the axis.
     pub(super) at: f32,
     /// Share of draws per length there.
     pub(super) density: f32,
 }
 
-impl<'a> Line<'a> {
-    /// There is no density yet.
+impl<'a> PiecewiseLinear<'a> {
+    /// Over an axis, before there are values.
     #[inline]
-    pub(super) fn over(ruler: &'a Ruler) -> Self {
-        Self { ruler, values: ZEROS, floor: ruler.even, integral: 1.0, per_integral: 1.0 }
+    pub(super) fn over(axis: &'a Axis) -> Self {
+        Self { axis, values: ZEROS, floor: axis.even, integral: 1.0, per_integral: 1.0 }
     }
 
     /// Room for the values of four nodes at a time, the last of which may be more than there are.
     #[inline]
     pub(super) fn fours(&mut self) -> &mut [[f32; 4]] {
-        self.values.get_mut(..usize::from(self.ruler.count).div_ceil(4)).unwrap_or(&mut [])
+        self.values.get_mut(..usize::from(self.axis.count).div_ceil(4)).unwrap_or(&mut [])
     }
 
     /// Integrates the values. None of them is negative.
@@ -84,17 +86,17 @@ impl<'a> Line<'a> {
         let [a, b, c, d] = sums;
         let sum = ((a + b) + (c + d)) + rest.iter().sum::<f32>();
         let (first, last) = ends(nodes);
-        let integral = self.ruler.step * (sum - 0.5 * (first + last)) + self.ruler.end * (first + last);
+        let integral = self.axis.step * (sum - 0.5 * (first + last)) + self.axis.end * (first + last);
         const REST: f32 = 1.0 - ANYWHERE;
         // Nothing but zeros, as in a hostile file: all places are alike.
         let (all, floor) =
             if integral > 0.0 { (integral * (1.0 / REST), integral * (ANYWHERE / REST)) } else { (1.0, 1.0) };
-        (self.integral, self.per_integral, self.floor) = (all, 1.0 / all, floor * self.ruler.even);
+        (self.integral, self.per_integral, self.floor) = (all, 1.0 / all, floor * self.axis.even);
     }
 
     #[inline]
     fn nodes(&self) -> &[f32] {
-        self.values.as_flattened().get(..self.ruler.count.into()).unwrap_or(&[])
+        self.values.as_flattened().get(..self.axis.count.into()).unwrap_or(&[])
     }
 
     /// The place that has the share `part`, 0 to 1, of the density before it. It moves on without jumps as `part` grows.
@@ -103,13 +105,13 @@ impl<'a> Line<'a> {
         let nodes = self.nodes();
         let (first, last) = ends(nodes);
         let target = part * self.integral;
-        let rest = target - self.ruler.end * (first + self.floor);
+        let rest = target - self.axis.end * (first + self.floor);
         if rest < 0.0 {
             let low = first + self.floor;
             return Drawn { node: 0, weight: 0.0, at: target / low, density: low * self.per_integral };
         }
         // To the last node that does not lie beyond it. The search goes on to the end: where to stop would be guessed wrong.
-        let (half_step, of_floor) = (0.5 * self.ruler.step, self.ruler.step * self.floor);
+        let (half_step, of_floor) = (0.5 * self.axis.step, self.axis.step * self.floor);
         let (mut left, mut least, mut beyond) = (rest, rest.to_bits(), 0_u32);
         for (low, high) in nodes.iter().zip(nodes.get(1..).unwrap_or(&[])) {
             left -= half_step * (low + high) + of_floor;
@@ -119,31 +121,31 @@ impl<'a> Line<'a> {
         }
         let rest = f32::from_bits(least);
         let (pieces, final_cell) =
-            (u32::from(self.ruler.count).wrapping_sub(1), u32::from(self.ruler.count).wrapping_sub(2));
+            (u32::from(self.axis.count).wrapping_sub(1), u32::from(self.axis.count).wrapping_sub(2));
         let passed = pieces.wrapping_sub(beyond);
         let node = passed.min(final_cell);
         #[allow(clippy::cast_precision_loss, reason = "0 to 62")]
-        let start = self.ruler.end + node as f32 * self.ruler.step;
+        let start = self.axis.end + node as f32 * self.axis.step;
         if passed > final_cell {
             let last = last + self.floor;
-            let at = start + self.ruler.step + (rest / last).min(self.ruler.end);
+            let at = start + self.axis.step + (rest / last).min(self.axis.end);
             return Drawn { node, weight: 1.0, at, density: last * self.per_integral };
         }
         let (low, high) = pair(nodes, node);
         // low u + ½ (high − low) u² = rest / step, in the form that subtracts nothing from nothing; of an integral of 1, so
         // that squares stay within range.
         let [low, slope, rest] =
-            [low + self.floor, high - low, 2.0 * self.ruler.per_length * rest].map(|x| x * self.per_integral);
+            [low + self.floor, high - low, 2.0 * self.axis.per_length * rest].map(|x| x * self.per_integral);
         let weight = (rest / (low + sqrt(low * low + slope * rest))).min(1.0);
-        Drawn { node, weight, at: start + weight * self.ruler.step, density: low + weight * slope }
+        Drawn { node, weight, at: start + weight * self.axis.step, density: low + weight * slope }
     }
 
     /// Density at a place, as [`Self::draw`] gives it.
     #[inline]
     pub(super) fn at(&self, place: f32) -> f32 {
-        let last = u32::from(self.ruler.count).wrapping_sub(1);
+        let last = u32::from(self.axis.count).wrapping_sub(1);
         #[allow(clippy::cast_precision_loss, reason = "0 to 63")]
-        let t = ((place - self.ruler.end) * self.ruler.per_length).max(0.0).min(last as f32);
+        let t = ((place - self.axis.end) * self.axis.per_length).max(0.0).min(last as f32);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 63")]
         let node = (t as u32).min(last.wrapping_sub(1));
         let (low, high) = pair(self.nodes(), node);
@@ -153,7 +155,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// First and last of them.
+/// First and last value.
 #[inline]
 fn ends(nodes: &[f32]) -> (f32, f32) {
     match nodes {

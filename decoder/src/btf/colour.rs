@@ -1,8 +1,8 @@
-//! How luma and chroma become colours.
+//! From luma and chroma to colours, and back.
 
-/// What the three channels of a file are.
+/// Meaning of the three channels of a file, luma and two of chroma.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Tone {
+pub enum ColourEncoding {
     /// 8-bit images: Y, Cr and Cb of sRGB values (Rec. 601), 1 standing for `white` in linear units.
     Display {
         /// Linear value of display white.
@@ -17,9 +17,9 @@ pub enum Tone {
     },
 }
 
-/// Cr = 0.713 (R − Y), Cb = 0.564 (B − Y).
+/// Factors of chroma: Cr = 0.713 (R − Y), Cb = 0.564 (B − Y).
 pub const CHROMA: [f32; 2] = [0.713, 0.564];
-/// Shares of R, G and B in Y.
+/// Weights of R, G and B in Y (Rec. 601).
 pub const LUMA: [f32; 3] = [0.299, 0.587, 0.114];
 /// Linear Rec. 709 from XYZ.
 const RGB_FROM_XYZ: [[f32; 3]; 3] =
@@ -27,14 +27,14 @@ const RGB_FROM_XYZ: [[f32; 3]; 3] =
 /// XYZ from linear Rec. 709.
 const XYZ_FROM_RGB: [[f32; 3]; 3] =
     [[0.412_391, 0.357_584, 0.180_481], [0.212_639, 0.715_169, 0.072_192], [0.019_331, 0.119_195, 0.950_532]];
-/// u' and v' of the white D65, for what has no colour.
+/// u' and v' of the white D65, for black.
 const WHITE_UV: [f32; 2] = [0.197_83, 0.468_32];
 
 fn product(matrix: &[[f32; 3]; 3], [x, y, z]: [f32; 3]) -> [f32; 3] {
     matrix.map(|[a, b, c]| a * x + b * y + c * z)
 }
 
-impl Tone {
+impl ColourEncoding {
     /// Luma and two chroma channels of a pixel as images have it: sRGB values 0 to 1, or linear ones.
     #[must_use]
     pub fn encode(self, rgb: [f32; 3]) -> [f32; 3] {
@@ -57,14 +57,14 @@ impl Tone {
 
     /// log2(1 + peak / toe), which is worth keeping for many pixels; 0 of displays.
     #[must_use]
-    pub(super) fn octaves(self) -> f32 {
+    pub(in crate::btf) fn octaves(self) -> f32 {
         match self {
             Self::Display { .. } => 0.0,
             Self::LogLuv { toe, peak } => libm::log2f(1.0 + peak / toe),
         }
     }
 
-    /// The pixel as images have it: sRGB values 0 to 1, or linear ones from 0.
+    /// Pixel as images have it: sRGB values 0 to 1, or linear ones from 0.
     #[must_use]
     pub fn decode(self, channels: [f32; 3]) -> [f32; 3] {
         self.decode_in(self.octaves(), channels)
@@ -72,7 +72,7 @@ impl Tone {
 
     /// [`Self::decode`] with [`Self::octaves`].
     #[inline]
-    pub(super) fn decode_in(self, octaves: f32, [y, a, b]: [f32; 3]) -> [f32; 3] {
+    pub(in crate::btf) fn decode_in(self, octaves: f32, [y, a, b]: [f32; 3]) -> [f32; 3] {
         match self {
             Self::Display { .. } => {
                 const PER_CHROMA: [f32; 2] = [1.0 / CHROMA[0], 1.0 / CHROMA[1]];
@@ -112,22 +112,22 @@ mod tests {
 
     #[test]
     fn colours_come_back() {
-        let tones = [Tone::Display { white: 1.0 }, Tone::LogLuv { toe: 0.01, peak: 50.0 }];
-        for tone in tones {
+        let encodings = [ColourEncoding::Display { white: 1.0 }, ColourEncoding::LogLuv { toe: 0.01, peak: 50.0 }];
+        for encoding in encodings {
             for rgb in [[0.2, 0.5, 0.9], [1.0; 3], [0.01, 0.02, 0.005], [0.9, 0.05, 0.1], [0.0; 3]] {
-                let back = tone.decode(tone.encode(rgb));
+                let back = encoding.decode(encoding.encode(rgb));
                 let error = rgb.iter().zip(back).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
-                assert!(error < 2e-4, "{tone:?}: {rgb:?} {back:?}");
+                assert!(error < 2e-4, "{encoding:?}: {rgb:?} {back:?}");
             }
         }
-        let bright = Tone::LogLuv { toe: 0.01, peak: 50.0 };
+        let bright = ColourEncoding::LogLuv { toe: 0.01, peak: 50.0 };
         let [l, ..] = bright.encode([50.0; 3]);
         assert!((l - 1.0).abs() < 1e-3, "{l}: the peak");
     }
 
     #[test]
     fn display_values_become_linear() {
-        let [mid, ..] = Tone::Display { white: 2.0 }.linear([0.5; 3]);
+        let [mid, ..] = ColourEncoding::Display { white: 2.0 }.linear([0.5; 3]);
         assert!((mid - 2.0 * 0.214_041).abs() < 1e-5, "{mid}");
     }
 }

@@ -1,11 +1,12 @@
-//! Values of apparent BRDFs by chained look-ups (their eq. 4), linear between the nodes of all four axes (their fig. 6).
+//! Values of apparent BRDFs by chained look-ups (Havran et al. 2010, eq. 4), linear between the nodes of all four axes
+//! (their fig. 6).
 
-use super::reader::Nested;
+use super::codebooks::NestedCodebooks;
 use super::scale::Scale;
 use super::stage::Stage;
-use crate::btf::grid::{Cell, Place};
+use crate::btf::coord::{GridCoord, LerpCoord};
 
-/// One of the four nodes of view around a place.
+/// One of the four nodes of view around coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     /// Row of M, or of P2 in later stages.
@@ -16,12 +17,12 @@ pub(super) struct Corner {
     pub(super) weight: f32,
 }
 
-/// A number for each node of light around a place, `[α][β]`.
+/// A number for each node of light around coordinates, `[α][β]`.
 type Lights = [f32; 4];
 
 /// Weights of the four nodes of light.
-fn light_weights(cell: &Cell) -> Lights {
-    let ([a0, a1], [b0, b1]) = (cell.alpha.weights(), cell.beta.weights());
+fn light_weights(coord: &GridCoord) -> Lights {
+    let ([a0, a1], [b0, b1]) = (coord.alpha.weights(), coord.beta.weights());
     [a0 * b0, a0 * b1, a1 * b0, a1 * b1]
 }
 
@@ -35,44 +36,44 @@ fn total([a, b, c, d]: &[Lights; 4]) -> Lights {
     add(add(*a, *b), add(*c, *d))
 }
 
-impl Nested<'_> {
+impl NestedCodebooks<'_> {
     /// Luma and chroma of texel `texel` without the fading of low lights.
-    pub(crate) fn channels(&self, texel: u32, cell: &Cell) -> [f32; 3] {
+    pub(crate) fn channels(&self, texel: u32, coord: &GridCoord) -> [f32; 3] {
         let (first, others) = self.stages();
-        let weights = light_weights(cell);
+        let weights = light_weights(coord);
         let (p4, c6, tint) = first.texels.one_and_rest(texel, self.tint_mask());
-        let [a, b, c, d] = first.corners::<false>(p4, c6, cell.phi, cell.theta);
+        let [a, b, c, d] = first.corners::<false>(p4, c6, coord.phi, coord.theta);
         let rows = (self.merged(a.row), self.merged(b.row), self.merged(c.row), self.merged(d.row));
         let ((p2_a, i2_a), (p2_b, i2_b), (p2_c, i2_c), (p2_d, i2_d)) = rows;
         // Weights · Y of the nodes of light, for each node of view.
-        let luma = |p2: u32, corner: &Corner| first.luma::<false>(p2, corner, cell, weights);
+        let luma = |p2: u32, corner: &Corner| first.luma::<false>(p2, corner, coord, weights);
         let lumas = [luma(p2_a, &a), luma(p2_b, &b), luma(p2_c, &c), luma(p2_d, &d)];
         let first_luma = sum(total(&lumas)) * (1.0 / 255.0);
         let mut luma = first_luma;
         for stage in others {
-            luma += stage.later_luma(texel, cell, weights);
+            luma += stage.later_luma(texel, coord, weights);
         }
         let hues = [i2_a, i2_b, i2_c, i2_d];
         let ([first_a, first_b], [step_a, step_b]) = (self.chroma_first(), self.chroma_step());
         let [tint_a, tint_b] = self.tint(tint);
         if self.is_relative() {
             // The brighter of the nodes count for more.
-            let [code_a, code_b] = self.chroma(hues, &lumas, cell);
+            let [code_a, code_b] = self.chroma(hues, &lumas, coord);
             let ratio = if first_luma > 0.0 { 1.0 / (255.0 * first_luma) } else { 0.0 };
             let a = first_a + step_a * (code_a * ratio + tint_a);
             let b = first_b + step_b * (code_b * ratio + tint_b);
             [luma, luma * a, luma * b]
         } else {
             let share = |corner: Corner| weights.map(|weight| corner.weight * weight);
-            let [code_a, code_b] = self.chroma(hues, &[share(a), share(b), share(c), share(d)], cell);
+            let [code_a, code_b] = self.chroma(hues, &[share(a), share(b), share(c), share(d)], coord);
             [luma, first_a + step_a * (code_a + tint_a), first_b + step_b * (code_b + tint_b)]
         }
     }
 
     /// Codes of chroma of four rows of I2, each times its shares.
     #[inline]
-    fn chroma(&self, [i2_a, i2_b, i2_c, i2_d]: [u32; 4], shares: &[Lights; 4], cell: &Cell) -> [f32; 2] {
-        let at = [self.i2().before(cell.first_alpha()), self.i1().before(cell.first_beta())];
+    fn chroma(&self, [i2_a, i2_b, i2_c, i2_d]: [u32; 4], shares: &[Lights; 4], coord: &GridCoord) -> [f32; 2] {
+        let at = [self.i2().before(coord.first_alpha()), self.i1().before(coord.first_beta())];
         let mut sums = [0.0; 4];
         if i2_a == i2_b && i2_a == i2_c && i2_a == i2_d {
             // Neighbours of one colour are looked up once.
@@ -109,9 +110,15 @@ impl Nested<'_> {
 }
 
 impl Stage<'_> {
-    /// The four nodes of view around a place, of row `p4` of P4 times c_P6.
+    /// The four nodes of view around coordinates, of row `p4` of P4 times c_P6.
     #[inline(always)]
-    pub(super) fn corners<const SIGNED: bool>(&self, p4: u32, c6: Scale, phi: Place, theta: Place) -> [Corner; 4] {
+    pub(super) fn corners<const SIGNED: bool>(
+        &self,
+        p4: u32,
+        c6: Scale,
+        phi: LerpCoord,
+        theta: LerpCoord,
+    ) -> [Corner; 4] {
         let ([phi_low, phi_high], [theta_low, theta_high]) = (phi.weights(), theta.weights());
         let [at_theta, _] = theta.nodes;
         let at_theta = self.p3.before(at_theta);
@@ -130,32 +137,32 @@ impl Stage<'_> {
 
     /// Luma of the nodes of light in steps of a code, of row `p2` of P2, times all weights.
     #[inline(always)]
-    fn luma<const SIGNED: bool>(&self, p2: u32, corner: &Corner, cell: &Cell, weights: Lights) -> Lights {
-        let [(low, c_low), (high, c_high)] = self.p2.two::<SIGNED>(p2, cell.first_alpha());
-        let beta = cell.first_beta();
-        let (([v0, v1], h_low), ([v2, v3], h_high)) = (self.slice_pair(low, beta), self.slice_pair(high, beta));
-        let scale = |c2: Scale, height: Scale| corner.weight * corner.scale.times(c2).times(height).value();
-        let (low, high) = (scale(c_low, h_low), scale(c_high, h_high));
+    fn luma<const SIGNED: bool>(&self, p2: u32, corner: &Corner, coord: &GridCoord, weights: Lights) -> Lights {
+        let [(low, c_low), (high, c_high)] = self.p2.two::<SIGNED>(p2, coord.first_alpha());
+        let beta = coord.first_beta();
+        let (([v0, v1], s_low), ([v2, v3], s_high)) = (self.slice_pair(low, beta), self.slice_pair(high, beta));
+        let scale = |c2: Scale, slice: Scale| corner.weight * corner.scale.times(c2).times(slice).value();
+        let (low, high) = (scale(c_low, s_low), scale(c_high, s_high));
         let code = |code: u8| if SIGNED { f32::from(code.cast_signed()) } else { f32::from(code) };
         let [w0, w1, w2, w3] = weights;
         [low * code(v0) * w0, low * code(v1) * w1, high * code(v2) * w2, high * code(v3) * w3]
     }
 
     /// Luma that a later stage adds.
-    fn later_luma(&self, texel: u32, cell: &Cell, weights: Lights) -> f32 {
+    fn later_luma(&self, texel: u32, coord: &GridCoord, weights: Lights) -> f32 {
         if self.is_signed {
-            self.all_luma::<true>(texel, cell, weights) * (1.0 / 127.0)
+            self.all_luma::<true>(texel, coord, weights) * (1.0 / 127.0)
         } else {
-            self.all_luma::<false>(texel, cell, weights) * (1.0 / 255.0)
+            self.all_luma::<false>(texel, coord, weights) * (1.0 / 255.0)
         }
     }
 
     /// Luma of a stage whose P3 leads to P2, in steps of a code.
     #[inline]
-    fn all_luma<const SIGNED: bool>(&self, texel: u32, cell: &Cell, weights: Lights) -> f32 {
+    fn all_luma<const SIGNED: bool>(&self, texel: u32, coord: &GridCoord, weights: Lights) -> f32 {
         let (p4, c6) = self.texels.one::<SIGNED>(texel, 0);
-        let [a, b, c, d] = self.corners::<SIGNED>(p4, c6, cell.phi, cell.theta);
-        let luma = |corner: &Corner| self.luma::<SIGNED>(corner.row, corner, cell, weights);
+        let [a, b, c, d] = self.corners::<SIGNED>(p4, c6, coord.phi, coord.theta);
+        let luma = |corner: &Corner| self.luma::<SIGNED>(corner.row, corner, coord, weights);
         sum(total(&[luma(&a), luma(&b), luma(&c), luma(&d)]))
     }
 }

@@ -1,0 +1,25 @@
+//! Families of files: what a `.subsurf` file can hold.
+
+use core::fmt;
+
+/// Family of a file, which says what type reads it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Family {
+    /// Diffuse BSSRDF of a patch, read by [`Bssrdf`](crate::Bssrdf).
+    Bssrdf,
+    /// Bidirectional texture functions in nested codebooks, read by [`NestedBtf`](crate::NestedBtf).
+    NestedBtf,
+    /// Bidirectional texture functions as a Tucker decomposition, read by [`FactoredBtf`](crate::FactoredBtf).
+    FactoredBtf,
+}
+
+impl fmt::Display for Family {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Bssrdf => "BSSRDF",
+            Self::NestedBtf => "nested BTF",
+            Self::FactoredBtf => "factored BTF",
+        })
+    }
+}

@@ -1,0 +1,112 @@
+//! Kinds of sections: their four letters and what they hold.
+
+use core::fmt;
+
+/// The enum and its conversions from one list of sections.
+macro_rules! sections {
+    ($($(#[$about:meta])* $name:ident = $kind:literal, $content:literal;)*) => {
+        /// A part of the file, to find it and to say where something is wrong.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub enum Section {
+            /// Magic, version, size and section table.
+            FileHeader,
+            $($(#[$about])* $name,)*
+            /// `P1S0` to `P6S3`: a codebook of luma.
+            Codebook {
+                /// 1, 2, 3, 4 or 6.
+                book: u8,
+                /// Additive stage, 0 to 3.
+                stage: u8,
+            },
+            /// A kind that this version does not know.
+            Other([u8; 4]),
+        }
+
+        impl Section {
+            /// The section of a four-letter kind.
+            #[must_use]
+            pub const fn from_kind(kind: [u8; 4]) -> Self {
+                match &kind {
+                    $($kind => Self::$name,)*
+                    [b'P', book @ (b'1'..=b'4' | b'6'), b'S', stage @ b'0'..=b'3'] => {
+                        Self::Codebook { book: book.wrapping_sub(b'0'), stage: stage.wrapping_sub(b'0') }
+                    }
+                    _ => Self::Other(kind),
+                }
+            }
+
+            /// The four letters that stand for this section in the file; the file header has none and gives zeros.
+            #[must_use]
+            pub const fn kind(self) -> [u8; 4] {
+                match self {
+                    Self::FileHeader => [0; 4],
+                    $(Self::$name => *$kind,)*
+                    Self::Codebook { book, stage } => [b'P', b'0'.wrapping_add(book), b'S', b'0'.wrapping_add(stage)],
+                    Self::Other(kind) => kind,
+                }
+            }
+        }
+
+        impl fmt::Display for Section {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                let content = match self {
+                    Self::FileHeader => return f.write_str("file header"),
+                    $(Self::$name => $content,)*
+                    Self::Codebook { book, stage } => {
+                        return write!(f, "P{book}S{stage} (codebook P{book}, stage {stage})");
+                    }
+                    Self::Other(kind) => return write!(f, "{}", kind.escape_ascii()),
+                };
+                write!(f, "{} ({content})", self.kind().escape_ascii())
+            }
+        }
+    };
+}
+
+sections! {
+    /// `BSSR`: size, pitch and model of a diffuse BSSRDF.
+    BssrdfHeader = b"BSSR", "material header";
+    /// `PROF`: base scattering profiles.
+    BaseProfiles = b"PROF", "base scattering profiles";
+    /// `PRFH`: base scattering profiles as half floats.
+    HalfProfiles = b"PRFH", "base scattering profiles, half floats";
+    /// `MIXR`: mixture ratios.
+    MixtureRatios = b"MIXR", "mixture ratios";
+    /// `MIX8`: mixture ratios in 8 bits.
+    SmallRatios = b"MIX8", "mixture ratios, 8 bits";
+    /// `BIDX`: base-material indices.
+    BaseIndices = b"BIDX", "base-material indices";
+    /// `PAIR`: palette of pairs of base materials.
+    Pairs = b"PAIR", "palette of pairs";
+    /// `CODE`: number in the palette, and mixture ratio in 5 bits.
+    Codes = b"CODE", "palette codes";
+    /// `LSPP`: per-pixel local scattering profiles.
+    LocalProfiles = b"LSPP", "local scattering profiles";
+    /// `BTFH`: model, colour encoding and grid of a BTF.
+    BtfHeader = b"BTFH", "BTF header";
+    /// `MATS`: names and sizes of a BTF's materials.
+    Materials = b"MATS", "materials";
+    /// `BOOK`: sizes of the nested codebooks.
+    CodebookSizes = b"BOOK", "sizes of codebooks";
+    /// `MERG`: codebook M, which joins P2 and I2.
+    Merged = b"MERG", "codebook M";
+    /// `CHR2`: codebook I2, chroma over α.
+    ChromaSlices2 = b"CHR2", "codebook I2";
+    /// `CHR1`: codebook I1, chroma over sin β.
+    ChromaSlices1 = b"CHR1", "codebook I1";
+    /// `CHRC`: codebook C, values of chroma.
+    Colours = b"CHRC", "codebook C";
+    /// `TINT`: tints of texels.
+    Tints = b"TINT", "tints of texels";
+    /// `FACT`: sizes and quantisation steps of a Tucker decomposition.
+    TuckerHeader = b"FACT", "numbers and steps of factors";
+    /// `AXES`: factors of views and of lights.
+    Axes = b"AXES", "axes of views and lights";
+    /// `CORE`: core tensor between the axes, entropy-coded.
+    Core = b"CORE", "core between axes";
+    /// `WORD`: codewords of texels, entropy-coded.
+    Codewords = b"WORD", "codewords of texels";
+    /// `INDX`: indices of codewords, for each texel.
+    TexelIndices = b"INDX", "indices of texels";
+}
