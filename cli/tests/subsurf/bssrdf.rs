@@ -39,7 +39,7 @@ fn from_simulation_to_judgement() {
     // Three by three pictures of 9 × 7 pixels, 28 times enlarged, with gaps of 6.
     assert_eq!((sheet.width(), sheet.height()), (3 * (9 * 28 + 6) + 6, 3 * (7 * 28 + 6) + 6));
 
-    succeed(folder, "simulate --scene jade --size 5x5 --window 5 --thickness 5 -o other.npy");
+    succeed(folder, "simulate --material jade --size 5x5 --window 5 --thickness 5 -o other.npy");
     assert_refused(&run(folder, "compare other.npy direct.subsurf"), &["5 × 5", "9 × 7", "not the same material"]);
 }
 
@@ -47,7 +47,7 @@ fn from_simulation_to_judgement() {
 fn simulations_depend_on_their_seed_alone() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let args = "simulate --scene marble --size 8 --window 5 --thickness 5 --noise 1e5 -o";
+    let args = "simulate --material marble --size 8 --window 5 --thickness 5 --noise 1e5 -o";
     let with = |threads: &str, name: &str, more: &str| {
         let mut command = command(folder);
         let words = args.split_whitespace().chain([name]).chain(more.split_whitespace());
@@ -91,8 +91,8 @@ fn images_drive_simulations() {
     refused("--maps albedo=grey.png --maps mfp=far", &["mfp=far", "IMAGE:FROM:TO"]);
     refused("--maps albedo=grey.png --maps mfp=0", &["mean free path of 0 mm"]);
     refused("--maps marble", &["NAME=VALUE"]);
-    assert_refused(&run(folder, "simulate --scene onyx --window 4 -o no.npy"), &["--window is 4", "odd"]);
-    assert_refused(&run(folder, "simulate --scene onyx --pitch 0 -o no.npy"), &["--pitch is 0", "positive"]);
+    assert_refused(&run(folder, "simulate --material onyx --window 4 -o no.npy"), &["--window is 4", "odd"]);
+    assert_refused(&run(folder, "simulate --material onyx --pitch 0 -o no.npy"), &["--pitch is 0", "positive"]);
     assert!(!folder.join("no.npy").exists(), "nothing is written");
 }
 

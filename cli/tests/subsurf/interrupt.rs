@@ -9,7 +9,7 @@ use crate::common::{command, files, simulate, succeed};
 fn an_interrupted_run_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let mut long = command(folder.path());
-    long.args(["simulate", "--scene", "onyx", "--size", "200", "-o", "a.npy"]).stderr(Stdio::null());
+    long.args(["simulate", "--material", "onyx", "--size", "200", "-o", "a.npy"]).stderr(Stdio::null());
     let mut child = long.spawn().unwrap();
     std::thread::sleep(Duration::from_millis(1_500));
     let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
