@@ -13,7 +13,7 @@ fn from_simulation_to_judgement() {
     assert_eq!(sidecar["simulated"]["source"]["scene"], "chessboard");
 
     for (method, bytes) in
-        [("direct", 12 * 4 * 3 + 6 * 63 + 156), ("clusters", 12 * 4 * 3 + 63 + 132), ("lsp", 12 * 63 * 3 + 108)]
+        [("direct", 12 * 4 * 3 + 6 * 63 + 156), ("clusters", 12 * 4 * 3 + 63 + 132), ("song2009", 12 * 63 * 3 + 108)]
     {
         let report = json(folder, &format!("encode a.npy -M 4 --method {method} -o {method}.subsurf --json"));
         assert_eq!(report["bytes"], bytes, "{method}");

@@ -24,7 +24,7 @@ fn an_interrupted_fit_is_written() {
     let folder = folder.path();
     simulate(folder, "a");
     let mut long = command(folder);
-    long.args(["encode", "a.npy", "--method", "paper", "-K", "5", "-M", "200"]);
+    long.args(["encode", "a.npy", "--method", "yatagawa2020", "-K", "5", "-M", "200"]);
     let mut child = long.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
     std::thread::sleep(Duration::from_millis(1_000));
     let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
