@@ -7,25 +7,23 @@ use std::time::Instant;
 use serde_json::json;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
-use subsurf_encoder::bssrdf::{Method, Options};
+use subsurf_encoder::bssrdf::{Method, Options, encode};
 use subsurf_encoder::capture::{Capture, Overrides, Scalar};
-use subsurf_encoder::metrics::Light;
-use subsurf_encoder::simulate::{Finish, Scene};
+use subsurf_encoder::metrics::bssrdf::{Judgement, Light, judge};
+use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Request};
 use subsurf_encoder::write_bytes;
 use subsurf_runtime::{Backend, Gpu, Material, PatchLight, PatchRenderer, Region, layout_of};
 use subsurf_scene::torus;
 use subsurf_shaders::cpu;
 use subsurf_viewer::{MappingChoice, RenderRequest, Scattering, human};
 
-use crate::compare::{Judgement, db, judge};
+use crate::compare::{self, db};
 use crate::devices;
-use crate::encode::encode;
 use crate::outln;
 use crate::picture::{montage, triptych, write_png};
 use crate::program::failure::bad_request;
 use crate::program::progress::Bars;
 use crate::render::{draw_mesh, draw_patch, patch_irradiance};
-use crate::simulate::Request;
 
 /// Simulate, encode, judge and draw one material, and leave pictures and a table in a folder.
 #[derive(clap::Args)]
@@ -48,10 +46,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 
     outln!("1. Simulating a capture of a synthetic onyx, {SIZE} × {SIZE} pixels, window {WINDOW} (under a minute) ..");
     let start = Instant::now();
-    let map = Scene::Onyx.map([SIZE; 2], Addressing::Repeat, 1);
+    let map = BuiltinMaterial::Onyx.map([SIZE; 2], Addressing::Repeat, 1);
     let request = Request {
         map: &map,
-        source: json!({ "scene": Scene::Onyx.name() }),
+        source: json!({ "scene": BuiltinMaterial::Onyx.name() }),
         addressing: Addressing::Repeat,
         pitch_mm: PITCH_MM,
         window: WINDOW,
@@ -62,24 +60,25 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         seed: 1,
         scalar: Scalar::F32,
     };
-    request.write(&path("onyx.npy"))?;
+    request.write(&path("onyx.npy"), &Bars::new())?;
     outln!("   {:.1} s", start.elapsed().as_secs_f64());
 
     outln!("2. Encoding it: per-pixel profiles, and 2-BMPP with {BASE_MATERIALS} base materials ..");
     let capture = Capture::open(&path("onyx.npy"), &Overrides::default())?;
     let mut judgements = Vec::new();
     let mut files = Vec::new();
-    for (method, name) in [(Method::Lsp, "onyx-profiles.subsurf"), (Method::Direct, "onyx.subsurf")] {
+    for (method, name) in [(Method::Song2009, "onyx-profiles.subsurf"), (Method::Direct, "onyx.subsurf")] {
         let start = Instant::now();
         let options = Options { method, base_materials: BASE_MATERIALS, ..Options::default() };
-        let encoded = encode(&capture, None, &options, &path(name))?;
+        let encoded = encode(&capture, None, &options, &Bars::new())?;
+        write_bytes(&path(name), &encoded.bytes)?;
         outln!("   {name}: {} in {:.1} s", human(encoded.bytes.len() as u64), start.elapsed().as_secs_f64());
         let material = Bssrdf::parse(&encoded.bytes)?;
         judgements.push(judge(&capture, &material, encoded.bytes.len() as u64, &Bars::new())?);
         files.push(encoded.bytes);
     }
     let material = Bssrdf::parse(&files[1])?;
-    judgements[1].print();
+    compare::print(&judgements[1]);
     let rows: Vec<_> = judgements[1].comparison.lit.iter().map(|relit| triptych(relit, SIZE)).collect();
     write_png(&path("comparison.png"), &montage(&rows))?;
 

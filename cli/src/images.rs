@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use subsurf_decoder::btf::ColourEncoding;
-use subsurf_encoder::btf::{Folder, Images};
+use subsurf_encoder::capture::{Folder, Images};
 use subsurf_encoder::{Error, Result};
 use subsurf_shaders::cpu;
 use subsurf_viewer::BtfImageSet;

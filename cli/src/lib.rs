@@ -4,10 +4,9 @@
 //! `subsurf-runtime` and `subsurf-viewer` instead.
 
 pub mod compare;
-mod curve;
 mod demo;
 pub mod devices;
-pub mod encode;
+mod encode;
 pub mod images;
 pub mod info;
 pub mod options;
@@ -33,7 +32,7 @@ pub struct Cli {
 const EXAMPLES: &str = "\
 Try it:
   subsurf demo                                            all of it once, into ./demo-out
-  subsurf simulate --scene onyx -o onyx.npy               a capture where nothing was measured
+  subsurf simulate --material onyx -o onyx.npy            a capture where nothing was measured
   subsurf encode onyx.npy -o onyx.subsurf                 fit 128 base materials, two per pixel
   subsurf compare onyx.npy onyx.subsurf --images out      how far off, in numbers and pictures
   subsurf render onyx.subsurf --mesh bunny.ply -o b.png   draw it

@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use image::{ImageFormat, Rgb, RgbImage};
-use subsurf_encoder::metrics::Relit;
+use subsurf_encoder::metrics::bssrdf::Relit;
 use subsurf_encoder::write_bytes;
 
 /// Display values, row by row, as an image.

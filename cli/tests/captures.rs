@@ -114,7 +114,7 @@ fn half_floats_are_captures_too() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     for (name, half) in [("full", ""), ("half", "--half")] {
-        succeed(folder, &format!("simulate --scene jade --size 8 --window 5 --thickness 5 {half} -o {name}.npy"));
+        succeed(folder, &format!("simulate --material jade --size 8 --window 5 --thickness 5 {half} -o {name}.npy"));
         succeed(folder, &format!("encode {name}.npy -M 8"));
     }
     let bytes = |name: &str| std::fs::metadata(folder.join(name)).unwrap().len();

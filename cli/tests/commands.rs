@@ -44,7 +44,7 @@ fn from_simulation_to_judgement() {
     // Three by three pictures of 9 × 7 pixels, 28 times enlarged, with gaps of 6.
     assert_eq!((sheet.width(), sheet.height()), (3 * (9 * 28 + 6) + 6, 3 * (7 * 28 + 6) + 6));
 
-    succeed(folder, "simulate --scene jade --size 5x5 --window 5 --thickness 5 -o other.npy");
+    succeed(folder, "simulate --material jade --size 5x5 --window 5 --thickness 5 -o other.npy");
     assert_refused(&run(folder, "compare other.npy direct.subsurf"), &["5 × 5", "9 × 7", "not the same material"]);
 }
 
@@ -52,7 +52,7 @@ fn from_simulation_to_judgement() {
 fn simulations_depend_on_their_seed_alone() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let args = "simulate --scene marble --size 8 --window 5 --thickness 5 --noise 1e5 -o";
+    let args = "simulate --material marble --size 8 --window 5 --thickness 5 --noise 1e5 -o";
     let with = |threads: &str, name: &str, more: &str| {
         let mut command = command(folder);
         let words = args.split_whitespace().chain([name]).chain(more.split_whitespace());
@@ -96,8 +96,8 @@ fn images_drive_simulations() {
     refused("--maps albedo=grey.png --maps mfp=far", &["mfp=far", "IMAGE:FROM:TO"]);
     refused("--maps albedo=grey.png --maps mfp=0", &["mean free path of 0 mm"]);
     refused("--maps marble", &["NAME=VALUE"]);
-    assert_refused(&run(folder, "simulate --scene onyx --window 4 -o no.npy"), &["--window is 4", "odd"]);
-    assert_refused(&run(folder, "simulate --scene onyx --pitch 0 -o no.npy"), &["--pitch is 0", "positive"]);
+    assert_refused(&run(folder, "simulate --material onyx --window 4 -o no.npy"), &["--window is 4", "odd"]);
+    assert_refused(&run(folder, "simulate --material onyx --pitch 0 -o no.npy"), &["--pitch is 0", "positive"]);
     assert!(!folder.join("no.npy").exists(), "nothing is written");
 }
 
@@ -211,7 +211,7 @@ fn btfs_from_images_to_judgement() {
     assert!(json(folder, "info factors.subsurf --json")["parts"]["expanded_bytes"].as_u64().unwrap() > 100_000);
     assert_refused(&run(folder, "render factors.subsurf -o factors.png"), &["factors", "--method nested"]);
     // The paper's encoder writes files as nested ones are.
-    let paper = json(folder, "encode btf wood --method paper -o paper.subsurf --json");
+    let paper = json(folder, "encode btf wood --method havran2010 -o paper.subsurf --json");
     assert!(paper["error"]["mssim"]["mean"].as_f64().unwrap() > 0.7, "{paper}");
 
     assert_refused(&run(folder, "encode btf nothing"), &["nothing", "a folder of images"]);
@@ -361,7 +361,7 @@ fn without_a_driver_the_exit_code_says_so() {
 fn an_interrupted_run_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let mut long = command(folder.path());
-    long.args(["simulate", "--scene", "onyx", "--size", "200", "-o", "a.npy"]).stderr(Stdio::null());
+    long.args(["simulate", "--material", "onyx", "--size", "200", "-o", "a.npy"]).stderr(Stdio::null());
     let mut child = long.spawn().unwrap();
     std::thread::sleep(Duration::from_millis(1_500));
     let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();

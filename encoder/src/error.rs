@@ -1,4 +1,4 @@
-//! What can go wrong, sorted by whose fault it is.
+//! Errors, sorted by whose fault they are.
 
 use std::fmt::Display;
 use std::io;
@@ -14,30 +14,36 @@ pub enum Error {
     /// An input file is not what it should be.
     #[error("{}: {found}; expected {expected}", path.display())]
     Input {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What is there.
+        /// What was found.
         found: String,
-        /// What should be there.
+        /// What was expected.
         expected: String,
     },
     /// A `.subsurf` file was refused by the decoder.
     #[error("{}: {source}", path.display())]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The decoder's reason.
+        /// Reason of the decoder.
         source: subsurf_decoder::ReadError,
     },
-    /// The request itself makes no sense.
+    /// A request that makes no sense, or that nothing can meet; the text says what to ask for instead.
     #[error("{0}")]
     Request(String),
-    /// Writing failed.
+    /// The decoder refuses a file that was just made: a bug of this library, whatever it was given.
+    #[error("the file that was just made cannot be read: {source}; this is a bug of subsurf, please report it")]
+    OwnOutput {
+        /// Reason of the decoder.
+        source: subsurf_decoder::ReadError,
+    },
+    /// A file that could not be written.
     #[error("{}: cannot write: {source}", path.display())]
     Output {
         /// The file that should have come to be.
         path: PathBuf,
-        /// The system's reason.
+        /// Reason of the system.
         source: io::Error,
     },
 }
@@ -51,9 +57,9 @@ impl Error {
         Self::Output { path: path.to_owned(), source }
     }
 
-    /// Whether the input or the request is to blame, rather than this machine.
+    /// Whether the input or the request is to blame, rather than this machine or this library.
     #[must_use]
     pub fn is_callers(&self) -> bool {
-        !matches!(self, Self::Output { .. })
+        !matches!(self, Self::Output { .. } | Self::OwnOutput { .. })
     }
 }

@@ -1,4 +1,4 @@
-//! How long work reports that it moves on.
+//! Progress of long work, and requests to end it early.
 
 /// Receives progress of work that takes longer than a second.
 pub trait Progress: Sync {
@@ -12,7 +12,7 @@ pub trait Progress: Sync {
     }
 }
 
-/// Says nothing.
+/// Silence: progress is not reported, and nothing is stopped.
 impl Progress for () {
     fn begin(&self, _: &str, _: u64) {}
     fn advance(&self, _: u64) {}

@@ -2,9 +2,11 @@
 
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
-use subsurf_encoder::simulate::analytic::HalfSpace;
-use subsurf_encoder::simulate::medium::reduced_albedo_to_diffuse;
-use subsurf_encoder::simulate::{Finish, Medium, MediumMap, Scene, Sensor, Slab, Summary, simulate};
+use subsurf_encoder::simulate::diffusion::analytic::HalfSpace;
+use subsurf_encoder::simulate::diffusion::medium::reduced_albedo_to_diffuse;
+use subsurf_encoder::simulate::diffusion::{
+    BuiltinMaterial, Finish, Medium, MediumMap, Sensor, Slab, Summary, simulate,
+};
 
 fn homogeneous(medium: Medium) -> MediumMap {
     MediumMap { size: [1, 1], media: vec![medium] }
@@ -64,7 +66,7 @@ fn converges_to_the_closed_form() {
 #[test]
 fn converges_where_media_meet() {
     // Neighbouring squares of the chessboard, no closed form: the usual grid against twice and four times as fine.
-    let board = Scene::Chessboard.map([64, 64], Addressing::Repeat, 1);
+    let board = BuiltinMaterial::Chessboard.map([64, 64], Addressing::Repeat, 1);
     let cut = |x: usize| board.media[8 * 64 + x];
     let map = MediumMap { size: [8, 1], media: (6..14).map(cut).collect() };
     let at = |refine| measure(&slab(&map, 4, refine)).0;
@@ -161,7 +163,7 @@ fn albedo_stays_physical() {
 
 #[test]
 fn a_patch_that_clamps_ends_at_its_border() {
-    let map = Scene::Jade.map([3, 2], Addressing::Clamp, 1);
+    let map = BuiltinMaterial::Jade.map([3, 2], Addressing::Clamp, 1);
     let slab = Slab { addressing: Addressing::Clamp, ..slab(&map, 2, 1.0) };
     let (entries, _) = measure(&slab);
     for (k, entry) in entries.chunks(3).enumerate() {
@@ -215,7 +217,7 @@ fn noise_is_seeded_unbiased_and_has_a_floor() {
 
 #[test]
 fn pairs_get_the_mean_of_both_directions() {
-    let board = Scene::Chessboard.map([64, 64], Addressing::Clamp, 1);
+    let board = BuiltinMaterial::Chessboard.map([64, 64], Addressing::Clamp, 1);
     let media = (0..4).flat_map(|y| (6..11).map(move |x| (x, y))).map(|(x, y)| board.media[(8 + y) * 64 + x]);
     let map = MediumMap { size: [5, 4], media: media.collect() };
     let slab = Slab { addressing: Addressing::Clamp, ..slab(&map, 2, 1.0) };
@@ -239,7 +241,7 @@ fn pairs_get_the_mean_of_both_directions() {
 
 #[test]
 fn scenes_that_repeat_have_no_seam() {
-    for scene in Scene::ALL {
+    for scene in BuiltinMaterial::ALL {
         let map = scene.map([40, 40], Addressing::Repeat, 1);
         let at = |x: usize, y: usize| map.media[(y % 40) * 40 + x % 40].sigma_a[2];
         let mean_step = |column: usize| (0..40).map(|y| (at(column, y) - at(column + 1, y)).abs()).sum::<f64>();

@@ -6,8 +6,8 @@ use std::process::Stdio;
 use std::time::Duration;
 
 use common::{assert_refused, command, files, json, run, succeed};
-use subsurf_encoder::btf::{FolderWriter, Pixels};
-use subsurf_encoder::simulate::btf::{Sample, simulate};
+use subsurf_encoder::capture::{FolderWriter, Pixels};
+use subsurf_encoder::simulate::relief::{Sample, simulate};
 use subsurf_encoder::synthetic::{NestedShape, Shape};
 
 /// The images of a BTF are as many bytes as they have pixels.

@@ -55,14 +55,14 @@ fn options(model: &str) -> Options {
     let direct = Options::default();
     let k = |per_pixel| Options { per_pixel, ..direct };
     match model {
-        "Song" => Options { method: Method::Lsp, ..direct },
+        "Song" => Options { method: Method::Song2009, ..direct },
         "LSP clusters" => Options { method: Method::Clusters, ..direct },
         "K = 1" => k(1),
         "K = 3" => k(3),
         "K = 5" => k(5),
         "K = 2, 24 bits" => Options { coding: Coding::SmallRatios, ..direct },
         "K = 2, 16 bits" => Options { coding: Coding::Palette, ..direct },
-        "K = 2, paper's fit" => Options { method: Method::Paper, ..direct },
+        "K = 2, paper's fit" => Options { method: Method::Yatagawa2020, ..direct },
         "K = 2" => direct,
         other => unreachable!("no model is called {other}"),
     }

@@ -6,7 +6,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::bssrdf::{Options, encode};
 use subsurf_encoder::metrics::psnr_db;
-use subsurf_encoder::simulate::{Finish, Scene as Recipe};
+use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish};
 use subsurf_runtime::{
     AmbientTransfer, BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, Renderer, RuntimeOptions,
     SeparableMaterial, SplatMaterial, Technique, VertexData,
@@ -186,7 +186,7 @@ fn is_hit([a, b, c]: &[Vec3; 3], from: Vec3, towards: Vec3) -> bool {
 /// # Panics
 /// If it cannot be.
 #[must_use]
-pub fn material_of(recipe: Recipe) -> Vec<u8> {
+pub fn material_of(recipe: BuiltinMaterial) -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let capture = simulated(folder.path(), recipe, 32, 8, 0.8, Addressing::Repeat, &Finish::default());
     encode(&capture, None, &Options { base_materials: 32, ..Options::default() }, &()).unwrap().bytes

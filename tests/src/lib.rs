@@ -12,7 +12,7 @@ use subsurf_decoder::container::crc32;
 use subsurf_decoder::{Bssrdf, Section};
 use subsurf_encoder::bssrdf::write_file;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
-use subsurf_encoder::simulate::{Finish, Scene, Slab, simulate};
+use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Slab, simulate};
 use subsurf_encoder::synthetic::Shape;
 
 /// A small synthetic material of seven base materials.
@@ -55,7 +55,7 @@ pub fn write_capture(
 #[must_use]
 pub fn simulated(
     folder: &Path,
-    scene: Scene,
+    scene: BuiltinMaterial,
     side: usize,
     radius: usize,
     pitch_mm: f32,

@@ -4,7 +4,7 @@ use glam::Vec3;
 use subsurf_decoder::NestedBtf;
 use subsurf_decoder::btf::{ColourEncoding, Grid, Texel};
 use subsurf_decoder::container::Crc;
-use subsurf_encoder::btf::bonn;
+use subsurf_encoder::capture::bonn;
 use subsurf_encoder::synthetic::{NestedShape, unit};
 use subsurf_runtime::{Backend, BtfAnswer, BtfImages, BtfLayout, BtfMaterial, BtfQueries, BtfQuery, Gpu};
 use subsurf_tests::frames::device;

@@ -8,18 +8,20 @@ use subsurf_decoder::bssrdf::{Addressing, Coding};
 use subsurf_encoder::Progress;
 use subsurf_encoder::bssrdf::{Encoded, Method, Options, Problem, encode, file_bytes};
 use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
-use subsurf_encoder::metrics::{compare, psnr_db};
-use subsurf_encoder::rate::{self, Point, Target, Walked};
+use subsurf_encoder::metrics::bssrdf::compare;
+use subsurf_encoder::metrics::psnr_db;
+use subsurf_encoder::rate::Target;
+use subsurf_encoder::rate::bssrdf::{Curve, Point, search};
 use subsurf_encoder::synthetic::{capture_row, unit};
 use subsurf_tests::{open, shape, write_capture};
 
 /// Every method, K and coding.
 fn kinds() -> [Options; 10] {
     let direct = Options::default();
-    let [lsp, clusters] = [Method::Lsp, Method::Clusters].map(|method| Options { method, ..direct });
+    let [lsp, clusters] = [Method::Song2009, Method::Clusters].map(|method| Options { method, ..direct });
     let [one, three, five] = [1, 3, 5].map(|per_pixel| Options { per_pixel, ..direct });
     let [small, palette] = [Coding::SmallRatios, Coding::Palette].map(|coding| Options { coding, ..direct });
-    let paper = Options { method: Method::Paper, ..direct };
+    let paper = Options { method: Method::Yatagawa2020, ..direct };
     [lsp, clusters, paper, one, direct, three, five, small, palette, Options { half_profiles: true, ..direct }]
 }
 
@@ -143,7 +145,7 @@ fn missing_entries_weigh_nothing_with(addressing: Addressing) {
     let folder = tempfile::tempdir().unwrap();
     let full = capture_of_bmpp(folder.path(), [26, 20], 4, addressing);
     // The paper's fit ends where chance takes it, with holes or without.
-    for kind in kinds().into_iter().filter(|kind| kind.method != Method::Paper) {
+    for kind in kinds().into_iter().filter(|kind| kind.method != Method::Yatagawa2020) {
         // However a hole is written, it is the same hole.
         let by_hole = [0.0, -1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY].map(|hole| {
             let holes = with_holes(folder.path(), &full, |_| hole);
@@ -251,7 +253,7 @@ fn sizes_are_known_beforehand() {
     let path = capture_of_bmpp(folder.path(), [26, 20], 4, Addressing::Clamp);
     let capture = open(&path);
     let mut problem = Problem::new(&capture, None, &()).unwrap();
-    for kind in kinds().into_iter().filter(|kind| kind.method != Method::Lsp) {
+    for kind in kinds().into_iter().filter(|kind| kind.method != Method::Song2009) {
         let options = Options { base_materials: 12, ..kind };
         let bytes = problem.fit(&options, &()).unwrap().bytes.len() as u64;
         let foreseen = file_bytes(&capture, None, &options).unwrap();
@@ -266,23 +268,23 @@ fn targets_are_met() {
     let path = capture_of_bmpp(folder.path(), [26, 20], 4, Addressing::Clamp);
     let capture = open(&path);
     let mut shown = 0;
-    let mut walk = |target| rate::walk(&capture, None, 1, target, &(), &mut |_| shown += 1);
-    let uniform = |point: &Point| point.psnr_db[0].unwrap();
+    let mut search = |target| search(&capture, None, 1, target, &(), &mut |_| shown += 1);
+    let uniform = |point: &Point| point.distortion.psnr_db[0].unwrap();
 
-    let Walked { points, best, .. } = walk(Target::Bytes(15_000)).unwrap();
+    let Curve { points, best, .. } = search(Target::Bytes(15_000)).unwrap();
     assert!(points.len() > 3, "{} models were tried", points.len());
-    assert!(points.iter().all(|point| point.encoded.bytes.len() <= 15_000), "all fit");
+    assert!(points.iter().all(|point| point.bytes() <= 15_000), "all fit");
     assert!(points.iter().all(|point| uniform(point) <= uniform(&points[best])), "none is better");
-    let error = walk(Target::Bytes(300)).unwrap_err().to_string();
+    let error = search(Target::Bytes(300)).unwrap_err().to_string();
     assert!(error.contains("300 bytes") && error.contains("the smallest takes"), "{error}");
 
-    let Walked { points, best, .. } = walk(Target::PsnrDb(35.0)).unwrap();
+    let Curve { points, best, .. } = search(Target::Quality(35.0)).unwrap();
     let chosen = &points[best];
     assert!(uniform(chosen) >= 35.0, "{}", uniform(chosen));
     let as_good = points.iter().filter(|point| uniform(point) >= 35.0);
-    assert!(as_good.map(|point| point.encoded.bytes.len()).min() == Some(chosen.encoded.bytes.len()), "the smallest");
-    assert!(walk(Target::PsnrDb(f64::NAN)).is_err(), "no number");
-    let error = walk(Target::PsnrDb(200.0)).unwrap_err().to_string();
+    assert!(as_good.map(|point| point.bytes()).min() == Some(chosen.bytes()), "the smallest");
+    assert!(search(Target::Quality(f64::NAN)).is_err(), "no number");
+    let error = search(Target::Quality(200.0)).unwrap_err().to_string();
     assert!(error.contains("200 dB") && error.contains("the best has"), "{error}");
     assert!(shown > 10, "every model is shown as it comes: {shown}");
 }

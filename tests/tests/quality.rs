@@ -7,8 +7,9 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::bssrdf::{Method, Options, encode};
 use subsurf_encoder::capture::Capture;
-use subsurf_encoder::metrics::{Light, compare, psnr_db};
-use subsurf_encoder::simulate::{Finish, Scene};
+use subsurf_encoder::metrics::bssrdf::{Light, compare};
+use subsurf_encoder::metrics::psnr_db;
+use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish};
 use subsurf_shaders::cpu;
 use subsurf_shaders::separable::{BasisSize, SeparableBasis};
 use subsurf_tests::simulated;
@@ -53,13 +54,13 @@ fn separable_db(material: &Bssrdf<'_>, factors: &SeparableBasis) -> [(Light, f64
 
 /// Simulates a scene and asserts that 2-BMPP reaches 46 dB under uniform light, and at most `share` of the relative
 /// albedo error that clusters of per-pixel profiles have at the same size.
-fn judge(scene: Scene, share: f64) {
+fn judge(scene: BuiltinMaterial, share: f64) {
     let folder = tempfile::tempdir().unwrap();
     let finish = Finish { one_way: true, sensor: None };
     let capture = simulated(folder.path(), scene, 80, 12, 0.5, Addressing::Clamp, &finish);
 
     let [lsp, clusters, direct] =
-        [Method::Lsp, Method::Clusters, Method::Direct].map(|method| quality(&capture, method, 128));
+        [Method::Song2009, Method::Clusters, Method::Direct].map(|method| quality(&capture, method, 128));
     println!(
         "{}: relative error {:.5} (per-pixel profiles {:.5}, clusters {:.5}), {:.2} dB ({:.2}, {:.2})",
         scene.name(),
@@ -93,15 +94,15 @@ fn judge(scene: Scene, share: f64) {
 
 #[test]
 fn onyx() {
-    judge(Scene::Onyx, 0.6);
+    judge(BuiltinMaterial::Onyx, 0.6);
 }
 
 #[test]
 fn jade() {
-    judge(Scene::Jade, 0.6);
+    judge(BuiltinMaterial::Jade, 0.6);
 }
 
 #[test]
 fn chessboard() {
-    judge(Scene::Chessboard, 0.85);
+    judge(BuiltinMaterial::Chessboard, 0.85);
 }

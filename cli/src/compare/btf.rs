@@ -4,12 +4,11 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 use subsurf_decoder::btf::{Catalog, Evaluate};
-use subsurf_encoder::btf::Images;
+use subsurf_encoder::capture::{Images, load_btf};
 use subsurf_encoder::metrics::btf::{BtfError, compare, decode, with_file};
 use subsurf_viewer::{human, material_number, read};
 
 use super::Args;
-use crate::encode::btf::load;
 use crate::info::{Parts, read_error};
 use crate::outln;
 use crate::picture::{display, montage, write_png};
@@ -29,7 +28,7 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 fn compare_with(args: &Args, file: &(dyn Evaluate + Sync), parts: &Parts, bytes: usize) -> anyhow::Result<()> {
-    let images = load(&args.capture)?;
+    let images = load_btf(&args.capture, &Bars::new())?;
     let material = material_of(args, file.catalog())?;
     let of_file = file.catalog().materials().nth(material).map(|material| material.size(0));
     if of_file != Some(images.size()) {
@@ -75,7 +74,7 @@ pub(crate) fn mssim_json(error: &BtfError) -> Value {
     error.mssim.map_or(Value::Null, of)
 }
 
-/// The same for people.
+/// Structural similarities for people.
 pub(crate) fn mssim(error: &BtfError) -> String {
     match (error.mssim, error.mean_mssim()) {
         (Some([luma, cr, cb]), Some(mean)) => format!("MSSIM {mean:.4} (Y {luma:.4}, Cr {cr:.4}, Cb {cb:.4})"),
@@ -100,17 +99,6 @@ fn print(args: &Args, error: &BtfError, parts: &Parts, images: &Images, bytes: u
     parts.print();
 }
 
-/// The pair of directions at a share of all of them, 0 to below 1.
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    clippy::cast_precision_loss,
-    reason = "a pair of some thousands"
-)]
-pub fn pair_at(images: &Images, share: f64) -> usize {
-    (share * images.pairs() as f64) as usize
-}
-
 fn pictures(folder: &Path, images: &Images, file: &(dyn Evaluate + Sync), material: usize) -> anyhow::Result<()> {
     std::fs::create_dir_all(folder)
         .map_err(|error| bad_request(format!("{}: cannot make the folder: {error}", folder.display())))?;
@@ -123,7 +111,7 @@ fn pictures(folder: &Path, images: &Images, file: &(dyn Evaluate + Sync), materi
     };
     let mut rows = Vec::new();
     for share in PICTURED {
-        let pair = pair_at(images, share);
+        let pair = images.pair_at(share);
         let original = images.image(pair);
         let decoded = decode(images, file, material, pair);
         let difference: Vec<[f32; 3]> =

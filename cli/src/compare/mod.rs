@@ -1,26 +1,22 @@
-//! `subsurf compare`: how far a file is from its capture.
+//! `subsurf compare`: how far a file is from what it was made from.
 
 mod btf;
 
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
-use subsurf_decoder::Bssrdf;
-use subsurf_encoder::Progress;
-use subsurf_encoder::capture::Capture;
-use subsurf_encoder::metrics::{self, Comparison, Light};
+use subsurf_encoder::capture::{Capture, is_btf};
+use subsurf_encoder::metrics::bssrdf::{Judgement, Light, judge};
+use subsurf_viewer::{human, read};
 
-pub use btf::pair_at;
 pub(crate) use btf::{mssim, mssim_json};
 
-use crate::encode::btf::is_btf;
 use crate::info::parse;
 use crate::options::CaptureArgs;
 use crate::outln;
 use crate::picture::{montage, triptych, write_png};
 use crate::program::failure::bad_request;
 use crate::program::progress::Bars;
-use subsurf_viewer::{human, read};
 
 /// Judge a file against the capture it was made from.
 ///
@@ -50,70 +46,34 @@ pub(crate) struct Args {
     every: usize,
 }
 
-/// The numbers of a comparison.
-pub struct Judgement {
-    /// Albedo, and the patch under every light, beside the capture's.
-    pub comparison: Comparison,
-    /// Mean relative error of the diffuse albedo.
-    pub relative_error_mean: f64,
-    /// In dB, by light in the order of [`Light::ALL`].
-    ///
-    /// `None` where the light meets nothing that was measured.
-    pub psnr_db: [Option<f64>; 3],
-    /// `None` there, too, and for patches smaller than the window of the index.
-    pub ssim: [Option<f64>; 3],
-    /// Length of the file.
-    pub bytes: u64,
-    /// Length of the capture.
-    pub capture_bytes: u64,
-}
-
 /// A PSNR for tables, in dB; a dash where the light meets nothing that was measured.
 pub fn db(psnr: Option<f64>) -> String {
     psnr.map_or_else(|| "-".to_owned(), |psnr| format!("{psnr:.1}"))
 }
 
-/// Evaluates all measured pairs.
-pub fn judge(
-    capture: &Capture,
-    material: &Bssrdf<'_>,
-    bytes: u64,
-    progress: &dyn Progress,
-) -> anyhow::Result<Judgement> {
-    let comparison = metrics::compare(capture, material, progress)?;
-    Ok(Judgement {
-        relative_error_mean: comparison.albedo.mean_relative_error(),
-        psnr_db: comparison.psnr_db(),
-        ssim: comparison.ssim(capture.width()),
-        bytes,
-        capture_bytes: capture.file_bytes(),
-        comparison,
+/// A judgement as JSON.
+pub(crate) fn to_json(judgement: &Judgement) -> Value {
+    let [uniform, disc, line] = judgement.psnr_db;
+    let [ssim_uniform, ssim_disc, ssim_line] = judgement.ssim;
+    json!({
+        "relative_error_mean": judgement.relative_error_mean,
+        "psnr_db": { "uniform": uniform, "disc": disc, "line": line },
+        "ssim": { "uniform": ssim_uniform, "disc": ssim_disc, "line": ssim_line },
+        "bytes": judgement.bytes,
+        "capture_bytes": judgement.capture_bytes,
     })
 }
 
-impl Judgement {
-    pub(crate) fn to_json(&self) -> Value {
-        let [uniform, disc, line] = self.psnr_db;
-        let [ssim_uniform, ssim_disc, ssim_line] = self.ssim;
-        json!({
-            "relative_error_mean": self.relative_error_mean,
-            "psnr_db": { "uniform": uniform, "disc": disc, "line": line },
-            "ssim": { "uniform": ssim_uniform, "disc": ssim_disc, "line": ssim_line },
-            "bytes": self.bytes,
-            "capture_bytes": self.capture_bytes,
-        })
-    }
-
-    pub(crate) fn print(&self) {
-        #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
-        let ratio = self.capture_bytes as f64 / self.bytes as f64;
-        outln!("  {} of {}: 1:{ratio:.0}", human(self.bytes), human(self.capture_bytes));
-        outln!("  mean relative error of the diffuse albedo {:.4}", self.relative_error_mean);
-        for ((light, psnr), ssim) in Light::ALL.iter().zip(self.psnr_db).zip(self.ssim) {
-            let ssim = ssim.map_or_else(|| "- (patch too small)".to_owned(), |ssim| format!("{ssim:.4}"));
-            let psnr = psnr.map_or_else(|| "- (nothing is lit)".to_owned(), |psnr| format!("{psnr:5.1} dB"));
-            outln!("  {:<8} PSNR {psnr}   SSIM {ssim}", light.name());
-        }
+/// Prints a judgement.
+pub(crate) fn print(judgement: &Judgement) {
+    #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
+    let ratio = judgement.capture_bytes as f64 / judgement.bytes as f64;
+    outln!("  {} of {}: 1:{ratio:.0}", human(judgement.bytes), human(judgement.capture_bytes));
+    outln!("  mean relative error of the diffuse albedo {:.4}", judgement.relative_error_mean);
+    for ((light, psnr), ssim) in Light::ALL.iter().zip(judgement.psnr_db).zip(judgement.ssim) {
+        let ssim = ssim.map_or_else(|| "- (patch too small)".to_owned(), |ssim| format!("{ssim:.4}"));
+        let psnr = psnr.map_or_else(|| "- (nothing is lit)".to_owned(), |psnr| format!("{psnr:5.1} dB"));
+        outln!("  {:<8} PSNR {psnr}   SSIM {ssim}", light.name());
     }
 }
 
@@ -126,10 +86,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let material = parse(&args.file, &bytes)?;
     let judgement = judge(&capture, &material, bytes.len() as u64, &Bars::new())?;
     if args.json {
-        outln!("{:#}", judgement.to_json());
+        outln!("{:#}", to_json(&judgement));
     } else {
         outln!("{} against {}", args.file.display(), args.capture.display());
-        judgement.print();
+        print(&judgement);
     }
     if let Some(folder) = &args.images {
         std::fs::create_dir_all(folder)

@@ -60,7 +60,7 @@ fn not_a_btf(path: &Path, content: &Content<'_>) -> anyhow::Error {
 /// What a file is made of.
 pub enum Parts {
     /// Nested codebooks.
-    Books(Vec<BookSize>),
+    Codebooks(Vec<CodebookSize>),
     /// Factors.
     Factors(FactorSizes),
 }
@@ -86,7 +86,7 @@ impl Parts {
 
     fn of_content(path: &Path, content: &Content<'_>) -> anyhow::Result<Self> {
         match content {
-            Content::NestedBtf(btf) => Ok(Self::Books(books(btf))),
+            Content::NestedBtf(btf) => Ok(Self::Codebooks(books(btf))),
             Content::FactoredBtf(btf) => {
                 let shape = btf.shape();
                 Ok(Self::Factors(FactorSizes {
@@ -104,14 +104,14 @@ impl Parts {
 
     pub(crate) fn model(&self) -> &'static str {
         match self {
-            Self::Books(_) => "nested codebooks",
+            Self::Codebooks(_) => "nested codebooks",
             Self::Factors(_) => "factors",
         }
     }
 
     pub(crate) fn print(&self) {
         match self {
-            Self::Books(books) => books.iter().for_each(|book| outln!("  {book}")),
+            Self::Codebooks(books) => books.iter().for_each(|book| outln!("  {book}")),
             Self::Factors(FactorSizes { luma, chroma, words, view_axes, light_axes, expanded }) => {
                 outln!("  components: {luma} of luma, {chroma} of chroma");
                 outln!("  codewords of {} stages: {words:?}", words.len());
@@ -123,8 +123,8 @@ impl Parts {
 
     pub(crate) fn to_json(&self) -> Value {
         match self {
-            Self::Books(books) => {
-                let book = |book: &BookSize| json!({ "name": book.name, "entries": book.entries, "items": book.items, "bits": book.bits });
+            Self::Codebooks(books) => {
+                let book = |book: &CodebookSize| json!({ "name": book.name, "entries": book.entries, "items": book.items, "bits": book.bits });
                 books.iter().map(book).collect()
             }
             Self::Factors(FactorSizes { luma, chroma, words, view_axes, light_axes, expanded }) => json!({
@@ -136,7 +136,7 @@ impl Parts {
 }
 
 /// A codebook of a BTF, and how many vectors it stands for.
-pub struct BookSize {
+pub struct CodebookSize {
     /// P1 to P6 of the paper and the stage, or of chroma M, I2, I1, C and tints.
     pub name: String,
     /// Number of its entries.
@@ -149,7 +149,7 @@ pub struct BookSize {
     pub stands_for: u64,
 }
 
-impl std::fmt::Display for BookSize {
+impl std::fmt::Display for CodebookSize {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let bytes = u64::from(self.entries) * u64::from(self.items) * u64::from(self.bits) / 8;
         write!(
@@ -169,7 +169,7 @@ impl std::fmt::Display for BookSize {
 }
 
 /// The codebooks of a file, from texels to colours.
-fn books(file: &NestedBtf<'_>) -> Vec<BookSize> {
+fn books(file: &NestedBtf<'_>) -> Vec<CodebookSize> {
     let (books, grid) = (file.codebooks().sizes(), file.grid());
     let chroma = &books.chroma;
     let texels: u64 = file.materials().map(|of| u64::from(of.texels(u8::MAX))).sum();
@@ -180,7 +180,7 @@ fn books(file: &NestedBtf<'_>) -> Vec<BookSize> {
         let suffix = if books.count > 1 { format!(", stage {}", number + 1) } else { String::new() };
         let mut stands_for = texels;
         for (k, (name, items)) in [("P6", 1), ("P4", n_phi), ("P3", n_theta), ("P2", n_alpha)].iter().enumerate() {
-            sizes.push(BookSize {
+            sizes.push(CodebookSize {
                 name: format!("{name}{suffix}"),
                 entries: stage.codebooks[k].entries,
                 items: *items,
@@ -190,7 +190,7 @@ fn books(file: &NestedBtf<'_>) -> Vec<BookSize> {
             });
             stands_for *= u64::from(if k == 0 { 1 } else { *items });
         }
-        sizes.push(BookSize {
+        sizes.push(CodebookSize {
             name: format!("P1{suffix}"),
             entries: stage.slices,
             items: n_beta + 1,
@@ -207,7 +207,7 @@ fn books(file: &NestedBtf<'_>) -> Vec<BookSize> {
         ("C", chroma.colours, 2, 8, slices * u64::from(n_alpha * n_beta)),
         ("tints", chroma.tints, 2, 8, texels),
     ];
-    let size = |(name, entries, items, bits, stands_for): (&str, u32, u32, u32, u64)| BookSize {
+    let size = |(name, entries, items, bits, stands_for): (&str, u32, u32, u32, u64)| CodebookSize {
         name: name.to_owned(),
         entries,
         items,

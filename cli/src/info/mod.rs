@@ -8,10 +8,10 @@ use anyhow::Context;
 use serde_json::json;
 use subsurf_decoder::bssrdf::{BssrdfModel, Coding, Profiles};
 use subsurf_decoder::{Bssrdf, Content, File};
-use subsurf_encoder::btf::Folder;
+use subsurf_encoder::capture::Folder;
 use subsurf_viewer::read;
 
-pub use btf::{BookSize, FactorSizes, Parts};
+pub use btf::{CodebookSize, FactorSizes, Parts};
 
 use crate::outln;
 use subsurf_viewer::human;

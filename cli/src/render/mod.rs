@@ -14,7 +14,7 @@ use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::check_target;
-use subsurf_encoder::metrics::Light;
+use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_runtime::{RuntimeOptions, TargetFormat};
 use subsurf_scene::{Environment, load_mesh};
 use subsurf_viewer::{Content, DEFAULT_LIGHT, ROUGHNESS, RenderRequest, Scattering, human, parse, read};

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use glam::Vec3;
-use subsurf_encoder::metrics::Light;
+use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_scene::{Environment, UpAxis};
 use subsurf_shaders::{Rgb, cpu};
 use subsurf_viewer::{Angles, MappingChoice, Scattering};

@@ -3,7 +3,7 @@
 use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
-use subsurf_encoder::metrics::Light;
+use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_runtime::{
     Gpu, Material, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, layout_of,
 };

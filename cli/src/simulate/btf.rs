@@ -1,17 +1,15 @@
 //! `subsurf simulate btf`: images of a rough surface from all sides, where nothing was measured.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::ValueEnum;
-use serde_json::{Value, json};
-use subsurf_encoder::btf::{Folder, FolderWriter, Pixels, bonn};
-use subsurf_encoder::simulate::btf::{Sample, simulate};
+use subsurf_encoder::capture::{Pixels, bonn};
+use subsurf_encoder::simulate::relief::{Request, Sample};
+use subsurf_viewer::human;
 
 use crate::outln;
-use crate::program::failure::bad_request;
 use crate::program::progress::Bars;
-use subsurf_viewer::human;
 
 /// Simulate a BTF: images of a rough surface under light from 81 directions, seen from 81 directions.
 ///
@@ -64,16 +62,10 @@ impl ValueEnum for SampleArg {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    if !(8..=1_024).contains(&args.size) {
-        return Err(bad_request(format!("--size is {}; it may be 8 to 1024", args.size)));
-    }
-    if !(args.exposure.is_finite() && args.exposure > 0.0) {
-        return Err(bad_request(format!("--exposure is {}; it must be positive", args.exposure)));
-    }
     let sample = args.sample.0;
     let pixels = if args.hdr { Pixels::Linear } else { Pixels::Display { exposure: args.exposure } };
     let start = Instant::now();
-    Request { sample, size: args.size, pixels, seed: args.seed }.write(&args.output)?;
+    Request { sample, size: args.size, pixels, seed: args.seed }.write(&args.output, &Bars::new())?;
     let images = bonn().len() * bonn().len();
     let raw = 3 * images as u64 * u64::from(args.size) * u64::from(args.size) * if args.hdr { 4 } else { 1 };
     outln!(
@@ -85,45 +77,4 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         start.elapsed().as_secs_f64(),
     );
     Ok(())
-}
-
-/// A folder of simulated images.
-pub struct Request {
-    /// The material.
-    pub sample: Sample,
-    /// Pixels in x and in y.
-    pub size: u32,
-    /// What the images' numbers are.
-    pub pixels: Pixels,
-    /// Seed of the pattern.
-    pub seed: u64,
-}
-
-impl Request {
-    fn facts(&self) -> Value {
-        let exposure = match self.pixels {
-            Pixels::Display { exposure } => exposure,
-            Pixels::Linear => 1.0,
-        };
-        json!({
-            "simulated": {
-                "by": concat!("subsurf ", env!("CARGO_PKG_VERSION")), "sample": self.sample.name(), "seed": self.seed,
-                "exposure": exposure,
-            },
-        })
-    }
-
-    /// Simulates and writes it.
-    pub fn write(&self, output: &Path) -> anyhow::Result<()> {
-        let writer = FolderWriter::new(output, self.size, self.pixels)?;
-        let write = |light, view, image: &[[f32; 3]]| writer.write(light, view, image);
-        simulate(self.sample, self.size as usize, self.seed, write, &Bars::new())?;
-        Ok(writer.finish(&self.facts())?)
-    }
-
-    /// Whether a folder is what it asks for.
-    pub fn is_there(&self, output: &Path) -> bool {
-        Folder::open(output)
-            .is_ok_and(|folder| folder.size() == [self.size; 2] && folder.facts().as_ref() == Some(&self.facts()))
-    }
 }

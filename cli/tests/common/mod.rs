@@ -35,6 +35,6 @@ pub(crate) fn json(folder: &Path, args: &str) -> Value {
 
 /// A tiny simulated capture, `NAME.npy`.
 pub(crate) fn simulate(folder: &Path, name: &str) -> PathBuf {
-    succeed(folder, &format!("simulate --scene chessboard --size 9x7 --window 5 --thickness 5 -o {name}.npy"));
+    succeed(folder, &format!("simulate --material chessboard --size 9x7 --window 5 --thickness 5 -o {name}.npy"));
     folder.join(format!("{name}.npy"))
 }

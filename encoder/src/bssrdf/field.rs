@@ -2,12 +2,12 @@
 
 use subsurf_decoder::bssrdf::Addressing;
 
-use super::lanes::{Lanes, ZERO};
-use super::window::Geometry;
+use crate::bssrdf::window::Geometry;
+use crate::math::lanes::{Lanes, ZERO};
 
 /// Log-scale profiles `[y][x][node]` with R pixels of border on every side.
 #[derive(Clone, Debug)]
-pub(super) struct Field {
+pub(crate) struct Field {
     geometry: Geometry,
     /// Pixels to a row, border included.
     stride: usize,
@@ -15,13 +15,13 @@ pub(super) struct Field {
 }
 
 impl Field {
-    pub(super) fn new(geometry: Geometry) -> Self {
+    pub(crate) fn new(geometry: Geometry) -> Self {
         let [width, height] = geometry.size.map(|n| n + 2 * geometry.radius);
         Self { geometry, stride: width, values: vec![ZERO; width * height * geometry.nodes] }
     }
 
     /// Bytes of a field's values.
-    pub(super) fn bytes(geometry: &Geometry) -> usize {
+    pub(crate) fn bytes(geometry: &Geometry) -> usize {
         let [width, height] = geometry.size.map(|n| n + 2 * geometry.radius);
         width * height * geometry.nodes * size_of::<Lanes>()
     }
@@ -34,7 +34,7 @@ impl Field {
     }
 
     /// Values from one pixel to the one `step` away.
-    pub(super) fn delta(&self, step: [i32; 2]) -> isize {
+    pub(crate) fn delta(&self, step: [i32; 2]) -> isize {
         let stride = isize::try_from(self.stride).expect("rows are short");
         let nodes = isize::try_from(self.geometry.nodes).expect("profiles are short");
         let [dx, dy] = step.map(|step| isize::try_from(step).expect("windows are small"));
@@ -42,36 +42,36 @@ impl Field {
     }
 
     /// The profile of a pixel.
-    pub(super) fn at(&self, pixel: usize) -> &[Lanes] {
+    pub(crate) fn at(&self, pixel: usize) -> &[Lanes] {
         &self.values[self.start(pixel)..][..self.geometry.nodes]
     }
 
     /// Nodes h and h + 1 of the pixel `delta` values away from `pixel`, which may be in the border.
     #[inline]
-    pub(super) fn pair(&self, start: usize, delta: isize) -> &[Lanes; 2] {
+    pub(crate) fn pair(&self, start: usize, delta: isize) -> &[Lanes; 2] {
         let at = start.wrapping_add_signed(delta);
         self.values[at..].first_chunk().expect("windows end at the border")
     }
 
     /// The value `delta` values away.
     #[inline]
-    pub(super) fn value(&self, start: usize, delta: isize) -> &Lanes {
+    pub(crate) fn value(&self, start: usize, delta: isize) -> &Lanes {
         &self.values[start.wrapping_add_signed(delta)]
     }
 
     /// [`Field::pair`]'s `start` for node h of a pixel.
-    pub(super) fn node(&self, pixel: usize, h: usize) -> usize {
+    pub(crate) fn node(&self, pixel: usize, h: usize) -> usize {
         self.start(pixel) + h
     }
 
     /// Replaces the profile of a pixel; call [`Field::fill_border`] after a batch of these.
-    pub(super) fn set(&mut self, pixel: usize, profile: &[Lanes]) {
+    pub(crate) fn set(&mut self, pixel: usize, profile: &[Lanes]) {
         let start = self.start(pixel);
         self.values[start..][..self.geometry.nodes].copy_from_slice(profile);
     }
 
     /// Brings the border up to date: copies by the addressing mode, or zeros where the material ends.
-    pub(super) fn fill_border(&mut self) {
+    pub(crate) fn fill_border(&mut self) {
         if self.geometry.addressing == Addressing::Clamp {
             return;
         }

@@ -1,39 +1,39 @@
-//! What to fit, and whether a file can hold it.
+//! Options of a fit, and whether a file can hold what they ask for.
 
 use subsurf_decoder::bssrdf::layout::{
     LENGTHS_MM, MAX_BASE_MATERIALS, MAX_SAMPLES, MAX_SINGLE_BASE_MATERIALS, MODELS_BMPP,
 };
 use subsurf_decoder::bssrdf::{BssrdfHeader, Coding};
 
-use super::window::Geometry;
+use crate::bssrdf::window::Geometry;
 use crate::capture::Capture;
 use crate::error::{Error, Result};
 
-/// How to fit.
+/// Method of a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// A profile for every pixel (Song et al. 2009): large, and the lowest cost of eq. 5 that there is.
-    Lsp,
+    Song2009,
     /// k-means clusters of the per-pixel profiles, one per pixel: a baseline for K-BMPP.
     Clusters,
     /// K base materials per pixel by alternation of exact steps.
     Direct,
     /// K base materials per pixel as Yatagawa et al. 2020 fit them: a baseline.
-    Paper,
+    Yatagawa2020,
 }
 
-/// What to fit.
+/// Options of a fit.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// How.
+    /// Method.
     pub method: Method,
-    /// K, 1, 2, 3 or 5; clusters have 1 in any case.
+    /// Base materials per pixel, K: 1, 2, 3 or 5; clusters have 1 in any case.
     pub per_pixel: usize,
-    /// M, 1 to 256; to 65,536 where K = 1.
+    /// Base materials, M: 1 to 256; to 65,536 where K = 1.
     pub base_materials: usize,
     /// Seed of the first cluster centres.
     pub seed: u64,
-    /// How mixtures are stored: [`Coding::Exact`] but for K = 2.
+    /// Coding of mixtures: [`Coding::Exact`] but for K = 2.
     pub coding: Coding,
     /// Whether base profiles are stored as half floats.
     pub half_profiles: bool,
@@ -54,24 +54,26 @@ impl Default for Options {
 
 impl Options {
     /// K of the file; 0 for per-pixel profiles.
-    pub(super) fn model(&self) -> usize {
+    pub(crate) fn model(&self) -> usize {
         match self.method {
-            Method::Lsp => 0,
+            Method::Song2009 => 0,
             Method::Clusters => 1,
-            Method::Direct | Method::Paper => self.per_pixel,
+            Method::Direct | Method::Yatagawa2020 => self.per_pixel,
         }
     }
 
     /// The largest M that a file of this K holds.
-    pub(super) fn most_base_materials(&self) -> usize {
+    pub(crate) fn most_base_materials(&self) -> usize {
         if self.model() == 1 { MAX_SINGLE_BASE_MATERIALS as usize } else { MAX_BASE_MATERIALS as usize }
     }
 
     /// Whether a file can hold what is asked for.
-    pub(super) fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         let model = self.model();
         let refuse = |message: String| Err(Error::Request(message));
-        if matches!(self.method, Method::Direct | Method::Paper) && !MODELS_BMPP.map(usize::from).contains(&model) {
+        if matches!(self.method, Method::Direct | Method::Yatagawa2020)
+            && !MODELS_BMPP.map(usize::from).contains(&model)
+        {
             return refuse(format!("{model} base materials per pixel; there can be 1, 2, 3 or 5"));
         }
         if self.coding != Coding::Exact && (model != 2 || self.method != Method::Direct) {
@@ -90,7 +92,7 @@ impl Options {
     }
 
     /// The header of the file, base materials as asked for.
-    pub(super) fn header(&self, capture: &Capture, geometry: &Geometry) -> BssrdfHeader {
+    pub(crate) fn header(&self, capture: &Capture, geometry: &Geometry) -> BssrdfHeader {
         let model = self.model();
         let bases = if model == 0 { 0 } else { self.base_materials };
         let small = |n: usize| u32::try_from(n).expect("checked when the capture was opened");
@@ -117,7 +119,7 @@ impl Options {
 const BEYOND_CORNER: f64 = 1.0 + 1e-6;
 
 /// Pixels and nodes of a capture, with S = R + 1 nodes if `samples` does not say otherwise.
-pub(super) fn geometry(capture: &Capture, samples: Option<usize>) -> Result<Geometry> {
+pub(crate) fn geometry(capture: &Capture, samples: Option<usize>) -> Result<Geometry> {
     let nodes = samples.unwrap_or((capture.radius() + 1).max(2));
     if !(2..=MAX_SAMPLES.into()).contains(&nodes) {
         return Err(Error::Request(format!("{nodes} samples; a profile holds 2 to {MAX_SAMPLES}")));

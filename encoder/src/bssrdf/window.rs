@@ -6,40 +6,40 @@ use crate::capture::{neighbour, way_back};
 
 /// Sampling of the profiles, and the pixels between which pairs are taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Geometry {
+pub(crate) struct Geometry {
     /// Pixels in x and y.
-    pub(super) size: [usize; 2],
-    /// R.
-    pub(super) radius: usize,
-    /// S.
-    pub(super) nodes: usize,
+    pub(crate) size: [usize; 2],
+    /// Radius of the window in pixels, R.
+    pub(crate) radius: usize,
+    /// Nodes of a profile, S.
+    pub(crate) nodes: usize,
     /// Radius of the last node in pixels.
-    pub(super) r_max_px: f64,
+    pub(crate) r_max_px: f64,
     /// What lies beyond the border.
-    pub(super) addressing: Addressing,
+    pub(crate) addressing: Addressing,
 }
 
 impl Geometry {
-    pub(super) fn pixels(&self) -> usize {
+    pub(crate) fn pixels(&self) -> usize {
         self.size[0] * self.size[1]
     }
 
     /// Column and row of a pixel.
-    pub(super) fn position(&self, pixel: usize) -> [usize; 2] {
+    pub(crate) fn position(&self, pixel: usize) -> [usize; 2] {
         [pixel % self.size[0], pixel / self.size[0]]
     }
 
-    pub(super) fn neighbour(&self, pixel: usize, step: [i32; 2]) -> Option<usize> {
+    pub(crate) fn neighbour(&self, pixel: usize, step: [i32; 2]) -> Option<usize> {
         neighbour(self.addressing, self.size, self.position(pixel), step)
     }
 
     /// From the pixel that [`Geometry::neighbour`] gives back to `pixel`.
-    pub(super) fn way_back(&self, pixel: usize, step: [i32; 2]) -> [i32; 2] {
+    pub(crate) fn way_back(&self, pixel: usize, step: [i32; 2]) -> [i32; 2] {
         way_back(self.addressing, self.size, self.position(pixel), step)
     }
 
     /// Place of a step in a capture's window, dx + dy D with both counted from the window's corner.
-    pub(super) fn place(&self, [dx, dy]: [i32; 2]) -> usize {
+    pub(crate) fn place(&self, [dx, dy]: [i32; 2]) -> usize {
         let radius = i32::try_from(self.radius).expect("a window radius is below 1,024");
         usize::try_from((dx + radius) + (dy + radius) * (2 * radius + 1)).expect("steps stay in the window")
     }
@@ -47,33 +47,33 @@ impl Geometry {
 
 /// One pixel of the window.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Offset {
-    pub(super) step: [i32; 2],
+pub(crate) struct Offset {
+    pub(crate) step: [i32; 2],
     /// Its place in a capture's window.
-    pub(super) place: usize,
+    pub(crate) place: usize,
 }
 
 /// All offsets of one length r.
 #[derive(Clone, Debug)]
-pub(super) struct Ring {
-    /// Node h below r.
-    pub(super) h: usize,
+pub(crate) struct Ring {
+    /// Number h of the node below r.
+    pub(crate) h: usize,
     /// Weight w of node h + 1.
-    pub(super) w: f32,
+    pub(crate) w: f32,
     /// φ(r) = 1 / (1 + r²), r in pixels (Yatagawa et al. 2020, section 3.3).
-    pub(super) phi: f32,
-    pub(super) offsets: Vec<Offset>,
+    pub(crate) phi: f32,
+    pub(crate) offsets: Vec<Offset>,
 }
 
 impl Ring {
-    /// Whether this is r = 0.
-    pub(super) fn is_self(&self) -> bool {
+    /// Whether this ring is the pixel itself, r = 0.
+    pub(crate) fn is_self(&self) -> bool {
         self.h == 0 && self.w == 0.0
     }
 }
 
 /// The offsets of a window by rising distance; the first ring is the pixel itself.
-pub(super) fn rings(geometry: &Geometry) -> Vec<Ring> {
+pub(crate) fn rings(geometry: &Geometry) -> Vec<Ring> {
     let radius = i32::try_from(geometry.radius).expect("a window radius is below 1,024");
     let mut offsets: Vec<(i32, Offset)> = (-radius..=radius)
         .flat_map(|dy| (-radius..=radius).map(move |dx| [dx, dy]))

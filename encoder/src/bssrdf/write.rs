@@ -5,7 +5,7 @@ use subsurf_decoder::Section;
 use subsurf_decoder::bssrdf::layout::{HEADER_BYTES, MAX_CODED_RATIO, MAX_LOG, MAX_PAIRS, MODEL_2BMPP};
 use subsurf_decoder::bssrdf::{BssrdfHeader, Coding, Mixture};
 
-use crate::container;
+use crate::file::container;
 
 /// A file of one material: container, header, and the sections of its model in file order.
 ///
@@ -19,7 +19,7 @@ pub fn write_file(header: &BssrdfHeader, sections: &[(Section, Vec<u8>)]) -> Vec
 }
 
 /// Length of a K-BMPP file, with the largest palette there can be.
-pub(super) fn file_bytes(header: &BssrdfHeader, half_profiles: bool) -> u64 {
+pub(crate) fn file_bytes(header: &BssrdfHeader, half_profiles: bool) -> u64 {
     let profiles = if half_profiles { Section::HalfProfiles } else { Section::BaseProfiles };
     let of_pixels: &[Section] = match (header.coding, header.model) {
         (Coding::Palette, _) => &[Section::Codes],
@@ -37,7 +37,7 @@ pub(super) fn file_bytes(header: &BssrdfHeader, half_profiles: bool) -> u64 {
 }
 
 /// Little-endian bytes of log-scale profile values, clamped to what the format allows.
-pub(super) fn logs(values: impl Iterator<Item = f32>) -> Vec<u8> {
+pub(crate) fn logs(values: impl Iterator<Item = f32>) -> Vec<u8> {
     values.flat_map(|value| value.clamp(-MAX_LOG, MAX_LOG).to_le_bytes()).collect()
 }
 

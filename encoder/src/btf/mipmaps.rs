@@ -1,13 +1,13 @@
-//! Coarser levels of what is known of texels.
+//! Mipmaps: coarser levels of coefficients of texels.
 
 use nalgebra::DMatrix;
 
 /// For every texel of every level of every material, in the order of a file, the texels of full size that it covers.
-pub(super) struct Mipmaps(Vec<Vec<u32>>);
+pub(crate) struct Mipmaps(Vec<Vec<u32>>);
 
 impl Mipmaps {
     /// Of materials of these sizes, whose texels follow each other; full size alone without `has_levels`.
-    pub(super) fn new(sizes: &[[u32; 2]], has_levels: bool) -> Self {
+    pub(crate) fn new(sizes: &[[u32; 2]], has_levels: bool) -> Self {
         let mut covered = Vec::new();
         let mut start = 0;
         for &[width, height] in sizes {
@@ -26,13 +26,13 @@ impl Mipmaps {
         Self(covered)
     }
 
-    /// Them.
-    pub(super) fn covered(&self) -> &[Vec<u32>] {
+    /// For every texel of every level, the texels of full size that it covers.
+    pub(crate) fn covered(&self) -> &[Vec<u32>] {
         &self.0
     }
 
-    /// Means of columns.
-    pub(super) fn of(&self, texels: &DMatrix<f32>) -> DMatrix<f32> {
+    /// Means of columns over the texels that each texel of a level covers.
+    pub(crate) fn of(&self, texels: &DMatrix<f32>) -> DMatrix<f32> {
         let mut all = DMatrix::zeros(texels.nrows(), self.0.len());
         for (mut mean, covered) in all.column_iter_mut().zip(&self.0) {
             for texel in covered {
@@ -44,7 +44,7 @@ impl Mipmaps {
     }
 
     /// Means of ratios by the energy of luma: what is bright has its colour seen.
-    pub(super) fn of_ratios(&self, ratios: &[[f32; 2]], luma: &DMatrix<f32>) -> Vec<[f32; 2]> {
+    pub(crate) fn of_ratios(&self, ratios: &[[f32; 2]], luma: &DMatrix<f32>) -> Vec<[f32; 2]> {
         let energy = |texel: u32| luma.column(texel as usize).norm_squared();
         let mean = |covered: &Vec<u32>| {
             let weights: Vec<f32> = covered.iter().map(|texel| energy(*texel).max(f32::MIN_POSITIVE)).collect();

@@ -1,24 +1,21 @@
-//! Bidirectional texture functions: what a rough surface looks like from every side, under light from every side.
+//! Bidirectional texture functions (BTFs): what a rough surface looks like from every side, under light from every side.
+//!
+//! [`encode()`] makes a file in one call; [`presets`] are the numbers that it uses where nothing is asked for. The parts
+//! are here for those who want more: the decomposition that all encoders begin with ([`TruncatedSvd`]), and the encoders
+//! themselves ([`nested`], [`factored`]).
 
-pub mod baseline;
-mod directions;
+mod encode;
 pub mod factored;
-mod folder;
-mod images;
-mod merl;
-mod mipmaps;
+mod materials;
+pub(crate) mod mipmaps;
 pub mod nested;
-pub mod paper;
-pub mod rate;
+pub mod presets;
 mod resample;
-mod survey;
-mod ubo;
+mod size;
+mod truncated_svd;
 
-pub use directions::{Direction, bonn};
-use directions::{directions_of, image_name};
-pub use folder::{Folder, FolderWriter, Pixels};
-pub use images::{Images, Source};
-pub use merl::Merl;
+pub use encode::{Encoded, Goal, Options, Setup, encode};
+pub(crate) use materials::{common_tone, materials};
 pub use resample::{Measured, Resampler};
-pub use survey::{Detail, Factors, Survey};
-pub use ubo::Ubo;
+pub use size::{Method, Size};
+pub use truncated_svd::{Ranks, TruncatedSvd};

@@ -29,7 +29,7 @@ pub struct Resampler {
 }
 
 struct Row {
-    /// The measured view.
+    /// Number of the measured view.
     view: usize,
     /// Number of its azimuth.
     azimuth: usize,
@@ -76,7 +76,7 @@ fn differences([first, second]: [usize; 2], is_ring: bool) -> Vec<Weights> {
     rows
 }
 
-/// AᵀA of sparse rows.
+/// Product AᵀA of sparse rows A.
 fn square(rows: &[Weights], columns: usize) -> DMatrix<f64> {
     let mut sum = DMatrix::zeros(columns, columns);
     for row in rows {
@@ -103,7 +103,7 @@ fn inverse(weights: &[Weights], squared_differences: &DMatrix<f64>) -> DMatrix<f
 }
 
 impl Resampler {
-    /// Prepares fits of values at pairs of `lights` and `views`.
+    /// Fits of values at pairs of `lights` and `views`.
     #[must_use]
     pub fn new(grid: &Grid, lights: &[Vec3], views: &[Vec3]) -> Self {
         let stood_for: Vec<(usize, Vec3)> = views
@@ -165,7 +165,7 @@ impl Resampler {
 
     /// [`Self::fit`] of many, side by side in columns; in f32, and several times faster.
     #[allow(clippy::cast_possible_truncation, reason = "tables are f32")]
-    pub(super) fn fit_all(&self, values: &DMatrix<f32>) -> DMatrix<f32> {
+    pub(crate) fn fit_all(&self, values: &DMatrix<f32>) -> DMatrix<f32> {
         let (count, nodes) = (values.ncols(), self.grid.light_nodes());
         let lights = values.nrows() / self.views;
         let mut at_rows = DMatrix::zeros(nodes * count, self.rows.len());
@@ -190,14 +190,14 @@ impl Resampler {
 /// Interpolates tables at measured pairs of directions, as the decoder does.
 pub struct Measured {
     light_nodes: usize,
-    /// For each view.
+    /// Nodes of φ_v and θ_v of each view.
     views: Vec<Weights>,
-    /// For each view, each light.
+    /// Nodes of α and β of each light, for each view.
     lights: Vec<Vec<Weights>>,
 }
 
 impl Measured {
-    /// Prepares the weights.
+    /// Interpolation at pairs of `lights` and `views`.
     #[must_use]
     pub fn new(grid: &Grid, lights: &[Vec3], views: &[Vec3]) -> Self {
         let prepared: Vec<View> = views.iter().map(|view| grid.view(view.to_array())).collect();
@@ -256,7 +256,7 @@ impl Measured {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::btf::bonn;
+    use crate::capture::bonn;
 
     /// What varies slowly with both directions comes back from the nodes; on the pole, whatever the azimuth.
     #[test]

@@ -1,18 +1,19 @@
-//! How far a file is from the images of a BTF.
+//! Error of BTF files against the images they were made from.
 
 use rayon::prelude::*;
 use subsurf_decoder::btf::factored::ExpansionMemory;
 use subsurf_decoder::btf::{ColourEncoding, Evaluate};
 use subsurf_decoder::{Content, Family, File, ReadError};
 
-use super::image::ssim_of_planes;
-use crate::btf::Images;
+use super::image::{psnr_of_mse_db, ssim_of_planes};
+use crate::capture::Images;
 use crate::progress::Progress;
 
-/// Means over pairs of directions.
+/// Error of a BTF file, means over pairs of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BtfError {
-    /// Structural similarity of luma and both chroma channels; none of images smaller than its window, 11 × 11 pixels.
+    /// Mean structural similarity of Y, Cr and Cb (Wang et al. 2004), 1 for equal images; `None` for images smaller than
+    /// its window, 11 × 11 pixels.
     pub mssim: Option<[f64; 3]>,
     /// Peak signal-to-noise ratio in dB over all pixels: of RGB display values, or of l where images are linear.
     pub psnr_db: f64,
@@ -28,13 +29,13 @@ impl BtfError {
     }
 }
 
-/// Reads a BTF file of either model, and expands factors.
+/// What `then` makes of a BTF file of either model, factors expanded.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The decoder's reason, if it refuses the file.
 ///
 /// # Panics
-/// If there is no memory to expand it into.
+/// If there is no memory to expand factors into.
 pub fn with_file<R>(bytes: &[u8], then: impl FnOnce(&(dyn Evaluate + Sync)) -> R) -> Result<R, ReadError> {
     match File::parse(bytes)?.content() {
         Content::NestedBtf(btf) => Ok(then(&btf)),
@@ -46,8 +47,8 @@ pub fn with_file<R>(bytes: &[u8], then: impl FnOnce(&(dyn Evaluate + Sync)) -> R
     }
 }
 
-/// Compares images with the full-size level of a material at some pairs of directions. Channels are those of the file's
-/// tone, Cr and Cb around ½ as images store them.
+/// Error of the full-size level of a material of a file against images, over some pairs of directions. Channels are those
+/// of the file's tone, Cr and Cb around ½ as images store them.
 ///
 /// # Panics
 /// If the file has no such material.
@@ -57,20 +58,20 @@ pub fn compare(
     file: &(impl Evaluate + Sync + ?Sized),
     material: usize,
     pairs: &[usize],
-    progress: &impl Progress,
+    progress: &dyn Progress,
 ) -> BtfError {
     let tone = file.catalog().header().encoding;
     compare_images(images, tone, pairs, |pair| decode(images, file, material, pair), progress)
 }
 
-/// [`compare`] with images that come from anywhere, whose channels are of this tone.
+/// Error of images that come from anywhere, `decode` by pair, whose channels are of this tone; otherwise as [`compare`].
 #[must_use]
 pub fn compare_images(
     images: &Images,
     tone: ColourEncoding,
     pairs: &[usize],
     decode: impl Fn(usize) -> Vec<[f32; 3]> + Sync,
-    progress: &impl Progress,
+    progress: &dyn Progress,
 ) -> BtfError {
     progress.begin("comparing", pairs.len() as u64);
     let width = images.size()[0] as usize;
@@ -84,16 +85,40 @@ pub fn compare_images(
         .collect();
     let count = each.len() as f64;
     let mse = each.iter().map(|(_, mse)| mse).sum::<f64>() / count;
-    BtfError { mssim: mean(each.iter().map(|(mssim, _)| *mssim)), psnr_db: -10.0 * mse.log10(), pairs: pairs.len() }
+    BtfError { mssim: mean(each.iter().map(|(mssim, _)| *mssim)), psnr_db: psnr_of_mse_db(mse), pairs: pairs.len() }
 }
 
-/// Mean of similarities, if all are known.
-pub(crate) fn mean(mssim: impl Iterator<Item = Option<[f64; 3]>>) -> Option<[f64; 3]> {
+/// Step from one pair of directions that [`judge`] compares to the next; a prime, so that all lights and views are among
+/// them.
+pub const PAIR_STEP: usize = 61;
+
+/// Mean error of all materials of a file over every [`PAIR_STEP`]th pair of directions.
+///
+/// # Errors
+/// The decoder's reason, if it refuses the file.
+pub fn judge(materials: &[Images], bytes: &[u8], progress: &dyn Progress) -> Result<BtfError, ReadError> {
+    let errors = with_file(bytes, |file| -> Vec<BtfError> {
+        let of = |(number, images): (usize, &Images)| {
+            let pairs: Vec<usize> = (0..images.pairs()).step_by(PAIR_STEP).collect();
+            compare(images, file, number, &pairs, progress)
+        };
+        materials.iter().enumerate().map(of).collect()
+    })?;
+    let count = errors.len() as f64;
+    Ok(BtfError {
+        mssim: mean(errors.iter().map(|error| error.mssim)),
+        psnr_db: errors.iter().map(|error| error.psnr_db).sum::<f64>() / count,
+        pairs: errors.iter().map(|error| error.pairs).sum(),
+    })
+}
+
+/// Mean of similarities by channel; `None` if one is not known.
+fn mean(mssim: impl Iterator<Item = Option<[f64; 3]>>) -> Option<[f64; 3]> {
     let all: Vec<[f64; 3]> = mssim.collect::<Option<_>>()?;
     Some([0, 1, 2].map(|c: usize| all.iter().map(|mssim| mssim[c]).sum::<f64>() / all.len() as f64))
 }
 
-/// The image of a pair as a file has it.
+/// Image of a pair of directions as a file has it, row by row: display values or linear, by the file's tone.
 ///
 /// # Panics
 /// If the file has no such material.
@@ -109,7 +134,7 @@ pub fn decode(images: &Images, file: &(impl Evaluate + ?Sized), material: usize,
     values
 }
 
-/// Structural similarities, and mean squared error.
+/// Structural similarities of the three channels, and mean squared error, of one pair of directions.
 fn of_pair(
     images: &Images,
     decoded: &[[f32; 3]],

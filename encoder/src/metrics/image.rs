@@ -1,19 +1,26 @@
 //! PSNR and SSIM of linear RGB images with peak 1.
 
+/// Peak signal-to-noise ratio in dB of a mean squared error, peak 1; infinite for 0.
+pub(super) fn psnr_of_mse_db(mean_squared_error: f64) -> f64 {
+    -10.0 * mean_squared_error.log10()
+}
+
 /// Peak signal-to-noise ratio in dB over all pixels and channels, peak 1; infinite for equal images.
 #[must_use]
 pub fn psnr_db(reference: &[[f64; 3]], image: &[[f64; 3]]) -> f64 {
     let squares = reference.iter().flatten().zip(image.iter().flatten()).map(|(a, b)| (a - b) * (a - b));
     #[allow(clippy::cast_precision_loss, reason = "pixels fit in 2⁵³")]
     let mean = squares.sum::<f64>() / (3 * reference.len()) as f64;
-    -10.0 * mean.log10()
+    psnr_of_mse_db(mean)
 }
 
-/// Side and standard deviation of the Gaussian window.
+/// Side of the Gaussian window in pixels.
 const SIDE: usize = 11;
+/// Standard deviation of the Gaussian window in pixels.
 const SIGMA: f64 = 1.5;
-/// (K₁ L)² and (K₂ L)² with L = 1.
+/// Constant of the luminance term, (K₁ L)² with K₁ = 0.01 and L = 1.
 const C1: f64 = 0.01 * 0.01;
+/// Constant of the contrast term, (K₂ L)² with K₂ = 0.03 and L = 1.
 const C2: f64 = 0.03 * 0.03;
 
 /// Structural similarity (Wang, Bovik, Sheikh and Simoncelli 2004), mean over channels: 11 × 11 Gaussian window of
@@ -26,7 +33,7 @@ pub fn ssim(reference: &[[f64; 3]], image: &[[f64; 3]], width: usize) -> Option<
     Some((red? + green? + blue?) / 3.0)
 }
 
-/// [`ssim`] of one channel.
+/// Structural similarity of one channel, row by row; see [`ssim`].
 #[must_use]
 pub(super) fn ssim_of_planes(reference: &[f64], image: &[f64], width: usize) -> Option<f64> {
     let height = reference.len() / width;

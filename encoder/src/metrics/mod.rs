@@ -1,8 +1,9 @@
-//! How far a fitted material is from its capture.
+//! The one judge: errors of files against what was measured.
+//!
+//! Albedo error, PSNR and SSIM of BSSRDFs ([`bssrdf`]); PSNR and mean SSIM (MSSIM) of BTFs ([`btf`]).
 
+pub mod bssrdf;
 pub mod btf;
 mod image;
-mod relight;
 
 pub use image::{psnr_db, ssim};
-pub use relight::{Comparison, Light, Relit, compare};

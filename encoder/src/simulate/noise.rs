@@ -4,22 +4,22 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// Noise that repeats after one unit in u and in v.
-pub(super) struct Noise {
+pub(crate) struct Noise {
     permutation: [u8; 256],
 }
 
 /// Where a position lies among scattered points; distances in lattice cells.
-pub(super) struct Cell {
-    /// From the nearest point.
-    pub(super) distance: f64,
+pub(crate) struct Cell {
+    /// Distance from the nearest point.
+    pub(crate) distance: f64,
     /// How much farther the second nearest is; 0 on a border.
-    pub(super) border: f64,
-    /// The nearest point's.
-    pub(super) number: i64,
+    pub(crate) border: f64,
+    /// Number of the nearest point.
+    pub(crate) number: i64,
 }
 
 impl Noise {
-    pub(super) fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         let mut rng = Pcg64::seed_from_u64(seed);
         let mut permutation: [u8; 256] = std::array::from_fn(|k| u8::try_from(k).expect("k < 256"));
         // Fisher-Yates.
@@ -30,7 +30,7 @@ impl Noise {
     }
 
     /// A random number in 0 .. 1 that belongs to an integer.
-    pub(super) fn value(&self, k: i64) -> f64 {
+    pub(crate) fn value(&self, k: i64) -> f64 {
         f64::from(self.hash(k, 7)) / 256.0
     }
 
@@ -63,13 +63,13 @@ impl Noise {
     }
 
     /// `octaves` octaves from `frequency` up, each half as strong as the one before; about −1 to 1.
-    pub(super) fn fractal(&self, u: f64, v: f64, frequency: i64, octaves: i32) -> f64 {
+    pub(crate) fn fractal(&self, u: f64, v: f64, frequency: i64, octaves: i32) -> f64 {
         (0..octaves).map(|k| self.octave(u, v, frequency << k) * 0.5_f64.powi(k)).sum()
     }
 
     /// Cells around scattered points (Worley 1996, *A cellular texture basis function*), one point to a lattice cell;
     /// `frequency` lattice cells per unit in u and in v.
-    pub(super) fn cell(&self, u: f64, v: f64, frequency: [i64; 2]) -> Cell {
+    pub(crate) fn cell(&self, u: f64, v: f64, frequency: [i64; 2]) -> Cell {
         #[allow(clippy::cast_precision_loss, reason = "frequencies are small")]
         let [x, y] = [u * frequency[0] as f64, v * frequency[1] as f64];
         #[allow(clippy::cast_possible_truncation, reason = "lattice coordinates are small")]
@@ -94,7 +94,7 @@ impl Noise {
     }
 
     /// Narrow ridges along the zeros of the noise: 1 on a ridge, falling to 0 over `width`.
-    pub(super) fn ridge(&self, u: f64, v: f64, frequency: i64, octaves: i32, width: f64) -> f64 {
+    pub(crate) fn ridge(&self, u: f64, v: f64, frequency: i64, octaves: i32, width: f64) -> f64 {
         let distance = self.fractal(u, v, frequency, octaves).abs() / width;
         (1.0 - distance).max(0.0)
     }

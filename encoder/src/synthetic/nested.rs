@@ -12,7 +12,7 @@ use crate::btf::nested::{Chain, Chroma, Database, Item, slice_mean};
 pub struct NestedShape {
     /// Nodes of directions.
     pub grid: Grid,
-    /// What the channels are.
+    /// Encoding of the three channels.
     pub tone: ColourEncoding,
     /// Width, height and mipmap levels of the materials.
     pub materials: Vec<(u16, u16, u8)>,
@@ -26,7 +26,7 @@ pub struct NestedShape {
     pub tints: u32,
     /// Whether chroma is divided by luma.
     pub is_relative: bool,
-    /// Bits of scales.
+    /// Bits of the code of a scale.
     pub scale_bits: u8,
 }
 
@@ -165,17 +165,17 @@ fn material((width, height, levels): (u16, u16, u8), number: u8) -> Material {
     Material { name, width, height, levels }
 }
 
-/// Numbers that look random.
+/// Sequence of numbers that look random and depend on its start alone.
 struct Numbers(u32);
 
 impl Numbers {
-    /// In 0 .. 1.
+    /// The next number, 0 to 1.
     fn unit(&mut self) -> f32 {
         self.0 = self.0.wrapping_add(1);
         unit(self.0)
     }
 
-    /// In 0 .. `len`.
+    /// The next number, 0 to below `len`.
     fn below(&mut self, len: u32) -> u32 {
         #[allow(
             clippy::cast_possible_truncation,

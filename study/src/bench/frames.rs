@@ -8,7 +8,7 @@ use subsurf_cli::options::Size;
 use subsurf_cli::outln;
 use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::Bssrdf;
-use subsurf_encoder::synthetic::per_pixel_of;
+use subsurf_encoder::baseline::song2009::per_pixel_of;
 use subsurf_runtime::Backend;
 use subsurf_scene::{Mesh, relief};
 use subsurf_viewer::{Asset, MappingChoice, RenderRequest, Scattering, choose_mapping, human, read};

@@ -15,10 +15,11 @@ use serde_json::json;
 use subsurf_cli::options::Size;
 use subsurf_cli::outln;
 use subsurf_cli::program::failure::bad_request;
-use subsurf_cli::simulate::{Request, SceneArg};
+use subsurf_cli::program::progress::Bars;
+use subsurf_cli::simulate::MaterialArg;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar};
-use subsurf_encoder::simulate::{Finish, MediumMap, Scene, Sensor, expose};
+use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, MediumMap, Request, Sensor, expose};
 use subsurf_encoder::write_bytes;
 use subsurf_viewer::human;
 
@@ -37,7 +38,7 @@ pub(crate) struct Args {
     dir: PathBuf,
     /// Materials
     #[arg(long, value_enum, value_delimiter = ',', default_values = MATERIALS)]
-    materials: Vec<SceneArg>,
+    materials: Vec<MaterialArg>,
     /// Pixels of a patch
     #[arg(long, default_value = "96x96", value_name = "WxH")]
     size: Size,
@@ -72,24 +73,24 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let papers = if args.no_paper { &[][..] } else { &args.paper };
     let fits = plan::fits(papers, SEED);
     let halves: &[bool] = if args.clean_only { &[false] } else { &[false, true] };
-    let mut scenes: Vec<Scene> = Vec::new();
-    for scene in &args.materials {
-        if !scenes.contains(&scene.0) {
-            scenes.push(scene.0);
+    let mut chosen: Vec<BuiltinMaterial> = Vec::new();
+    for material in &args.materials {
+        if !chosen.contains(&material.0) {
+            chosen.push(material.0);
         }
     }
-    let materials: Vec<String> = scenes.iter().map(|scene| scene.name().to_owned()).collect();
+    let materials: Vec<String> = chosen.iter().map(|material| material.name().to_owned()).collect();
     let mut records: Vec<Record> = Vec::new();
     let start = Instant::now();
     let all = halves.len() * materials.len();
-    for (done, (noisy, scene)) in
-        halves.iter().flat_map(|noisy| scenes.iter().map(|scene| (*noisy, *scene))).enumerate()
+    for (done, (noisy, material)) in
+        halves.iter().flat_map(|noisy| chosen.iter().map(|material| (*noisy, *material))).enumerate()
     {
-        let material = scene.name();
-        let truth = capture(args, scene, false)?;
-        let exposed = if noisy { Some(capture(args, scene, true)?) } else { None };
+        let name = material.name();
+        let truth = capture(args, material, false)?;
+        let exposed = if noisy { Some(capture(args, material, true)?) } else { None };
         let capture = exposed.as_ref().unwrap_or(&truth);
-        let case = FitCase { material, noisy, capture, truth: &truth, folder: dir };
+        let case = FitCase { material: name, noisy, capture, truth: &truth, folder: dir };
         outln!("{} ({} of {all})", case.name(), done + 1);
         for fit in &fits {
             let (record, fresh) = case.record(fit)?;
@@ -126,21 +127,21 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 /// Refuses what would only fail after an hour.
 fn check(args: &Args) -> anyhow::Result<()> {
     let sensor = (!args.clean_only).then_some(Sensor { photons: args.photons, seed: SEED });
-    for scene in &args.materials {
+    for material in &args.materials {
         // Voxels depend on the media, of which a corner of the patch has most.
-        let corner = scene.0.map([16; 2], Addressing::Clamp, SEED);
-        request(args, scene.0, &corner, sensor).check()?;
+        let corner = material.0.map([16; 2], Addressing::Clamp, SEED);
+        request(args, material.0, &corner, sensor).check()?;
     }
     Ok(())
 }
 
 /// The capture of a material, simulated unless it is there already.
-fn capture(args: &Args, scene: Scene, noisy: bool) -> anyhow::Result<Capture> {
+fn capture(args: &Args, material: BuiltinMaterial, noisy: bool) -> anyhow::Result<Capture> {
     let size = args.size.0.map(|side| side as usize);
-    let path = args.dir.join("captures").join(format!("{}.npy", capture_name(scene.name(), noisy)));
+    let path = args.dir.join("captures").join(format!("{}.npy", capture_name(material.name(), noisy)));
     let sensor = noisy.then_some(Sensor { photons: args.photons, seed: SEED });
-    let map = scene.map(size, Addressing::Clamp, SEED);
-    let request = request(args, scene, &map, sensor);
+    let map = material.map(size, Addressing::Clamp, SEED);
+    let request = request(args, material, &map, sensor);
     let sidecar = request.sidecar();
     if let Ok(cached) = Capture::open(&path, &Overrides::default())
         && cached.simulated() == sidecar.simulated.as_ref()
@@ -149,21 +150,21 @@ fn capture(args: &Args, scene: Scene, noisy: bool) -> anyhow::Result<Capture> {
         return Ok(cached);
     }
     if let Some(sensor) = &sensor {
-        let clean = capture(args, scene, false)?;
+        let clean = capture(args, material, false)?;
         let writer =
             CaptureWriter { path: &path, size, radius: clean.radius(), scalar: Scalar::F32, sidecar: &sidecar };
         expose(&clean, sensor, &writer)?;
     } else {
-        outln!("simulating {}", scene.name());
-        request.write(&path)?;
+        outln!("simulating {}", material.name());
+        request.write(&path, &Bars::new())?;
     }
     Ok(Capture::open(&path, &Overrides::default())?)
 }
 
-fn request<'a>(args: &Args, scene: Scene, map: &'a MediumMap, sensor: Option<Sensor>) -> Request<'a> {
+fn request<'a>(args: &Args, material: BuiltinMaterial, map: &'a MediumMap, sensor: Option<Sensor>) -> Request<'a> {
     Request {
         map,
-        source: json!({ "scene": scene.name() }),
+        source: json!({ "scene": material.name() }),
         addressing: Addressing::Clamp,
         pitch_mm: PITCH_MM,
         window: args.window,
@@ -185,7 +186,7 @@ mod tests {
     #[test]
     fn materials_are_built_in() {
         for name in MATERIALS {
-            assert!(Scene::ALL.iter().any(|scene| scene.name() == name), "{name}");
+            assert!(BuiltinMaterial::ALL.iter().any(|material| material.name() == name), "{name}");
             assert!(published::published(name).is_some(), "{name}");
         }
     }

@@ -29,7 +29,7 @@ pub(super) fn fits(papers: &[String], seed: u64) -> Vec<Fit> {
     let with_m = |base_materials| Options { base_materials, ..direct };
     let equal = |fit: Fit| Fit { equal_bytes: true, ..fit };
     let mut fits = vec![
-        fit("song", "Song et al.", Options { method: Method::Lsp, ..direct }),
+        fit("song", "Song et al.", Options { method: Method::Song2009, ..direct }),
         fit("k1", "K = 1", k(1)),
         fit("k2", "K = 2", direct),
         fit("k3", "K = 3", k(3)),
@@ -44,7 +44,7 @@ pub(super) fn fits(papers: &[String], seed: u64) -> Vec<Fit> {
     ];
     for k in ["1", "2", "3", "5"].iter().filter(|k| papers.iter().any(|paper| paper == *k)) {
         let per_pixel = k.parse().expect("a digit");
-        let options = Options { method: Method::Paper, per_pixel, ..direct };
+        let options = Options { method: Method::Yatagawa2020, per_pixel, ..direct };
         fits.push(fit(&format!("paper-k{k}"), &format!("K = {k}, paper's fit"), options));
     }
     fits

@@ -11,13 +11,12 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::BssrdfModel;
 use subsurf_encoder::bssrdf::{self, Method, Options, base_materials_within, file_bytes};
 use subsurf_encoder::capture::Capture;
-use subsurf_encoder::metrics::Light;
+use subsurf_encoder::metrics::bssrdf::{Judgement, Light, judge};
 use subsurf_encoder::write_bytes;
 
 use super::plan::Fit;
 use crate::cache;
 use crate::page::colour::{error_map, grey_map};
-use subsurf_cli::compare::{Judgement, judge};
 use subsurf_cli::picture::{linear, write_png};
 use subsurf_cli::program::progress::Bars;
 

@@ -1,24 +1,25 @@
 //! Codecs that are compared, and at how many bytes.
 
-use subsurf_cli::encode::btf::{Common, MethodArg, grid, usual_bytes, usual_nodes};
 use subsurf_cli::program::progress::Bars;
 use subsurf_encoder::Error;
-use subsurf_encoder::btf::baseline::{
+use subsurf_encoder::baseline::whole_brdf::{
     Baseline, local_pca, local_pca_bytes, one_level, one_level_bytes, pca, pca_bytes,
 };
 use subsurf_encoder::btf::nested::Extent;
-use subsurf_encoder::btf::rate::{self, Target};
-use subsurf_encoder::btf::{Images, Survey};
+use subsurf_encoder::btf::{Method, Options, Setup, TruncatedSvd, presets};
+use subsurf_encoder::capture::Images;
+use subsurf_encoder::rate::Target;
+use subsurf_encoder::rate::btf::search;
 
-use super::survey::{SEED, surveyed};
+use super::svd::{SEED, shared_svd};
 
 /// A way to compress, and for baselines whose bytes they may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Codec {
     Nested,
-    Paper,
+    Havran2010,
     /// Nested codebooks with half the bytes of the paper's encoder.
-    NestedAsPaper,
+    NestedAsHavran2010,
     Factored,
     /// One-level vector quantisation with the bytes of nested codebooks.
     OneLevelAsNested,
@@ -46,16 +47,15 @@ impl Made {
 const CLUSTERS: [usize; 4] = [2, 3, 4, 6];
 
 /// What the encoders of one file are told.
-pub(super) fn common(method: MethodArg, names: &[String], images: &[Images]) -> anyhow::Result<Common> {
-    let grid = grid(&images[0], &usual_nodes(method, &images[0]))?;
-    Ok(Common { grid, names: names.to_vec(), has_mipmaps: false, seed: SEED })
+pub(super) fn setup(method: Method, names: &[String], images: &[Images]) -> subsurf_encoder::Result<Setup> {
+    Setup::new(images, names, &Options { method, seed: SEED, ..Options::default() })
 }
 
 impl Codec {
     pub(super) const ALL: [Self; 8] = [
         Self::Nested,
-        Self::Paper,
-        Self::NestedAsPaper,
+        Self::Havran2010,
+        Self::NestedAsHavran2010,
         Self::Factored,
         Self::OneLevelAsNested,
         Self::OneLevelAsFactored,
@@ -66,8 +66,8 @@ impl Codec {
     pub(super) fn label(self) -> &'static str {
         match self {
             Self::Nested => "nested",
-            Self::Paper => "paper",
-            Self::NestedAsPaper => "nested-as-paper",
+            Self::Havran2010 => "paper",
+            Self::NestedAsHavran2010 => "nested-as-paper",
             Self::Factored => "factored",
             Self::OneLevelAsNested => "one-level-as-nested",
             Self::OneLevelAsFactored => "one-level",
@@ -79,8 +79,8 @@ impl Codec {
     pub(super) fn title(self) -> &'static str {
         match self {
             Self::Nested => "nested",
-            Self::Paper => "the paper's encoder",
-            Self::NestedAsPaper => "nested, half the paper's bytes",
+            Self::Havran2010 => "the paper's encoder",
+            Self::NestedAsHavran2010 => "nested, half the paper's bytes",
             Self::Factored => "factored",
             Self::OneLevelAsNested => "one-level VQ, bytes of nested",
             Self::OneLevelAsFactored => "one-level VQ, bytes of factored",
@@ -92,8 +92,8 @@ impl Codec {
     /// Whose bytes a baseline may take.
     pub(super) fn budget_of(self) -> Option<Self> {
         match self {
-            Self::Nested | Self::Paper | Self::Factored => None,
-            Self::NestedAsPaper => Some(Self::Paper),
+            Self::Nested | Self::Havran2010 | Self::Factored => None,
+            Self::NestedAsHavran2010 => Some(Self::Havran2010),
             Self::OneLevelAsNested => Some(Self::Nested),
             Self::OneLevelAsFactored | Self::Pca | Self::LocalPca => Some(Self::Factored),
         }
@@ -104,58 +104,56 @@ impl Codec {
         self,
         name: &str,
         images: &[Images],
-        survey: &mut Option<Survey>,
+        svd: &mut Option<TruncatedSvd>,
         budget: u64,
     ) -> anyhow::Result<Vec<Made>> {
-        let common = |method| common(method, &[name.to_owned()], images);
-        if self == Self::Paper {
-            return Ok(vec![Made::File(common(MethodArg::Paper)?.paper(images, 1.0)?)]);
+        let setup = |method| setup(method, &[name.to_owned()], images);
+        if self == Self::Havran2010 {
+            return Ok(vec![Made::File(setup(Method::Havran2010)?.havran2010(images, 1.0, &Bars::new())?)]);
         }
-        let survey = surveyed(images, survey)?;
-        let (texels, pairs) = (survey.texels(), images[0].pairs());
+        let svd = shared_svd(images, svd)?;
+        let (texels, pairs) = (svd.texels(), images[0].pairs());
         let most = |bytes: &dyn Fn(usize) -> u64, range: std::ops::Range<usize>| {
             range.rev().find(|count| bytes(*count) <= budget)
         };
         Ok(match self {
             Self::Nested => {
-                let prepared = common(MethodArg::Nested)?.nested(images, survey);
+                let prepared = setup(Method::Nested)?.nested(images, svd);
                 vec![Made::File(prepared.encode(&Extent::USUAL.sizes(), &Bars::new())?.to_bytes())]
             }
-            Self::NestedAsPaper => {
-                let prepared = common(MethodArg::Nested)?.nested(images, survey);
+            Self::NestedAsHavran2010 => {
+                let prepared = setup(Method::Nested)?.nested(images, svd);
                 let encode = |extent: &Extent| Ok(prepared.encode(&extent.sizes(), &Bars::new())?.to_bytes());
-                match rate::walk(images, &Extent::LADDER, Target::Bytes(budget / 2), &Bars::new(), encode, |_| ()) {
-                    Ok(walked) => vec![Made::File(walked.points[walked.best].bytes.clone())],
+                let target = Target::Bytes(budget / 2);
+                match search(images, &Extent::LADDER, target, &Bars::new(), encode, &mut |_| ()) {
+                    Ok(curve) => vec![Made::File(curve.chosen().file.clone())],
                     // No codebooks are that small.
                     Err(Error::Request(_)) => Vec::new(),
                     Err(error) => return Err(error.into()),
                 }
             }
             Self::Factored => {
-                let prepared = common(MethodArg::Factored)?.factored(images, survey)?;
-                let bytes = usize::try_from(usual_bytes(survey))?;
+                let prepared = setup(Method::Factored)?.factored(images, svd)?;
+                let bytes = usize::try_from(presets::factored_bytes(svd.raw_bytes))?;
                 vec![Made::File(prepared.encode_to(bytes, &Bars::new())?.0)]
             }
             Self::OneLevelAsNested | Self::OneLevelAsFactored => {
-                let grid = common(MethodArg::Nested)?.grid;
+                let grid = setup(Method::Nested)?.grid;
                 let words = most(&|words| one_level_bytes(words, texels, &grid), 2..257);
-                words
-                    .map(|words| Made::Baseline(one_level(&images[0], survey, &grid, words, SEED)))
-                    .into_iter()
-                    .collect()
+                words.map(|words| Made::Baseline(one_level(&images[0], svd, &grid, words, SEED))).into_iter().collect()
             }
             Self::Pca => {
                 let components = most(&|count| pca_bytes(count, texels, pairs), 1..65);
-                components.map(|components| Made::Baseline(pca(survey, components))).into_iter().collect()
+                components.map(|components| Made::Baseline(pca(svd, components))).into_iter().collect()
             }
             Self::LocalPca => {
                 let of = |clusters: usize| {
                     let components = most(&|count| local_pca_bytes(clusters, count, texels, pairs), 1..65)?;
-                    Some(Made::Baseline(local_pca(survey, clusters, components, SEED)))
+                    Some(Made::Baseline(local_pca(svd, clusters, components, SEED)))
                 };
                 CLUSTERS.into_iter().filter_map(of).collect()
             }
-            Self::Paper => Vec::new(),
+            Self::Havran2010 => Vec::new(),
         })
     }
 }

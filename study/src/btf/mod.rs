@@ -5,24 +5,24 @@ mod page;
 mod published;
 mod record;
 mod shared;
-mod survey;
+mod svd;
 
 use std::path::PathBuf;
 use std::time::Instant;
 
-use subsurf_cli::encode::btf::load;
 use subsurf_cli::outln;
 use subsurf_cli::program::failure::bad_request;
-use subsurf_cli::simulate::btf::{Request, SampleArg};
-use subsurf_encoder::btf::{Images, Pixels};
-use subsurf_encoder::simulate::btf::Sample;
+use subsurf_cli::program::progress::Bars;
+use subsurf_cli::simulate::btf::SampleArg;
+use subsurf_encoder::capture::{Images, Pixels, load_btf};
+use subsurf_encoder::simulate::relief::{Request, Sample};
 use subsurf_encoder::write_bytes;
 
 use self::codec::Codec;
 use self::page::Results;
 use self::record::{CodecCase, Record};
 use self::shared::{Member, Set, Shared};
-use self::survey::SEED;
+use self::svd::SEED;
 use crate::page::duration;
 
 /// Repeat tables 2 and 3 of Havran, Filip and Myszkowski 2010 on simulated materials, beside their own encoder, one-level
@@ -74,9 +74,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             folder: &args.dir,
             every: args.every,
             images: Vec::new(),
-            survey: None,
+            svd: None,
         };
-        let of_paper = |codec: &Codec| [Codec::Paper, Codec::NestedAsPaper].contains(codec);
+        let of_paper = |codec: &Codec| [Codec::Havran2010, Codec::NestedAsHavran2010].contains(codec);
         for codec in Codec::ALL.into_iter().filter(|codec| !(args.no_paper && of_paper(codec))) {
             if let Some(record) = case.record(codec, || images(args, Member { sample: *sample, seed: SEED }))? {
                 outln!("  {}", record.line());
@@ -113,7 +113,7 @@ fn images(args: &Args, member: Member) -> anyhow::Result<Images> {
     let request = Request { sample, size: args.size, pixels: Pixels::Display { exposure: 1.0 }, seed };
     if !request.is_there(&output) {
         outln!("simulating {}", member.name());
-        request.write(&output)?;
+        request.write(&output, &Bars::new())?;
     }
-    load(&output)
+    Ok(load_btf(&output, &Bars::new())?)
 }

@@ -102,7 +102,7 @@ impl Results<'_> {
                 let (a, b) = (find(first)?.mean_mssim(), find(second)?.mean_mssim());
                 Some((a > b, format!("{a:.3} : {b:.3}")))
             };
-            let paper = find(Codec::NestedAsPaper).zip(find(Codec::Paper)).map(|(nested, paper)| {
+            let paper = find(Codec::NestedAsHavran2010).zip(find(Codec::Havran2010)).map(|(nested, paper)| {
                 let holds = nested.mssim[0] > paper.mssim[0] && 2 * nested.bytes <= paper.bytes;
                 let (a, b) = (nested.mssim[0], paper.mssim[0]);
                 (holds, format!("{a:.3} : {b:.3}, {} : {}", human(nested.bytes), human(paper.bytes)))
@@ -165,7 +165,7 @@ impl Results<'_> {
         let titles: Vec<String> = ["", "ratio"].into_iter().chain(BOOKS).map(str::to_owned).collect();
         let mut rows = Vec::new();
         for material in self.materials {
-            for codec in [Codec::Nested, Codec::Paper] {
+            for codec in [Codec::Nested, Codec::Havran2010] {
                 let Some(record) = self.find(material, codec) else { continue };
                 let book = |name: &&str| {
                     let found = record.books.iter().find(|(of, ..)| of == name);

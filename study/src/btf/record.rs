@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
-use subsurf_cli::compare::pair_at;
 use subsurf_cli::info::Parts;
 use subsurf_cli::picture::{display, write_png};
 use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::btf::Evaluate;
-use subsurf_encoder::btf::{Images, Survey};
+use subsurf_encoder::btf::TruncatedSvd;
+use subsurf_encoder::capture::Images;
 use subsurf_encoder::metrics::btf::{BtfError, compare, compare_images, decode, with_file};
 use subsurf_encoder::write_bytes;
 use subsurf_viewer::human;
@@ -61,7 +61,7 @@ pub(super) struct CodecCase<'a> {
     pub(super) every: usize,
     /// Its images, and what the codecs share, once something is not cached.
     pub(super) images: Vec<Images>,
-    pub(super) survey: Option<Survey>,
+    pub(super) svd: Option<TruncatedSvd>,
 }
 
 impl CodecCase<'_> {
@@ -88,7 +88,7 @@ impl CodecCase<'_> {
             self.images.push(load()?);
         }
         let start = Instant::now();
-        let made = codec.make(self.name, &self.images, &mut self.survey, budget)?;
+        let made = codec.make(self.name, &self.images, &mut self.svd, budget)?;
         let seconds = start.elapsed().as_secs_f64();
         let judged = made.into_iter().map(|made| Ok((self.judge(&made)?, made)));
         let judged: Vec<(BtfError, Made)> = judged.collect::<anyhow::Result<_>>()?;
@@ -101,7 +101,7 @@ impl CodecCase<'_> {
         let (mut books, mut evaluations) = (Vec::new(), None);
         if let Made::File(bytes) = &made {
             write_bytes(&path.with_extension("subsurf"), bytes)?;
-            if let Parts::Books(found) = Parts::of(&path, bytes)? {
+            if let Parts::Codebooks(found) = Parts::of(&path, bytes)? {
                 books = found.iter().map(|book| (book.name.clone(), book.entries, book.stands_for)).collect();
             }
             evaluations = Some(with_file(bytes, |file| evaluations_per_second(file))?);
@@ -137,7 +137,7 @@ impl CodecCase<'_> {
     fn draw(&self, codec: Codec, made: &Made) -> anyhow::Result<()> {
         let images = &self.images[0];
         for (number, share) in PICTURED.iter().enumerate() {
-            let pair = pair_at(images, *share);
+            let pair = images.pair_at(*share);
             let decoded = match made {
                 Made::File(bytes) => with_file(bytes, |file| decode(images, file, 0, pair))?,
                 Made::Baseline(baseline) => baseline.image(pair),

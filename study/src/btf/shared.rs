@@ -3,18 +3,18 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use subsurf_cli::encode::btf::MethodArg;
 use subsurf_cli::outln;
 use subsurf_cli::program::failure::bad_request;
 use subsurf_cli::program::progress::Bars;
-use subsurf_encoder::btf::Images;
+use subsurf_encoder::btf::Method;
 use subsurf_encoder::btf::nested::Extent;
-use subsurf_encoder::btf::rate::judge;
-use subsurf_encoder::simulate::btf::Sample;
+use subsurf_encoder::capture::Images;
+use subsurf_encoder::metrics::btf::judge;
+use subsurf_encoder::simulate::relief::Sample;
 use subsurf_encoder::write_bytes;
 
-use super::codec::common;
-use super::survey::{SEED, survey_of};
+use super::codec::setup;
+use super::svd::{SEED, svd_of};
 use crate::cache;
 
 /// A sample, and the seed that it is simulated with.
@@ -95,21 +95,20 @@ pub(super) fn shared(
         let bytes = match std::fs::read(&path) {
             Ok(bytes) => bytes,
             Err(_) => {
-                let (common, survey) =
-                    (common(MethodArg::Nested, std::slice::from_ref(name), images)?, survey_of(images)?);
-                common.nested(images, &survey).encode(&Extent::USUAL.sizes(), &Bars::new())?.to_bytes()
+                let (setup, svd) = (setup(Method::Nested, std::slice::from_ref(name), images)?, svd_of(images)?);
+                setup.nested(images, &svd).encode(&Extent::USUAL.sizes(), &Bars::new())?.to_bytes()
             }
         };
         apart.0 += bytes.len() as u64;
-        apart.1 += quality(images, &bytes) / names.len() as f64;
+        apart.1 += quality(images, &bytes)? / names.len() as f64;
     }
-    let survey = survey_of(&images)?;
-    let prepared = common(MethodArg::Nested, &names, &images)?.nested(&images, &survey);
+    let svd = svd_of(&images)?;
+    let prepared = setup(Method::Nested, &names, &images)?.nested(&images, &svd);
     let mut found = None;
     for share in SHARES {
         let p4 = share * Extent::USUAL.p4 * names.len() / 100;
         let bytes = prepared.encode(&Extent { p4, ..Extent::USUAL }.sizes(), &Bars::new())?.to_bytes();
-        let together = (bytes.len() as u64, quality(&images, &bytes));
+        let together = (bytes.len() as u64, quality(&images, &bytes)?);
         outln!(
             "  {}, shared, P4 = {p4}: {} bytes, MSSIM {:.4}; apart {} bytes, {:.4}",
             set.title,
@@ -130,6 +129,6 @@ pub(super) fn shared(
 }
 
 /// Mean structural similarity; images of a study are large enough for it.
-fn quality(images: &[Images], bytes: &[u8]) -> f64 {
-    judge(images, bytes, &Bars::new()).mean_mssim().unwrap_or(0.0)
+fn quality(images: &[Images], bytes: &[u8]) -> anyhow::Result<f64> {
+    Ok(judge(images, bytes, &Bars::new())?.mean_mssim().unwrap_or(0.0))
 }

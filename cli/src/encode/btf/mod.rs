@@ -1,36 +1,47 @@
 //! `subsurf encode btf`: from images of rough surfaces to a file.
 
-mod methods;
 mod report;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::ValueEnum;
-use subsurf_decoder::btf::Grid;
 use subsurf_encoder::btf::nested::Extent;
-use subsurf_encoder::btf::rate::{self, Target};
-use subsurf_encoder::btf::{Folder, Images, Merl, Source, Ubo};
-use subsurf_encoder::{check_target, write_bytes};
+use subsurf_encoder::btf::{Goal, Method, Options, Size, encode};
+use subsurf_encoder::capture::{Images, load_btf};
+use subsurf_encoder::metrics::btf::judge;
+use subsurf_encoder::rate::Target;
+use subsurf_encoder::{Error, check_target, write_bytes};
 
+use super::set_threads;
 use crate::options::ByteCount;
+use crate::outln;
 use crate::program::failure::bad_request;
 use crate::program::interrupt::Graceful;
 use crate::program::progress::Bars;
-pub use methods::{Common, Encoded, detail, usual_bytes};
-use report::Report;
+use report::{Report, line};
 
 /// How a file is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum MethodArg {
+enum MethodArg {
     /// Nested codebooks by shape-gain k-means from the top down, chosen anew from the bottom up against what is decoded;
     /// further stages add what is left. Drawn as they stand in the file, on the GPU too
     Nested,
     /// Texels of residual codewords times a Tucker-coded angular basis: the fewest bytes for a quality; expanded to 1 to
     /// 4 MB when loaded
     Factored,
-    /// Nested codebooks by pruning, as the paper does: to compare with
-    Paper,
+    /// Nested codebooks by pruning, as Havran et al. make them: to compare with
+    Havran2010,
+}
+
+impl From<MethodArg> for Method {
+    fn from(arg: MethodArg) -> Self {
+        match arg {
+            MethodArg::Nested => Self::Nested,
+            MethodArg::Factored => Self::Factored,
+            MethodArg::Havran2010 => Self::Havran2010,
+        }
+    }
 }
 
 /// Compress BTFs, one or several, into one .subsurf file.
@@ -82,92 +93,32 @@ pub(crate) struct Args {
     json: bool,
 }
 
-/// If there are images of a BTF, or one may expect some.
-pub(crate) fn is_btf(path: &Path) -> bool {
-    path.is_dir() || matches!(extension(path).as_deref(), Some("btf" | "binary"))
-}
-
-fn extension(path: &Path) -> Option<String> {
-    Some(path.extension()?.to_str()?.to_ascii_lowercase())
-}
-
-/// Reads all images of a BTF.
-pub fn load(path: &Path) -> anyhow::Result<Images> {
-    match extension(path).as_deref() {
-        Some("btf") => Ok(load_from(&Ubo::open(path)?)?),
-        Some("binary") => Ok(load_from(&Merl::open(path)?)?),
-        _ => Ok(load_from(&Folder::open(path)?)?),
-    }
-}
-
-fn load_from(source: &impl Source) -> subsurf_encoder::Result<Images> {
-    Images::load(source, &Bars::new())
-}
-
-/// Nodes where none are asked for.
-pub fn usual_nodes(method: MethodArg, images: &Images) -> [u8; 4] {
-    let is_isotropic = images.views().iter().all(|view| view.y == 0.0);
-    match method {
-        _ if is_isotropic => [45, 45, 18, 1],
-        MethodArg::Factored => [11, 11, 6, 24],
-        MethodArg::Nested | MethodArg::Paper => [11, 11, 6, 16],
-    }
-}
-
-/// A grid that reaches as far as what was measured, and no farther.
-pub fn grid(images: &Images, nodes: &[u8]) -> anyhow::Result<Grid> {
-    let [n_alpha, n_beta, n_theta, n_phi] = nodes else {
-        return Err(bad_request(format!("--nodes has {} numbers, not four: 11,11,6,16", nodes.len())));
-    };
-    if nodes.iter().any(|nodes| !(1..=64).contains(nodes)) || [n_alpha, n_beta, n_theta].contains(&&1) {
-        return Err(bad_request("--nodes are from 2 to 64 each, those of φ_v from 1"));
-    }
-    let lowest = |directions: &[glam::Vec3]| directions.iter().map(|direction| direction.z).fold(1.0, f32::min);
-    // A degree at least: a single direction has no reach.
-    let light_max = lowest(images.lights()).clamp(0.0, 0.999_8).acos();
-    let theta_max = lowest(images.views()).clamp(0.0, 0.999_8).acos();
-    Ok(Grid {
-        n_alpha: *n_alpha,
-        n_beta: *n_beta,
-        n_theta: *n_theta,
-        n_phi: *n_phi,
-        alpha_max: light_max,
-        sin_beta_max: light_max.sin(),
-        theta_max,
-        cos_light_min: light_max.cos().clamp(0.0, 0.999),
-    })
-}
-
-pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    if let Some(threads) = args.threads {
-        super::set_threads(threads)?;
-    }
+pub(super) fn run(args: &Args) -> anyhow::Result<()> {
+    set_threads(args.threads)?;
     let first = &args.inputs[0];
     let output = args.output.clone().unwrap_or_else(|| first.with_extension("subsurf"));
     check_target(&output)?;
     let start = Instant::now();
-    let materials: Vec<Images> = args.inputs.iter().map(|path| load(path)).collect::<anyhow::Result<_>>()?;
-    let nodes = args.nodes.clone().unwrap_or_else(|| usual_nodes(args.method, &materials[0]).to_vec());
-    let grid = grid(&materials[0], &nodes)?;
-    let common = Common { grid, names: args.names(), has_mipmaps: args.mipmaps, seed: args.seed };
+    let bars = Bars::new();
+    let materials: Vec<Images> =
+        args.inputs.iter().map(|path| load_btf(path, &bars)).collect::<subsurf_encoder::Result<_>>()?;
+    let options = args.options()?;
     let graceful = Graceful::new();
-    let made = match args.method {
-        MethodArg::Nested => methods::nested(args, &materials, common),
-        MethodArg::Factored => methods::factored(args, &materials, common),
-        MethodArg::Paper => methods::paper(args, &materials, &common),
-    }?;
+    let encoded = encode(&materials, &args.names(), &options, &bars, &mut |point| {
+        if !args.json {
+            outln!("{}", line(point));
+        }
+    })?;
     drop(graceful);
-    write_bytes(&output, &made.bytes)?;
-    let report = Report {
-        output: &output,
-        made: &made,
-        raw_bytes: materials.iter().map(Images::bytes).sum(),
-        seconds: start.elapsed().as_secs_f64(),
-        error: match &made.walked {
-            Some(walked) => walked.points[walked.best].error,
-            None => rate::judge(&materials, &made.bytes, &Bars::new()),
-        },
+    write_bytes(&output, &encoded.bytes)?;
+    let seconds = start.elapsed().as_secs_f64();
+    let error = match &encoded.curve {
+        Some(curve) => curve.chosen().distortion,
+        None => judge(&materials, &encoded.bytes, &bars).map_err(|source| Error::OwnOutput { source })?,
     };
+    drop(bars);
+    let raw_bytes = materials.iter().map(Images::bytes).sum();
+    let report = Report { output: &output, encoded: &encoded, raw_bytes, seconds, error };
     if args.json {
         report.json()
     } else {
@@ -177,8 +128,25 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 impl Args {
+    fn options(&self) -> anyhow::Result<Options> {
+        let method = self.method.into();
+        let nodes = match self.nodes.as_deref() {
+            Some(&[n_alpha, n_beta, n_theta, n_phi]) => Some([n_alpha, n_beta, n_theta, n_phi]),
+            Some(nodes) => {
+                return Err(bad_request(format!("--nodes has {} numbers, not four: 11,11,6,16", nodes.len())));
+            }
+            None => None,
+        };
+        let goal = match (self.target(), method) {
+            (Some(target), _) => Goal::Target(target),
+            (None, Method::Nested) => Goal::Size(Size::Nested(Extent { p4: self.p4.max(1), stages: self.stages })),
+            (None, _) => Goal::Usual,
+        };
+        Ok(Options { method, nodes, has_mipmaps: self.mipmaps, seed: self.seed, goal })
+    }
+
     fn target(&self) -> Option<Target> {
-        self.target_ssim.map(Target::Ssim).or(self.target_bytes.map(|size| Target::Bytes(size.0)))
+        self.target_ssim.map(Target::Quality).or(self.target_bytes.map(|size| Target::Bytes(size.0)))
     }
 
     /// Names of the materials: those of their folders or files.

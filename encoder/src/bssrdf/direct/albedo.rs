@@ -6,10 +6,10 @@
 
 use rayon::prelude::*;
 
-use super::super::field::Field;
-use super::super::lanes::{Lanes, ZERO};
-use super::super::normal::Normal;
-use super::super::window::Geometry;
+use crate::bssrdf::field::Field;
+use crate::bssrdf::normal::Normal;
+use crate::bssrdf::window::Geometry;
+use crate::math::lanes::{Lanes, ZERO};
 
 /// √Rd of every pixel at the distance of every ring: Rd(i, j) is the product of two entries (eq. 1).
 pub(super) struct Albedo {
@@ -22,9 +22,9 @@ pub(super) struct Albedo {
 
 /// Albedo error of one pixel as a function of its profile p relative to the mean: ε = k·p − τ per channel.
 pub(super) struct Constraint {
-    /// w.
+    /// Weight w of the squared error against the cost of eq. 5.
     pub(super) weight: f32,
-    /// ∂ε/∂p.
+    /// Derivative ∂ε/∂p, `[node]`.
     pub(super) k: Vec<Lanes>,
     pub(super) tau: Lanes,
 }

@@ -5,11 +5,11 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Mixture;
 
-use super::super::field::Field;
-use super::super::normal::Normal;
-use super::Model;
 use super::albedo::Albedo;
 use super::mix::{Curvatures, Tilt, product};
+use crate::bssrdf::field::Field;
+use crate::bssrdf::model::Model;
+use crate::bssrdf::normal::Normal;
 
 /// Pixels this far apart in x and in y change together: φ is small between them, and threads have work.
 const COLOURS: usize = 4;

@@ -3,12 +3,12 @@
 use subsurf_decoder::bssrdf::Mixture;
 use subsurf_decoder::bssrdf::layout::MAX_PER_PIXEL;
 
-use super::super::banded::Banded;
-use super::super::lanes::{Lanes, ZERO};
-use super::Model;
 use super::albedo::Constraint;
+use crate::bssrdf::model::Model;
+use crate::math::banded::Banded;
+use crate::math::lanes::{Lanes, ZERO};
 
-/// Σ_h Σ_c p q.
+/// Scalar product Σ_h Σ_c p q of two profiles.
 pub(super) fn product(p: &[Lanes], q: &[Lanes]) -> f32 {
     let mut sum = ZERO;
     for (p, q) in p.iter().zip(q) {
@@ -19,15 +19,15 @@ pub(super) fn product(p: &[Lanes], q: &[Lanes]) -> f32 {
     sum.iter().sum()
 }
 
-/// What the cost of a pixel with a given matrix A looks like along every pair of bases.
+/// Curvatures of the cost of a pixel with a given matrix A, along every pair of bases.
 ///
 /// The cost of the profile p is pᵀ A p − 2 pᵀ d. Between P̂_b' (t = 0) and P̂_b (t = 1) it is
 /// f(t) = f_b' + t (f_b − f_b') − t (1 − t) e with e = (P̂_b − P̂_b')ᵀ A (P̂_b − P̂_b').
 #[derive(Clone)]
 pub(super) struct Curvatures {
-    /// P̂_bᵀ A P̂_b.
+    /// Quadratic term P̂_bᵀ A P̂_b of every base.
     pure: Vec<f32>,
-    /// e of all pairs b' < b, row by row.
+    /// Spread e of all pairs b' < b, row by row.
     e: Vec<f32>,
 }
 
@@ -116,7 +116,7 @@ impl Curvatures {
         best
     }
 
-    /// e of two base materials.
+    /// Spread e of two base materials.
     fn pair(&self, a: usize, b: usize) -> f32 {
         let (low, high) = (a.min(b), a.max(b));
         if low == high { 0.0 } else { self.e[high * (high - 1) / 2 + low] }
@@ -214,7 +214,7 @@ impl Costs<'_> {
         alone - self.spread(blend)
     }
 
-    /// Σ_{k<l} t_k t_l e_kl.
+    /// Sum Σ_{k<l} t_k t_l e_kl over the parts of a mixture.
     fn spread(&self, blend: &Blend) -> f32 {
         let parts = || blend.parts().enumerate();
         let pairs = parts().flat_map(|(k, a)| parts().take(k).map(move |(_, b)| (a, b)));

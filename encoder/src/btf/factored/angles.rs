@@ -4,13 +4,14 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use subsurf_decoder::btf::factored::model::MAX_NUMBER;
 
-use super::write;
+use super::streams;
+use crate::math::eigen::Eigen;
 
-/// Tables of all columns, smaller.
+/// Tables of all columns as a Tucker decomposition, in whole steps.
 pub(super) struct Tucker {
     /// `[axis][view node]` and `[axis][light node]`.
     pub(super) axes: [Vec<i8>; 2],
-    /// One step of each axis.
+    /// Value of a step of each axis.
     pub(super) scales: [Vec<f32>; 2],
     /// For every column `[view axis][light axis]`, in steps.
     pub(super) core: Vec<Vec<i32>>,
@@ -20,19 +21,20 @@ pub(super) struct Tucker {
     pub(super) steps: Vec<f32>,
 }
 
-/// How fine it is to be.
+/// Fineness of axes and core.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fineness {
     /// Axes of views and of lights.
     pub(super) axes: [usize; 2],
-    /// Of the core.
+    /// Fineness of the core.
     pub(super) core: CoreSize,
 }
 
-/// How fine the core is to be.
+/// Fineness of the core, by its step or by its bytes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CoreSize {
-    /// Its step for a column whose coefficients have a mean square of 1, in units of the survey.
+    /// Its step for a column whose coefficients have a mean square of 1, in units of the decomposition's
+    /// coefficients.
     Step(f32),
     /// The finest step at which it takes no more than these bytes in a file.
     Bytes(usize),
@@ -70,12 +72,9 @@ impl Weights {
 
 /// The leading eigenvectors, `[node × axis]`, over weights and in 8 bits.
 fn axes(gram: DMatrix<f32>, count: usize, weights: &[f32]) -> (Vec<i8>, Vec<f32>) {
-    let eigen = gram.symmetric_eigen();
-    let mut order: Vec<usize> = (0..weights.len()).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let eigen = Eigen::of(gram);
     let (mut bytes, mut scales) = (Vec::new(), Vec::new());
-    for number in order.into_iter().take(count) {
-        let vector = eigen.eigenvectors.column(number);
+    for vector in eigen.vectors.column_iter().take(count) {
         let plain: Vec<f32> = vector.iter().zip(weights).map(|(value, weight)| value / weight).collect();
         let scale = plain.iter().fold(1e-12_f32, |largest, value| largest.max(value.abs())) / 127.0;
         #[allow(clippy::cast_possible_truncation, reason = "at most 127")]
@@ -175,7 +174,7 @@ impl Tucker {
         let least = largest / (MAX_NUMBER as f32 - 1.0);
         let step = match fineness.core {
             CoreSize::Step(step) => step,
-            CoreSize::Bytes(most) => finest(|step| write::core(&quantised(step), fineness.axes[1]).len() <= most),
+            CoreSize::Bytes(most) => finest(|step| streams::core(&quantised(step), fineness.axes[1]).len() <= most),
         }
         .max(least);
         let core = quantised(step);

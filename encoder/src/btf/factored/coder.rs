@@ -1,8 +1,8 @@
-//! The writing side of `subsurf_decoder::btf::factored::coder`.
+//! Range coder, the writing side of the decoder's.
 
 use subsurf_decoder::btf::factored::coder::{BitCoder, BitModel, LEAST_RANGE, part_of_zero};
 
-/// Writes bits.
+/// Range coder: bits to bytes, by the chances that a model gives them.
 pub(super) struct Encoder {
     bytes: Vec<u8>,
     /// Lower end of the range; bit 32 is a carry.

@@ -4,18 +4,19 @@ use nalgebra::DMatrix;
 use subsurf_decoder::btf::{BtfHeader, BtfModel, Grid};
 
 use super::angles::{Fineness, Tucker};
-use super::sizes::Sizes;
+use super::sizes::{Sizes, positive};
 use super::space::{Components, Space};
 use super::texels::{quantise, steps};
 use super::write::Contents;
+use crate::btf::TruncatedSvd;
+use crate::btf::materials::materials;
 use crate::btf::mipmaps::Mipmaps;
-use crate::btf::nested::materials;
 use crate::btf::resample::{Measured, Resampler};
-use crate::btf::{Images, Survey};
-use crate::error::{Error, Result};
+use crate::capture::Images;
+use crate::error::Result;
 use crate::progress::Progress;
 
-/// What files of factors are made from, whatever their size.
+/// What a file of factors is to be, whatever its size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Nodes of directions.
@@ -30,41 +31,41 @@ pub struct Options {
     pub seed: u64,
 }
 
-/// Materials that were surveyed together, on the nodes of a grid.
+/// Materials that were decomposed together, on the nodes of a grid: what factors of all sizes are made from.
 pub struct Prepared<'a> {
-    survey: &'a Survey,
+    svd: &'a TruncatedSvd,
     options: Options,
     measured: Measured,
-    /// The survey's functions of luma, and of chroma in each channel, `[pair × component]`.
+    /// The decomposition's functions of luma, and of chroma in each channel, `[pair × component]`.
     bases: [Vec<DMatrix<f32>>; 2],
-    /// The survey's coefficients of all texels of all levels, of luma and of chroma.
+    /// The decomposition's coefficients of all texels of all levels, of luma and of chroma.
     texels: [DMatrix<f32>; 2],
     ratios: Vec<[f32; 2]>,
     /// All components of luma and of chroma as the grid shows them.
     components: [Components; 2],
-    /// How much nodes count.
+    /// Weight of every node of the grid.
     node_weights: Vec<f32>,
 }
 
 impl<'a> Prepared<'a> {
-    /// Fits the survey's components to the nodes.
+    /// Materials whose components are fitted to the nodes of the grid.
     ///
     /// # Errors
-    /// [`Error::Request`] for a weight of chroma that is not above 0.
-    pub fn new(materials: &[Images], survey: &'a Survey, options: Options) -> Result<Self> {
+    /// [`Error::Request`](crate::Error::Request) for a weight of chroma that is not above 0.
+    pub fn new(materials: &[Images], svd: &'a TruncatedSvd, options: Options) -> Result<Self> {
         positive("weight of chroma", options.chroma_weight)?;
         let (lights, views) = (materials[0].lights(), materials[0].views());
         let resampler = Resampler::new(&options.grid, lights, views);
         let measured = Measured::new(&options.grid, lights, views);
-        let mipmaps = Mipmaps::new(&survey.sizes, options.has_mipmaps);
-        let texels = [&survey.luma.texels, &survey.chroma.texels].map(|texels| mipmaps.of(texels));
-        let ratios = mipmaps.of_ratios(&survey.ratios, &survey.luma.texels);
-        let bases = [vec![survey.luma.basis.clone()], vec![survey.chroma_basis(0), survey.chroma_basis(1)]];
-        let space = Space { measured: &measured, weights: &survey.weights };
+        let mipmaps = Mipmaps::new(&svd.sizes, options.has_mipmaps);
+        let texels = [&svd.luma.texels, &svd.chroma.texels].map(|texels| mipmaps.of(texels));
+        let ratios = mipmaps.of_ratios(&svd.ratios, &svd.luma.texels);
+        let bases = [vec![svd.luma.basis.clone()], vec![svd.chroma_basis(0), svd.chroma_basis(1)]];
+        let space = Space { measured: &measured, weights: &svd.weights };
         let components = [0, 1].map(|k| space.components(&resampler, &bases[k], &texels[k]));
-        let squares: Vec<f32> = survey.weights.iter().map(|weight| weight * weight).collect();
+        let squares: Vec<f32> = svd.weights.iter().map(|weight| weight * weight).collect();
         let node_weights = measured.spread(&squares);
-        Ok(Self { survey, options, measured, bases, texels, ratios, components, node_weights })
+        Ok(Self { svd, options, measured, bases, texels, ratios, components, node_weights })
     }
 
     /// Texels of all levels of all materials.
@@ -78,14 +79,14 @@ impl<'a> Prepared<'a> {
         [self.options.grid.view_nodes(), self.options.grid.light_nodes()]
     }
 
-    /// Builds a file.
+    /// A file of some sizes.
     ///
     /// # Errors
-    /// [`Error::Request`] for sizes out of range, or too many materials.
-    pub fn encode(&self, sizes: &Sizes, progress: &impl Progress) -> Result<Vec<u8>> {
+    /// [`Error::Request`](crate::Error::Request) for sizes out of range, or too many materials.
+    pub fn encode(&self, sizes: &Sizes, progress: &dyn Progress) -> Result<Vec<u8>> {
         sizes.check()?;
-        let (survey, options) = (self.survey, &self.options);
-        let (count, materials) = materials(&survey.sizes, &options.names, options.has_mipmaps)?;
+        let (svd, options) = (self.svd, &self.options);
+        let (count, materials) = materials(&svd.sizes, &options.names, options.has_mipmaps)?;
         progress.begin("factors", steps(sizes.stages.len()));
         let [of_luma, of_chroma] =
             [(0, sizes.luma), (1, sizes.chroma)].map(|(k, most)| most.min(self.components[k].count()));
@@ -96,7 +97,7 @@ impl<'a> Prepared<'a> {
         let decoded = tucker.tables(grid.light_nodes());
         let part = |first: usize, count: usize| decoded.columns(first, count).into_owned();
         let tables = [vec![part(0, of_luma)], vec![part(of_luma, of_chroma), part(of_luma + of_chroma, of_chroma)]];
-        let space = Space { measured: &self.measured, weights: &survey.weights };
+        let space = Space { measured: &self.measured, weights: &svd.weights };
         let [luma, chroma] = [0, 1].map(|k| space.coefficients(&tables[k], &self.bases[k], &self.texels[k]));
         // An error of ρ is one of all of a texel's luma.
         let mean_square = luma.norm_squared() / luma.ncols() as f32;
@@ -112,7 +113,7 @@ impl<'a> Prepared<'a> {
         let factors: Vec<f32> =
             tucker.steps.iter().enumerate().map(|(column, step)| step * coefficient_step(column)).collect();
         Ok(Contents {
-            header: BtfHeader { model: BtfModel::Factored, encoding: survey.tone, materials: count, grid: *grid },
+            header: BtfHeader { model: BtfModel::Factored, encoding: svd.tone, materials: count, grid: *grid },
             materials: &materials,
             components: [of_luma, of_chroma],
             tucker: &tucker,
@@ -144,11 +145,4 @@ impl<'a> Prepared<'a> {
         };
         Tucker::new(&tables, &energies, &self.node_weights, grid.light_nodes(), fineness)
     }
-}
-
-pub(super) fn positive(what: &str, number: f32) -> Result<()> {
-    if number.is_finite() && number > 0.0 {
-        return Ok(());
-    }
-    Err(Error::Request(format!("a {what} of {number}; it is above 0")))
 }

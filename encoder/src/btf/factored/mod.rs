@@ -1,13 +1,15 @@
 //! Factors of texels and of directions, small enough for a file: `subsurf_decoder::btf::factored` reads them.
 //!
-//! The survey's components are fitted to the grid (`space`), their tables become axes and a sparse core
+//! The components of a truncated SVD are fitted to the grid (`space`), their tables become axes and a sparse core
 //! (`angles`), and texels become sums of codewords (`texels`), chosen for the tables as they will be decoded.
 
 mod angles;
+mod budget;
 mod coder;
 mod encode;
 mod sizes;
 mod space;
+mod streams;
 mod texels;
 mod write;
 
@@ -15,7 +17,6 @@ pub use angles::CoreSize;
 pub use encode::{Options, Prepared};
 pub use sizes::Sizes;
 pub use texels::StageSize;
-pub(super) use texels::{means, nearest};
 
 #[cfg(test)]
 #[allow(clippy::cast_possible_truncation, reason = "small numbers")]

@@ -1,12 +1,10 @@
-//! How many of everything a file of factors has.
+//! Sizes of files of factors.
 
 use subsurf_decoder::btf::factored::layout::{MAX_CHROMA, MAX_LUMA, MAX_STAGES};
 
 use super::angles::CoreSize;
-use super::encode::{Prepared, positive};
 use super::texels::StageSize;
 use crate::error::{Error, Result};
-use crate::progress::Progress;
 
 /// Numbers and steps of one file.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,27 +17,22 @@ pub struct Sizes {
     pub stages: Vec<StageSize>,
     /// Most axes of views and of lights, 1 to 255 each.
     pub axes: [usize; 2],
-    /// Of the core between the axes.
+    /// Size of the core between the axes.
     pub core: CoreSize,
-    /// Step of codewords, in units of the survey.
+    /// Step of codewords, in units of the decomposition's coefficients.
     pub word_step: f32,
 }
 
-/// Shares of a file: a byte per texel and stage, the core, and the axes. What is left is for codewords.
+/// Share of a file for a byte per texel and stage; what no share is for is left for codewords.
 const OF_INDICES: f64 = 0.42;
-/// See [`OF_INDICES`].
-const OF_CORE: f64 = 0.23;
-/// See [`OF_INDICES`].
+/// Share of a file for the core between the axes.
+pub(super) const OF_CORE: f64 = 0.23;
+/// Share of a file for the axes of views and of lights.
 const OF_AXES: f64 = 0.07;
 /// Bytes that a number of a codeword takes, about.
 const OF_WORD: f64 = 0.3;
-/// Step of codewords in units of the survey: finer ones would cost more than they gain.
+/// Step of codewords, in units of the decomposition's coefficients: finer ones would cost more than they gain.
 const WORD_STEP: f32 = 0.1;
-/// Bytes of a file that may be left over.
-const SLACK: f64 = 0.01;
-/// Files that [`Prepared::encode_to`] tries.
-const TRIES: usize = 4;
-
 impl Sizes {
     /// Sizes of a file of about so many bytes, found on simulated materials of 128 × 128 texels at 1:500 to 1:2000.
     #[must_use]
@@ -84,42 +77,10 @@ impl Sizes {
     }
 }
 
-impl Prepared<'_> {
-    /// Builds a file of at most so many bytes, a few times where its parts turn out larger or smaller than usual; says
-    /// what it has.
-    ///
-    /// # Errors
-    /// As [`Self::encode`]; [`Error::Request`] if no file is that small.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of a number of bytes")]
-    pub fn encode_to(&self, bytes: usize, progress: &impl Progress) -> Result<(Vec<u8>, Sizes)> {
-        let mut sizes = Sizes::for_bytes(bytes, self.texels(), self.nodes());
-        let mut best: Option<(Vec<u8>, Sizes)> = None;
-        let mut least = usize::MAX;
-        for _ in 0..TRIES {
-            let file = self.encode(&sizes, progress)?;
-            least = least.min(file.len());
-            let CoreSize::Bytes(core) = sizes.core else { break };
-            let off = file.len() as f64 - bytes as f64;
-            let is_near = off <= 0.0 && -off <= SLACK * bytes as f64;
-            let is_better = off <= 0.0 && best.as_ref().is_none_or(|(best, _)| best.len() < file.len());
-            if is_better {
-                best = Some((file, sizes.clone()));
-            }
-            if is_near || progress.stopped() {
-                break;
-            }
-            // The core takes what is left, or gives up what is missing; components go before it is too coarse.
-            let usual = OF_CORE * bytes as f64;
-            let wanted = core as f64 - off - 0.3 * SLACK * bytes as f64;
-            if wanted < 0.5 * usual {
-                let fewer =
-                    (sizes.luma as f64 * (1.0 - (usual - wanted) / (0.5 * bytes as f64)).clamp(0.3, 0.95)) as usize;
-                sizes.luma = fewer.max(2);
-                let count = 2 + sizes.chroma + sizes.luma;
-                sizes.stages.iter_mut().for_each(|stage| stage.count = count);
-            }
-            sizes.core = CoreSize::Bytes(wanted.clamp(0.5 * usual, 2.5 * usual) as usize);
-        }
-        best.ok_or_else(|| Error::Request(format!("no file of factors is that small; this one takes {least} bytes")))
+/// Refuses a number that is not above 0.
+pub(super) fn positive(what: &str, number: f32) -> Result<()> {
+    if number.is_finite() && number > 0.0 {
+        return Ok(());
     }
+    Err(Error::Request(format!("a {what} of {number}; it is above 0")))
 }

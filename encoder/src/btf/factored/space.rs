@@ -1,22 +1,23 @@
-//! The survey's components on the grid: tables whose interpolation is orthonormal where it was measured.
+//! Components on the grid: tables whose interpolation is orthonormal where it was measured.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::btf::resample::{Measured, Resampler};
+use crate::math::eigen::Eigen;
 
 /// Share of the largest eigenvalue that is added to all, where a few components cannot be told apart on the grid.
 const RIDGE: f32 = 1e-4;
 
-/// What connects values at nodes with what was measured at pairs.
+/// Interpolation from nodes to measured pairs, and the weights of these.
 pub(super) struct Space<'a> {
     pub(super) measured: &'a Measured,
-    /// w of every pair.
+    /// Weight w of every pair of directions.
     pub(super) weights: &'a [f32],
 }
 
 /// Components, the most important first: a texel's value at a node is Σ_c coefficient · table, in one or two channels,
-/// and errors of coefficients are errors of what was measured, in units of the survey.
+/// and errors of coefficients are errors of what was measured, in the units of the decomposition's.
 pub(super) struct Components {
     /// For each channel, `[node × component]`.
     pub(super) tables: Vec<DMatrix<f32>>,
@@ -68,14 +69,11 @@ impl Space<'_> {
         // z = Lᵀ M⁻¹ C u = L⁻¹ C u has the metric 1.
         let inverse = lower.solve_lower_triangular(&DMatrix::identity(rank, rank)).expect("its diagonal is positive");
         let z = &inverse * cross * texels;
-        let eigen = (&z * z.transpose() / texels.ncols() as f32).symmetric_eigen();
-        let mut order: Vec<usize> = (0..rank).collect();
-        order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-        let turn = DMatrix::from_fn(rank, rank, |row, column| eigen.eigenvectors[(row, order[column])]);
-        let nodes_from_components = inverse.transpose() * &turn;
+        let eigen = Eigen::of(&z * z.transpose() / texels.ncols() as f32);
+        let nodes_from_components = inverse.transpose() * &eigen.vectors;
         Components {
             tables: tables.iter().map(|table| table * &nodes_from_components).collect(),
-            energies: order.iter().map(|k| eigen.eigenvalues[*k].max(0.0)).collect(),
+            energies: eigen.values.iter().map(|value| value.max(0.0)).collect(),
         }
     }
 

@@ -5,18 +5,20 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
+use crate::math::k_means::KMeans;
+use crate::math::k_means::euclidean::{Choice, Euclidean};
 use crate::progress::Progress;
 
-/// What one stage may take.
+/// Size of one stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StageSize {
-    /// Codewords, 1 to 256.
+    /// Number of codewords, 1 to 256.
     pub words: usize,
     /// Coefficients they add to, from the first; fewer than there are leave out the least of luma.
     pub count: usize,
 }
 
-/// Sums of codewords.
+/// Coefficients of texels as sums of codewords.
 pub(super) struct Quantised {
     /// For every stage `[coefficient × codeword]`, in steps.
     pub(super) words: Vec<DMatrix<f32>>,
@@ -24,8 +26,6 @@ pub(super) struct Quantised {
     pub(super) indices: Vec<u8>,
 }
 
-/// Texels that one thread compares at a time.
-const BLOCK: usize = 1_024;
 /// Rounds of k-means that a stage begins with.
 const FIRST_ROUNDS: usize = 8;
 /// Sweeps over all stages that follow.
@@ -38,62 +38,6 @@ pub(super) fn steps(stages: usize) -> u64 {
     (stages * (FIRST_ROUNDS + SWEEPS)) as u64
 }
 
-/// A codeword, and the squared distance to it.
-type Choice = (u8, f32);
-
-/// The nearest codewords of columns.
-pub(in crate::btf) fn nearest(columns: &DMatrix<f32>, words: &DMatrix<f32>) -> Vec<Choice> {
-    let count = words.nrows();
-    let halves: Vec<f32> = words.column_iter().map(|word| 0.5 * word.norm_squared()).collect();
-    let starts: Vec<usize> = (0..columns.ncols()).step_by(BLOCK).collect();
-    let of_block = |start: &usize| {
-        let block = columns.view((0, *start), (count, BLOCK.min(columns.ncols() - start)));
-        let products = words.tr_mul(&block);
-        let best = |(texel, products): (usize, nalgebra::DVectorView<'_, f32>)| {
-            let mut best = (0, f32::INFINITY);
-            for (word, (half, product)) in halves.iter().zip(products.iter()).enumerate() {
-                let distance = half - product;
-                if distance < best.1 {
-                    best = (word, distance);
-                }
-            }
-            let (word, distance) = best;
-            (u8::try_from(word).expect("at most 256"), 2.0 * distance + block.column(texel).norm_squared())
-        };
-        products.column_iter().enumerate().map(|(k, column)| best((k, column.as_view()))).collect::<Vec<_>>()
-    };
-    starts.par_iter().flat_map_iter(of_block).collect()
-}
-
-/// Means of the columns of every codeword; those that nothing chose start again at what is farthest from its own.
-pub(in crate::btf) fn means(columns: &DMatrix<f32>, chosen: &[Choice], words: &mut DMatrix<f32>) {
-    let count = words.nrows();
-    let mut sums = DMatrix::<f32>::zeros(count, words.ncols());
-    let mut members = vec![0_usize; words.ncols()];
-    for (texel, (word, _)) in chosen.iter().enumerate() {
-        let word = usize::from(*word);
-        members[word] += 1;
-        let mut sum = sums.column_mut(word);
-        sum += columns.column(texel).rows(0, count);
-    }
-    let empty = members.iter().filter(|members| **members == 0).count();
-    let mut far: Vec<usize> = (0..chosen.len()).collect();
-    if empty > 0 && far.len() > empty {
-        far.select_nth_unstable_by(empty, |a, b| chosen[*b].1.total_cmp(&chosen[*a].1).then(a.cmp(b)));
-        far.truncate(empty);
-        far.sort_unstable();
-    }
-    let mut far = far.into_iter();
-    for (word, members) in members.iter().enumerate() {
-        let mut of_word = words.column_mut(word);
-        if *members > 0 {
-            of_word.copy_from(&(sums.column(word) / *members as f32));
-        } else if let Some(texel) = far.next() {
-            of_word.copy_from(&columns.column(texel).rows(0, count));
-        }
-    }
-}
-
 /// Adds the chosen codewords, times `sign`.
 fn add(columns: &mut DMatrix<f32>, chosen: &[Choice], words: &DMatrix<f32>, sign: f32) {
     let (rows, count) = (columns.nrows(), words.nrows());
@@ -103,8 +47,8 @@ fn add(columns: &mut DMatrix<f32>, chosen: &[Choice], words: &DMatrix<f32>, sign
     });
 }
 
-/// Finds codewords, in steps, for columns of coefficients, in steps.
-pub(super) fn quantise(columns: &DMatrix<f32>, sizes: &[StageSize], seed: u64, progress: &impl Progress) -> Quantised {
+/// Codewords, in steps, for columns of coefficients, in steps.
+pub(super) fn quantise(columns: &DMatrix<f32>, sizes: &[StageSize], seed: u64, progress: &dyn Progress) -> Quantised {
     let mut rng = Pcg64::seed_from_u64(seed);
     let mut left = columns.clone();
     let (mut words, mut chosen): (Vec<DMatrix<f32>>, Vec<Vec<Choice>>) = (Vec::new(), Vec::new());
@@ -115,12 +59,12 @@ pub(super) fn quantise(columns: &DMatrix<f32>, sizes: &[StageSize], seed: u64, p
         for mut word in of_stage.column_iter_mut() {
             word.copy_from(&left.column(rng.random_range(0..left.ncols())).rows(0, count));
         }
-        for _ in 0..FIRST_ROUNDS {
-            let of_texels = nearest(&left, &of_stage);
-            means(&left, &of_texels, &mut of_stage);
+        let vectors = Euclidean(&left);
+        let of_stage = vectors.lloyd(of_stage, FIRST_ROUNDS, |_| {
             progress.advance(1);
-        }
-        let of_texels = nearest(&left, &of_stage);
+            true
+        });
+        let of_texels = vectors.assign(&of_stage);
         add(&mut left, &of_texels, &of_stage, -1.0);
         words.push(of_stage);
         chosen.push(of_texels);
@@ -130,9 +74,10 @@ pub(super) fn quantise(columns: &DMatrix<f32>, sizes: &[StageSize], seed: u64, p
         let (is_whole, is_last) = (sweep + WHOLE_SWEEPS >= SWEEPS, sweep + 1 == SWEEPS);
         for (of_stage, of_texels) in words.iter_mut().zip(&mut chosen) {
             add(&mut left, of_texels, of_stage, 1.0);
-            *of_texels = nearest(&left, of_stage);
+            let vectors = Euclidean(&left);
+            *of_texels = vectors.assign(of_stage);
             if !is_last {
-                means(&left, of_texels, of_stage);
+                vectors.update(of_texels, of_stage);
             }
             if is_whole {
                 of_stage.apply(|value| *value = value.round().clamp(-32_767.0, 32_767.0));

@@ -1,17 +1,15 @@
 //! The file of factors, through the decoder's own layout.
 
-use nalgebra::DMatrix;
 use subsurf_decoder::Section;
 use subsurf_decoder::btf::factored::layout::{CodewordStage, MAX_STAGES, TuckerShape};
-use subsurf_decoder::btf::factored::model::{IntegerModel, code_core, code_words};
 use subsurf_decoder::btf::{BtfHeader, Material};
 
 use super::angles::Tucker;
-use super::coder::Encoder;
+use super::streams::{codewords, core};
 use super::texels::Quantised;
-use crate::container;
+use crate::file::container;
 
-/// All of a file.
+/// Contents of a file.
 pub(super) struct Contents<'a> {
     pub(super) header: BtfHeader,
     pub(super) materials: &'a [Material],
@@ -67,25 +65,4 @@ impl Contents<'_> {
             (Section::TexelIndices, &self.texels.indices),
         ])
     }
-}
-
-/// `CORE` of columns `[view axis][light axis]`.
-pub(super) fn core(columns: &[Vec<i32>], light_axes: usize) -> Vec<u8> {
-    let (mut coder, mut numbers) = (Encoder::new(), IntegerModel::default());
-    let mut usual = vec![0.0; columns.first().map_or(0, Vec::len)];
-    for column in columns {
-        let mut column: Vec<f32> = column.iter().map(|number| *number as f32).collect();
-        code_core(&mut coder, &mut numbers, light_axes, &mut column, &mut usual);
-    }
-    coder.finish()
-}
-
-fn codewords(stages: &[DMatrix<f32>]) -> Vec<u8> {
-    let mut coder = Encoder::new();
-    for words in stages {
-        #[allow(clippy::cast_possible_truncation, reason = "whole, at most 32,767")]
-        let mut numbers: Vec<i16> = words.iter().map(|number| *number as i16).collect();
-        code_words(&mut coder, words.nrows(), &mut numbers);
-    }
-    coder.finish()
 }

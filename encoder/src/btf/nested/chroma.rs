@@ -4,31 +4,31 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use subsurf_decoder::btf::Grid;
 
-use super::clusters::product;
+use super::database::{Chroma, Item};
 use super::luma::Built;
-use super::means::Weighted;
 use super::scales::gain;
-use super::write::{Chroma, Item};
+use crate::math::k_means::weighted::Weighted;
+use crate::math::matrix::product;
 
 /// Most entries of the codebooks of chroma.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChromaSizes {
-    /// Of I2, 2-D.
+    /// Entries of I2: chroma of 2-D slices.
     pub i2: usize,
-    /// Of I1, 1-D.
+    /// Entries of I1: chroma of 1-D slices.
     pub i1: usize,
-    /// Of C, single colours.
+    /// Entries of C: single colours.
     pub colours: usize,
-    /// Of tints.
+    /// Entries of tints.
     pub tints: usize,
 }
 
-/// What the stage of luma is told of chroma.
+/// Chroma of all texels, to be stored beside a stage of luma.
 pub(super) struct Hues<'a> {
     pub(super) grid: Grid,
-    /// ρ of all texels.
+    /// Ratio ρ of chroma to luma of all texels.
     pub(super) ratios: &'a [[f32; 2]],
-    /// v of all texels.
+    /// Coefficients v of chroma of all texels, in columns.
     pub(super) texels: &'a DMatrix<f32>,
     /// Components at nodes, without weights, of both channels.
     pub(super) tables: [&'a DMatrix<f32>; 2],

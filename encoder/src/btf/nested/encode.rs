@@ -2,17 +2,18 @@
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use subsurf_decoder::btf::NAME_BYTES;
 use subsurf_decoder::btf::nested::layout::MAX_STAGES;
-use subsurf_decoder::btf::{BtfHeader, BtfModel, ColourEncoding, Grid, Material};
+use subsurf_decoder::btf::{BtfHeader, BtfModel, ColourEncoding, Grid};
 
 use super::chroma::{ChromaSizes, Hues};
+use super::database::Database;
 use super::luma::{STEPS, Space};
 use super::sizes::Sizes;
-use super::write::Database;
+use crate::btf::TruncatedSvd;
+use crate::btf::materials::materials;
 use crate::btf::mipmaps::Mipmaps;
 use crate::btf::resample::{Measured, Resampler};
-use crate::btf::{Images, Survey};
+use crate::capture::Images;
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 
@@ -31,9 +32,9 @@ pub struct Options {
     pub seed: u64,
 }
 
-/// Materials that were surveyed together, on the nodes of a grid: what codebooks of all sizes are made from.
+/// Materials that were decomposed together, on the nodes of a grid: what codebooks of all sizes are made from.
 pub struct Prepared<'a> {
-    survey: &'a Survey,
+    svd: &'a TruncatedSvd,
     options: Options,
     measured: Measured,
     /// Components of luma, and of both channels of chroma, at nodes.
@@ -46,36 +47,36 @@ pub struct Prepared<'a> {
 impl<'a> Prepared<'a> {
     /// Fits the components to the nodes.
     #[must_use]
-    pub fn new(materials: &[Images], survey: &'a Survey, options: Options) -> Self {
+    pub fn new(materials: &[Images], svd: &'a TruncatedSvd, options: Options) -> Self {
         let (lights, views) = (materials[0].lights(), materials[0].views());
         let resampler = Resampler::new(&options.grid, lights, views);
         let measured = Measured::new(&options.grid, lights, views);
-        let mipmaps = Mipmaps::new(&survey.sizes, options.has_mipmaps);
-        let texels = [&survey.luma.texels, &survey.chroma.texels].map(|texels| mipmaps.of(texels));
-        let ratios = mipmaps.of_ratios(&survey.ratios, &survey.luma.texels);
-        let tables = [&survey.luma.basis, &survey.chroma_basis(0), &survey.chroma_basis(1)]
-            .map(|basis| fitted(&resampler, survey, basis));
-        Self { survey, options, measured, tables, texels, ratios }
+        let mipmaps = Mipmaps::new(&svd.sizes, options.has_mipmaps);
+        let texels = [&svd.luma.texels, &svd.chroma.texels].map(|texels| mipmaps.of(texels));
+        let ratios = mipmaps.of_ratios(&svd.ratios, &svd.luma.texels);
+        let tables =
+            [&svd.luma.basis, &svd.chroma_basis(0), &svd.chroma_basis(1)].map(|basis| fitted(&resampler, svd, basis));
+        Self { svd, options, measured, tables, texels, ratios }
     }
 
     /// Builds codebooks of at most these sizes, a stage each.
     ///
     /// # Errors
     /// [`Error::Request`] for no stage or more than four, or too many materials.
-    pub fn encode(&self, stages: &[Sizes], progress: &impl Progress) -> Result<Database> {
-        let (survey, options) = (self.survey, &self.options);
+    pub fn encode(&self, stages: &[Sizes], progress: &dyn Progress) -> Result<Database> {
+        let (svd, options) = (self.svd, &self.options);
         if stages.is_empty() || stages.len() > MAX_STAGES {
             return Err(Error::Request(format!("{} stages of codebooks; 1 to 4 are possible", stages.len())));
         }
-        let (count, materials) = materials(&survey.sizes, &options.names, options.has_mipmaps)?;
+        let (count, materials) = materials(&svd.sizes, &options.names, options.has_mipmaps)?;
         progress.begin("codebooks", STEPS * stages.len() as u64);
         let [luma, chroma] = &self.texels;
         let [of_luma, of_a, of_b] = &self.tables;
         let space = Space {
             grid: options.grid,
             measured: &self.measured,
-            weights: &survey.weights,
-            basis: &survey.luma.basis,
+            weights: &svd.weights,
+            basis: &svd.luma.basis,
             tables: of_luma,
         };
         let mut left = luma.clone();
@@ -86,7 +87,7 @@ impl<'a> Prepared<'a> {
             built.push(stage);
         }
         let energies: Vec<f32> = luma.column_iter().map(|texel| texel.norm_squared()).collect();
-        let squares: Vec<f32> = survey.weights.iter().map(|weight| weight * weight).collect();
+        let squares: Vec<f32> = svd.weights.iter().map(|weight| weight * weight).collect();
         let node_weights = mean_over_views(&self.measured.spread(&squares), options.grid.light_nodes());
         let hues = Hues {
             grid: options.grid,
@@ -95,11 +96,11 @@ impl<'a> Prepared<'a> {
             tables: [of_a, of_b],
             node_weights: &node_weights,
             energies: &energies,
-            is_relative: matches!(survey.tone, ColourEncoding::Display { .. }),
+            is_relative: matches!(svd.tone, ColourEncoding::Display { .. }),
         };
         let chroma = hues.build(&mut built[0], options.chroma);
         Ok(Database {
-            header: BtfHeader { model: BtfModel::Nested, encoding: survey.tone, materials: count, grid: options.grid },
+            header: BtfHeader { model: BtfModel::Nested, encoding: svd.tone, materials: count, grid: options.grid },
             materials,
             stages: built.into_iter().map(|stage| stage.chain).collect(),
             chroma,
@@ -108,12 +109,12 @@ impl<'a> Prepared<'a> {
 }
 
 /// Tables of components at nodes, without the weights of pairs.
-fn fitted(resampler: &Resampler, survey: &Survey, basis: &DMatrix<f32>) -> DMatrix<f32> {
+fn fitted(resampler: &Resampler, svd: &TruncatedSvd, basis: &DMatrix<f32>) -> DMatrix<f32> {
     let columns: Vec<Vec<f32>> = (0..basis.ncols())
         .into_par_iter()
         .map(|component| {
             let plain: Vec<f32> =
-                basis.column(component).iter().zip(&survey.weights).map(|(value, weight)| value / weight).collect();
+                basis.column(component).iter().zip(&svd.weights).map(|(value, weight)| value / weight).collect();
             resampler.fit(&plain)
         })
         .collect();
@@ -123,32 +124,4 @@ fn fitted(resampler: &Resampler, survey: &Survey, basis: &DMatrix<f32>) -> DMatr
 fn mean_over_views(values: &[f32], light: usize) -> Vec<f32> {
     let count = (values.len() / light) as f32;
     (0..light).map(|k| values[k..].iter().step_by(light).sum::<f32>() / count).collect()
-}
-
-/// What a file says of materials, and how many there are.
-pub(in crate::btf) fn materials(
-    sizes: &[[u32; 2]],
-    names: &[String],
-    has_mipmaps: bool,
-) -> Result<(u8, Vec<Material>)> {
-    let count = u8::try_from(sizes.len()).ok().filter(|count| *count > 0);
-    let count = count.ok_or_else(|| Error::Request(format!("{} materials in one file", sizes.len())))?;
-    let all = sizes.iter().zip(names).map(|(size, name)| material(*size, name, has_mipmaps));
-    Ok((count, all.collect::<Result<_>>()?))
-}
-
-fn material([width, height]: [u32; 2], name: &str, has_mipmaps: bool) -> Result<Material> {
-    let side =
-        |side: u32| u16::try_from(side).map_err(|_| Error::Request(format!("{name}: {side} texels wide or high")));
-    let levels = if has_mipmaps { 1 + width.max(height).ilog2() } else { 1 };
-    let mut bytes = [0; NAME_BYTES];
-    // Cut between characters.
-    let end = (0..=name.len().min(NAME_BYTES)).rev().find(|end| name.is_char_boundary(*end)).unwrap_or(0);
-    bytes[..end].copy_from_slice(&name.as_bytes()[..end]);
-    Ok(Material {
-        name: bytes,
-        width: side(width)?,
-        height: side(height)?,
-        levels: u8::try_from(levels).expect("at most 16"),
-    })
 }

@@ -5,15 +5,16 @@ use rayon::prelude::*;
 use subsurf_decoder::btf::Grid;
 use subsurf_decoder::btf::nested::layout::Scales;
 
-use super::clusters::{Match, Samples, product};
+use super::database::{Chain, Item};
 use super::scales::{Fineness, code, gain, scales};
 use super::sizes::Sizes;
 use super::slices::{Slices, from_bytes, to_bytes};
-use super::write::{Chain, Item};
 use crate::btf::resample::Measured;
+use crate::math::k_means::shape_gain::{Match, Samples};
+use crate::math::matrix::product;
 use crate::progress::Progress;
 
-/// Of P6, P4, P3 and P2.
+/// Fineness of scales of P6, P4, P3 and P2.
 const FINENESS: [Fineness; 4] = [Fineness { bits: 8, step: 1 }, FINE, FINE, FINE];
 /// Four octaves in steps of 1/32: coarser steps are seen as noise on smooth materials.
 const FINE: Fineness = Fineness { bits: 7, step: 1 };
@@ -26,11 +27,11 @@ pub(super) const STEPS: u64 = 1 + 4 * LOOPS as u64;
 /// Least weight of a node, in mean ones: what nothing was measured of is not to be anything.
 const LEAST_WEIGHT: f32 = 0.02;
 
-/// What all stages need of directions.
+/// Directions, as all stages need them.
 pub(super) struct Space<'a> {
     pub(super) grid: Grid,
     pub(super) measured: &'a Measured,
-    /// Weights w of pairs.
+    /// Weight w of every pair of directions.
     pub(super) weights: &'a [f32],
     /// Weighted components at pairs, orthonormal columns.
     pub(super) basis: &'a DMatrix<f32>,
@@ -38,12 +39,12 @@ pub(super) struct Space<'a> {
     pub(super) tables: &'a DMatrix<f32>,
 }
 
-/// A chain and what it decodes to.
+/// Codebooks of a stage, and what they decode to.
 pub(super) struct Built {
     pub(super) chain: Chain,
-    /// P4's entries at nodes.
+    /// Entries of P4 at the nodes of the grid, in columns.
     pub(super) decoded: DMatrix<f32>,
-    /// Coefficients of P4's entries.
+    /// Coefficients of the entries of P4, in columns.
     pub(super) projected: DMatrix<f32>,
 }
 

@@ -1,21 +1,21 @@
-//! Logarithmic scales of codebooks.
+//! Logarithmic scales of codebooks: gains as codes of a few bits.
 
 use subsurf_decoder::btf::nested::layout::{MAX_OCTAVES, STEPS_PER_OCTAVE, Scales};
 
-/// How finely gains are stored.
+/// Fineness with which gains are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::btf) struct Fineness {
+pub(crate) struct Fineness {
     /// Bits of a code, the sign not counted.
-    pub(in crate::btf) bits: u8,
+    pub(crate) bits: u8,
     /// Binary logarithm of the step, in 1/64 octaves.
-    pub(in crate::btf) step: u8,
+    pub(crate) step: u8,
 }
 
 const STEPS: f32 = STEPS_PER_OCTAVE as f32;
 
-/// The scales of a codebook whose largest code stands for the largest gain.
+/// Scales of a codebook whose largest code stands for the largest gain.
 #[allow(clippy::cast_possible_truncation, reason = "octaves of finite gains")]
-pub(in crate::btf) fn scales(gains: impl Iterator<Item = f32>, fineness: Fineness, is_signed: bool) -> Scales {
+pub(crate) fn scales(gains: impl Iterator<Item = f32>, fineness: Fineness, is_signed: bool) -> Scales {
     let largest = gains.map(f32::abs).fold(0.0, f32::max).max(f32::MIN_POSITIVE);
     let top = (STEPS * largest.log2()).ceil() as i32;
     let reach = ((1 << fineness.bits) - 1) << fineness.step;
@@ -26,9 +26,9 @@ pub(in crate::btf) fn scales(gains: impl Iterator<Item = f32>, fineness: Finenes
     Scales { bits: fineness.bits + u8::from(is_signed), step: fineness.step, offset }
 }
 
-/// The code of the nearest scale.
+/// Code of the nearest gain.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-pub(in crate::btf) fn code(scales: Scales, gain: f32, is_signed: bool) -> u32 {
+pub(crate) fn code(scales: Scales, gain: f32, is_signed: bool) -> u32 {
     let bits = u32::from(scales.bits) - u32::from(is_signed);
     let steps =
         (STEPS * gain.abs().max(f32::MIN_POSITIVE).log2() - f32::from(scales.offset)) / (1_i32 << scales.step) as f32;
@@ -36,8 +36,8 @@ pub(in crate::btf) fn code(scales: Scales, gain: f32, is_signed: bool) -> u32 {
     magnitude | if is_signed && gain < 0.0 { 1 << bits } else { 0 }
 }
 
-/// The scale of a code.
-pub(in crate::btf) fn gain(scales: Scales, code: u32, is_signed: bool) -> f32 {
+/// Gain that a code stands for.
+pub(crate) fn gain(scales: Scales, code: u32, is_signed: bool) -> f32 {
     let bits = u32::from(scales.bits) - u32::from(is_signed);
     let steps = (code & ((1 << bits) - 1)) << scales.step;
     let size = ((steps as f32 + f32::from(scales.offset)) / STEPS).exp2();

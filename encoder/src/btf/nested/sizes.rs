@@ -1,17 +1,17 @@
-//! How large codebooks are.
+//! Sizes of nested codebooks.
 
-use crate::btf::rate::Rung;
+use crate::rate::Candidate;
 
 /// Most entries of the codebooks of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sizes {
-    /// Of P4, 4-D.
+    /// Entries of P4: whole apparent BRDFs, 4-D.
     pub p4: usize,
-    /// Of P3, 3-D.
+    /// Entries of P3: slices at an azimuth of the view, 3-D.
     pub p3: usize,
-    /// Of P2, 2-D.
+    /// Entries of P2: slices at a view, 2-D.
     pub p2: usize,
-    /// Of P1, 1-D.
+    /// Entries of P1: slices along β, 1-D.
     pub p1: usize,
 }
 
@@ -25,7 +25,7 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// Where nothing is asked for.
+    /// Extent where nothing is asked for.
     pub const USUAL: Self = Self::of(512, 1);
     /// By the bytes they take. What gains more, larger codebooks or a second stage, depends on the material: smooth ones
     /// take to stages.
@@ -56,11 +56,7 @@ impl Extent {
     }
 }
 
-impl Rung for Extent {
-    fn name(&self) -> String {
-        format!("P4 = {} × {}", self.p4, self.stages)
-    }
-
+impl Candidate for Extent {
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_precision_loss,

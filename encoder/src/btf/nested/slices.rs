@@ -2,15 +2,16 @@
 
 use rayon::prelude::*;
 
-use super::clusters::Match;
-use super::write::slice_mean;
+use super::database::slice_mean;
+use crate::math::k_means::KMeans;
+use crate::math::k_means::shape_gain::Match;
 
 /// Slices of `nodes` values, each with weights of its own for all of them.
 pub(super) struct Slices<'a> {
     pub(super) nodes: usize,
     /// `[slice][node]`.
     pub(super) values: &'a [f32],
-    /// What a slice counts.
+    /// Weight of every slice.
     pub(super) weights: Vec<f32>,
     /// Rows of weights of nodes; slice k has row k mod their number.
     pub(super) node_weights: &'a [f32],
@@ -111,16 +112,27 @@ impl Slices<'_> {
             self.normalise(&mut row);
             rows.extend(row);
         }
-        for _ in 0..rounds {
-            rows = self.centroids(&self.search(&rows), count);
-        }
-        rows
+        self.lloyd(rows, rounds, |_| true)
     }
 }
 
-/// Rows as the file has them: bytes, and their mean.
+impl KMeans for Slices<'_> {
+    /// Rows `[row][node]`.
+    type Codebook = Vec<f32>;
+    type Assignment = Vec<Match>;
+
+    fn assign(&self, rows: &Vec<f32>) -> Vec<Match> {
+        self.search(rows)
+    }
+
+    fn update(&self, matches: &Vec<Match>, rows: &mut Vec<f32>) {
+        *rows = self.centroids(matches, rows.len() / self.nodes);
+    }
+}
+
+/// Rows as the file has them: bytes, and the code of their mean.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "values from −1 to 1")]
-pub(in crate::btf) fn to_bytes(rows: &[f32], nodes: usize, is_signed: bool) -> Vec<u8> {
+pub(crate) fn to_bytes(rows: &[f32], nodes: usize, is_signed: bool) -> Vec<u8> {
     let byte = |value: &f32| {
         if is_signed { ((value * 127.0).round() as i8).cast_unsigned() } else { (value * 255.0).round() as u8 }
     };
@@ -132,7 +144,7 @@ pub(in crate::btf) fn to_bytes(rows: &[f32], nodes: usize, is_signed: bool) -> V
     rows.chunks_exact(nodes).flat_map(with_mean).collect()
 }
 
-/// What the decoder makes of them, without the means.
+/// Rows as the decoder has them, without the means.
 pub(super) fn from_bytes(bytes: &[u8], nodes: usize, is_signed: bool) -> Vec<f32> {
     let value = |byte: &u8| if is_signed { f32::from(byte.cast_signed()) / 127.0 } else { f32::from(*byte) / 255.0 };
     bytes.chunks_exact(nodes + 1).flat_map(|row| row[..nodes].iter().map(value)).collect()

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::NestedBtf;
-use subsurf_encoder::btf::Folder;
+use subsurf_encoder::capture::Folder;
 use subsurf_runtime::{
     BtfImages, BtfLayout, BtfMaterial, Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, Technique, VertexData,
 };

@@ -5,7 +5,8 @@ use subsurf_decoder::btf::factored::ExpansionMemory;
 use subsurf_decoder::btf::{Evaluate, FactoredBtf, Grid};
 
 use crate::btf::factored::{CoreSize, Options, Prepared, Sizes, StageSize};
-use crate::btf::{Detail, Images, Source, Survey};
+use crate::btf::{Ranks, TruncatedSvd};
+use crate::capture::{Images, Source};
 use crate::error::{Error, Result};
 use crate::metrics::btf::{BtfError, compare};
 
@@ -97,13 +98,13 @@ fn sizes() -> Sizes {
     }
 }
 
-fn waves(white: Option<f32>) -> (Vec<Images>, Survey) {
+fn waves(white: Option<f32>) -> (Vec<Images>, TruncatedSvd) {
     let images = vec![Images::load(&Waves::new(white), &()).unwrap()];
-    let survey = Survey::new(&images, DETAIL, 1, &()).unwrap();
-    (images, survey)
+    let svd = TruncatedSvd::new(&images, RANKS, 1, &()).unwrap();
+    (images, svd)
 }
 
-const DETAIL: Detail = Detail { luma: 24, chroma: 8 };
+const RANKS: Ranks = Ranks { luma: 24, chroma: 8 };
 
 fn mean(error: &BtfError) -> f64 {
     error.mean_mssim().unwrap()
@@ -119,8 +120,8 @@ fn quality(images: &Images, bytes: &[u8], material: usize) -> BtfError {
 #[test]
 fn images_come_back() {
     for white in [Some(1.0), None] {
-        let (images, survey) = waves(white);
-        let prepared = Prepared::new(&images, &survey, options(1)).unwrap();
+        let (images, svd) = waves(white);
+        let prepared = Prepared::new(&images, &svd, options(1)).unwrap();
         let error = quality(&images[0], &prepared.encode(&sizes(), &()).unwrap(), 0);
         assert!(mean(&error) > 0.95, "white {white:?}: {error:?}");
         let coarse = Sizes { luma: 2, chroma: 0, stages: vec![StageSize { words: 4, count: 4 }], ..sizes() };
@@ -131,8 +132,8 @@ fn images_come_back() {
 
 #[test]
 fn cores_take_no_more_bytes_than_they_may() {
-    let (images, survey) = waves(Some(1.0));
-    let prepared = Prepared::new(&images, &survey, options(1)).unwrap();
+    let (images, svd) = waves(Some(1.0));
+    let prepared = Prepared::new(&images, &svd, options(1)).unwrap();
     let mut last = 0.0;
     for most in [60, 150, 500] {
         let bytes = prepared.encode(&Sizes { core: CoreSize::Bytes(most), ..sizes() }, &()).unwrap();
@@ -148,8 +149,8 @@ fn cores_take_no_more_bytes_than_they_may() {
 
 #[test]
 fn files_are_as_large_as_they_may_be() {
-    let (images, survey) = waves(Some(1.0));
-    let prepared = Prepared::new(&images, &survey, options(1)).unwrap();
+    let (images, svd) = waves(Some(1.0));
+    let prepared = Prepared::new(&images, &svd, options(1)).unwrap();
     let mut last = 0.0;
     for most in [2_500, 9_000] {
         let (bytes, sizes) = prepared.encode_to(most, &()).unwrap();
@@ -165,9 +166,9 @@ fn files_are_as_large_as_they_may_be() {
 #[test]
 fn materials_share_a_file_and_have_mipmaps() {
     let images = [None, None].map(|_: Option<()>| Images::load(&Waves::new(Some(1.0)), &()).unwrap());
-    let survey = Survey::new(&images, DETAIL, 1, &()).unwrap();
+    let svd = TruncatedSvd::new(&images, RANKS, 1, &()).unwrap();
     let options = Options { has_mipmaps: true, ..options(2) };
-    let bytes = Prepared::new(&images, &survey, options).unwrap().encode(&sizes(), &()).unwrap();
+    let bytes = Prepared::new(&images, &svd, options).unwrap().encode(&sizes(), &()).unwrap();
     let file = FactoredBtf::parse(&bytes).unwrap();
     let materials: Vec<_> = file.catalog().materials().collect();
     assert_eq!(materials.iter().map(|material| material.name()).collect::<Vec<_>>(), ["waves 0", "waves 1"]);
@@ -190,8 +191,8 @@ fn files_do_not_depend_on_threads() {
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let (images, survey) = waves(Some(1.0));
-            Prepared::new(&images, &survey, options(1)).unwrap().encode(&sizes(), &()).unwrap()
+            let (images, svd) = waves(Some(1.0));
+            Prepared::new(&images, &svd, options(1)).unwrap().encode(&sizes(), &()).unwrap()
         })
     };
     assert!(with(1) == with(3), "one thread and three");
@@ -199,8 +200,8 @@ fn files_do_not_depend_on_threads() {
 
 #[test]
 fn what_cannot_be_written_is_refused() {
-    let (images, survey) = waves(Some(1.0));
-    let prepared = Prepared::new(&images, &survey, options(1)).unwrap();
+    let (images, svd) = waves(Some(1.0));
+    let prepared = Prepared::new(&images, &svd, options(1)).unwrap();
     for bad in [
         Sizes { luma: 0, ..sizes() },
         Sizes { luma: 129, ..sizes() },
@@ -214,5 +215,5 @@ fn what_cannot_be_written_is_refused() {
         assert!(matches!(error, Error::Request(_)), "{bad:?}: {error:?}");
     }
     let weightless = Options { chroma_weight: 0.0, ..options(1) };
-    assert!(Prepared::new(&images, &survey, weightless).is_err(), "chroma has to count");
+    assert!(Prepared::new(&images, &svd, weightless).is_err(), "chroma has to count");
 }

@@ -1,10 +1,12 @@
 //! Files are read back bit by bit, without the decoder's own tables of items.
 
 use subsurf_decoder::NestedBtf;
+use subsurf_decoder::btf::nested::layout::Scales;
 use subsurf_decoder::btf::{ColourEncoding, Grid};
 use subsurf_decoder::container::{Container, Crc};
 
 use super::*;
+use crate::btf::nested::database::slice_mean;
 use crate::synthetic::NestedShape;
 
 /// Reads fields of a section one bit after the other.
@@ -80,11 +82,11 @@ fn assert_same(database: &Database) {
                     None => reader.next(bits),
                 };
                 if book == 2 {
-                    // What the code lacks, the height has; steps are the same.
-                    let height = i32::from(slices[index as usize * (n_beta + 1) + n_beta]);
+                    // What the code lacks, the exponent of the slice has; steps are the same.
+                    let of_slice = i32::from(slices[index as usize * (n_beta + 1) + n_beta]);
                     let exponent =
                         |scales: Scales, code: u32| i32::from(scales.offset) + (code.cast_signed() << scales.step);
-                    let found = exponent(of_book.scales, code) + 2 * height;
+                    let found = exponent(of_book.scales, code) + 2 * of_slice;
                     assert_eq!((index, found), (item.index, exponent(chain.scales[k], item.code)), "item {at} of P2");
                 } else {
                     assert_eq!(of_book.scales, chain.scales[k], "P{book}");

@@ -1,0 +1,215 @@
+//! Reads the images of a BTF, one at a time.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use crate::capture::directions::{Direction, directions_of, image_name};
+use crate::error::{Error, Result};
+
+/// A folder with an image for every pair of a light and a view.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    lights: Vec<Direction>,
+    views: Vec<Direction>,
+    size: [u32; 2],
+    extension: String,
+    /// Files by light and view.
+    images: BTreeMap<[Direction; 2], PathBuf>,
+}
+
+/// Images that are read, by their extensions; the last two hold linear floats.
+const EXTENSIONS: [&str; 5] = ["png", "jpg", "jpeg", "exr", "hdr"];
+
+impl Folder {
+    /// Looks through a folder: every light is there with every view, all images have one format and one size. What is in
+    /// them is not read yet.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with what is missing, twice there, or of another size.
+    pub fn open(path: &Path) -> Result<Self> {
+        let expected =
+            "a folder of images named \"tl000 pl000 tv000 pv000.png\" (.jpg, .exr, .hdr): light and view in degrees";
+        let entries = std::fs::read_dir(path).map_err(|error| Error::input(path, error, expected))?;
+        let mut images = BTreeMap::new();
+        let mut extension: Option<String> = None;
+        for entry in entries {
+            let file = entry.map_err(|error| Error::input(path, error, expected))?.path();
+            let lower = |text: &std::ffi::OsStr| text.to_string_lossy().to_ascii_lowercase();
+            let kind = file.extension().map(lower).unwrap_or_default();
+            let pair = file.file_stem().and_then(|stem| directions_of(&lower(stem)));
+            let Some(pair) = pair.filter(|_| EXTENSIONS.contains(&kind.as_str())) else {
+                continue;
+            };
+            if *extension.get_or_insert_with(|| kind.clone()) != kind {
+                let first = extension.unwrap_or_default();
+                return Err(Error::input(&file, "one image in another format", format!("all of them in .{first}")));
+            }
+            if let Some(other) = images.insert(pair, file.clone()) {
+                let found = format!("the same directions as {}", other.display());
+                return Err(Error::input(&file, found, "one image for every pair of directions"));
+            }
+        }
+        let Some(extension) = extension else {
+            return Err(Error::input(path, "no image that is named by its directions", expected));
+        };
+        let of = |which: usize| images.keys().map(|pair| pair[which]).collect::<BTreeSet<_>>().into_iter().collect();
+        let (lights, views): (Vec<Direction>, Vec<Direction>) = (of(0), of(1));
+        let pairs = || lights.iter().flat_map(|light| views.iter().map(move |view| [*light, *view]));
+        let missing: Vec<_> = pairs().filter(|pair| !images.contains_key(pair)).collect();
+        if let Some([light, view]) = missing.first() {
+            let found = format!(
+                "{} of {} × {} images are missing, \"{}\" first",
+                missing.len(),
+                lights.len(),
+                views.len(),
+                image_name(*light, *view)
+            );
+            return Err(Error::input(path, found, "every light with every view"));
+        }
+        let mut folder = Self { path: path.to_owned(), lights, views, size: [0; 2], extension, images };
+        folder.size = folder.common_size()?;
+        Ok(folder)
+    }
+
+    fn common_size(&self) -> Result<[u32; 2]> {
+        let mut common = None;
+        for file in self.images.values() {
+            let wrong = |error| Error::input(file, error, "an image");
+            let (width, height) = image::image_dimensions(file).map_err(wrong)?;
+            let [w, h] = *common.get_or_insert([width, height]);
+            if [w, h] != [width, height] {
+                let found = format!("{width} × {height} pixels");
+                return Err(Error::input(file, found, format!("{w} × {h}, as the images before it")));
+            }
+        }
+        Ok(common.unwrap_or_default())
+    }
+
+    /// The folder.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Directions of light, in order.
+    #[must_use]
+    pub fn lights(&self) -> &[Direction] {
+        &self.lights
+    }
+
+    /// Directions of view, in order.
+    #[must_use]
+    pub fn views(&self) -> &[Direction] {
+        &self.views
+    }
+
+    /// Pixels in x and in y.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Whether images hold linear floats; display values otherwise.
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        matches!(self.extension.as_str(), "exr" | "hdr")
+    }
+
+    /// Bytes of all images in memory, three channels of one byte or four.
+    #[must_use]
+    pub fn raw_bytes(&self) -> u64 {
+        let pixels = u64::from(self.size[0]) * u64::from(self.size[1]) * self.images.len() as u64;
+        pixels * if self.is_linear() { 12 } else { 3 }
+    }
+
+    /// Where the images come from, as `btf.json` beside them says; `None` if there is none.
+    #[must_use]
+    pub fn facts(&self) -> Option<serde_json::Value> {
+        let bytes = std::fs::read(self.path.join("btf.json")).ok()?;
+        serde_json::from_slice(&bytes).ok()
+    }
+
+    /// One image, row by row: display values 0 to 1, or linear ones.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if it is broken, or not of those that were looked through.
+    pub fn read(&self, light: Direction, view: Direction) -> Result<Vec<[f32; 3]>> {
+        let Some(file) = self.images.get(&[light, view]) else {
+            let found = format!("no image \"{}\"", image_name(light, view));
+            return Err(Error::input(&self.path, found, "directions that the folder has"));
+        };
+        let image = image::open(file).map_err(|error| Error::input(file, error, "an image"))?.into_rgb32f();
+        Ok(image.pixels().map(|pixel| pixel.0).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::capture::{FolderWriter, Pixels};
+
+    const LIGHTS: [Direction; 2] = [Direction { theta_deg: 0, phi_deg: 0 }, Direction { theta_deg: 75, phi_deg: 90 }];
+    const VIEWS: [Direction; 2] = [Direction { theta_deg: 15, phi_deg: 60 }, Direction { theta_deg: 30, phi_deg: 0 }];
+
+    fn write(folder: &Path, pixels: Pixels) {
+        let writer = FolderWriter::new(folder, 2, pixels).unwrap();
+        for (light, view) in LIGHTS.iter().flat_map(|light| VIEWS.iter().map(move |view| (*light, *view))) {
+            let value = f32::from(light.theta_deg) / 100.0;
+            writer.write(light, view, &[[value, 0.5, 0.25], [0.0; 3], [1.0; 3], [1.5; 3]]).unwrap();
+        }
+        writer.finish(&serde_json::json!({ "simulated": {} })).unwrap();
+    }
+
+    #[test]
+    fn folders_are_read_as_they_were_written() {
+        let place = tempfile::tempdir().unwrap();
+        for (name, pixels) in [("display", Pixels::Display { exposure: 1.0 }), ("linear", Pixels::Linear)] {
+            write(&place.path().join(name), pixels);
+            let folder = Folder::open(&place.path().join(name)).unwrap();
+            assert_eq!((folder.lights(), folder.views(), folder.size()), (&LIGHTS[..], &VIEWS[..], [2, 2]));
+            assert_eq!(folder.is_linear(), name == "linear");
+            assert!(folder.facts().is_some());
+            let image = folder.read(LIGHTS[1], VIEWS[0]).unwrap();
+            let expected = if folder.is_linear() { [0.75, 0.5, 0.25] } else { [0.880_6, 0.735_4, 0.537_1] };
+            let error = (0..3).map(|c| (image[0][c] - expected[c]).abs()).fold(0.0, f32::max);
+            assert!(error < 2.0 / 255.0, "{name}: {:?}", image[0]);
+            assert!(folder.read(VIEWS[0], LIGHTS[0]).is_err(), "no such pair");
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_folder_is_said() {
+        let place = tempfile::tempdir().unwrap();
+        let open = |name: &str, change: &dyn Fn(&Path)| {
+            let folder = place.path().join(name);
+            write(&folder, Pixels::Display { exposure: 1.0 });
+            change(&folder);
+            Folder::open(&folder).unwrap_err().to_string()
+        };
+        let image = |folder: &Path, light: usize, view: usize| {
+            folder.join(format!("{}.png", image_name(LIGHTS[light], VIEWS[view])))
+        };
+        let missing = open("missing", &|folder| std::fs::remove_file(image(folder, 1, 0)).unwrap());
+        assert!(missing.contains("1 of 2 × 2 images are missing, \"tl075 pl090 tv015 pv060\""), "{missing}");
+        let twice = open("twice", &|folder| {
+            std::fs::copy(image(folder, 0, 0), folder.join("0001 tl0 pl0 tv15 pv60.png")).unwrap();
+        });
+        assert!(twice.contains("the same directions as"), "{twice}");
+        let larger = open("larger", &|folder| {
+            image::RgbImage::new(3, 2).save(image(folder, 1, 1)).unwrap();
+        });
+        assert!(larger.contains("tl075 pl090 tv030 pv000.png: 3 × 2 pixels; expected 2 × 2"), "{larger}");
+        let broken = open("broken", &|folder| std::fs::write(image(folder, 0, 1), "no image").unwrap());
+        assert!(broken.contains("tl000 pl000 tv030 pv000.png"), "{broken}");
+        let mixed = open("mixed", &|folder| {
+            std::fs::rename(image(folder, 0, 0), folder.join("tl000 pl000 tv015 pv060.jpg")).unwrap();
+        });
+        assert!(mixed.contains("another format"), "{mixed}");
+        let empty = place.path().join("empty");
+        std::fs::create_dir(&empty).unwrap();
+        let empty = Folder::open(&empty).unwrap_err().to_string();
+        assert!(empty.contains("no image that is named by its directions"), "{empty}");
+        assert!(Folder::open(&place.path().join("nowhere")).is_err());
+    }
+}

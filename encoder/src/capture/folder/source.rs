@@ -1,0 +1,36 @@
+//! Folders as sources of images.
+
+use glam::Vec3;
+
+use super::Folder;
+use crate::capture::source::Source;
+use crate::error::Result;
+
+impl Source for Folder {
+    fn label(&self) -> String {
+        self.path().display().to_string()
+    }
+
+    fn lights(&self) -> Vec<Vec3> {
+        self.lights().iter().map(|light| light.unit()).collect()
+    }
+
+    fn views(&self) -> Vec<Vec3> {
+        self.views().iter().map(|view| view.unit()).collect()
+    }
+
+    fn size(&self) -> [u32; 2] {
+        self.size()
+    }
+
+    fn white(&self) -> Option<f32> {
+        let exposure = self.facts().and_then(|facts| facts.pointer("/simulated/exposure")?.as_f64()).unwrap_or(1.0);
+        #[allow(clippy::cast_possible_truncation, reason = "an exposure")]
+        let white = (1.0 / exposure) as f32;
+        (!self.is_linear()).then_some(white)
+    }
+
+    fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>> {
+        self.read(self.lights()[light], self.views()[view])
+    }
+}

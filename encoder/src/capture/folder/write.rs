@@ -1,0 +1,113 @@
+//! Writes the images of a BTF.
+
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+use image::{DynamicImage, ImageFormat, Rgb32FImage, RgbImage};
+
+use crate::capture::directions::{Direction, image_name};
+use crate::error::{Error, Result};
+use crate::file::output::{Unfinished, write_bytes};
+
+/// How values become pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pixels {
+    /// 8-bit sRGB in PNG, of the values times an exposure; what is brighter than 1 is cut off.
+    Display {
+        /// Factor of all values.
+        exposure: f32,
+    },
+    /// 32-bit linear floats in OpenEXR.
+    Linear,
+}
+
+impl Pixels {
+    fn extension(self) -> &'static str {
+        match self {
+            Self::Display { .. } => "png",
+            Self::Linear => "exr",
+        }
+    }
+}
+
+/// Writes a folder that is there whole or not at all.
+pub struct FolderWriter {
+    folder: PathBuf,
+    unfinished: PathBuf,
+    _listed: Unfinished,
+    side: u32,
+    pixels: Pixels,
+}
+
+impl FolderWriter {
+    /// Begins a folder of square images of `side` pixels.
+    ///
+    /// # Errors
+    /// [`Error::Request`] if something of that name is there already; [`Error::Output`] if it cannot be written.
+    pub fn new(folder: &Path, side: u32, pixels: Pixels) -> Result<Self> {
+        if folder.exists() {
+            return Err(Error::Request(format!(
+                "{}: is there already; remove it, or name another folder",
+                folder.display()
+            )));
+        }
+        let name = folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let unfinished = folder.with_file_name(format!(".{name}.unfinished"));
+        let listed = Unfinished::new(&unfinished);
+        std::fs::create_dir(&unfinished).map_err(|source| Error::output(folder, source))?;
+        Ok(Self { folder: folder.to_owned(), unfinished, _listed: listed, side, pixels })
+    }
+
+    /// Writes one image, row by row.
+    ///
+    /// # Errors
+    /// [`Error::Output`].
+    ///
+    /// # Panics
+    /// If there are not as many values as pixels.
+    pub fn write(&self, light: Direction, view: Direction, values: &[[f32; 3]]) -> Result<()> {
+        let side = self.side;
+        let path = self.unfinished.join(format!("{}.{}", image_name(light, view), self.pixels.extension()));
+        let (image, format) = match self.pixels {
+            Pixels::Display { exposure } => {
+                let bytes = values.iter().flatten().map(|value| display(value * exposure)).collect();
+                let image = RgbImage::from_raw(side, side, bytes).map(DynamicImage::from);
+                (image, ImageFormat::Png)
+            }
+            Pixels::Linear => {
+                let floats = values.iter().flatten().copied().collect();
+                let image = Rgb32FImage::from_raw(side, side, floats).map(DynamicImage::from);
+                (image, ImageFormat::OpenExr)
+            }
+        };
+        let mut bytes = Cursor::new(Vec::new());
+        let written = image.expect("a value for every pixel").write_to(&mut bytes, format);
+        written.map_err(|error| Error::output(&path, std::io::Error::other(error)))?;
+        std::fs::write(&path, bytes.into_inner()).map_err(|source| Error::output(&path, source))
+    }
+
+    /// Gives the folder its name, with a file `btf.json` that says where the images come from.
+    ///
+    /// # Errors
+    /// [`Error::Output`].
+    pub fn finish(self, facts: &serde_json::Value) -> Result<()> {
+        write_bytes(&self.unfinished.join("btf.json"), format!("{facts:#}\n").as_bytes())?;
+        std::fs::rename(&self.unfinished, &self.folder).map_err(|source| Error::output(&self.folder, source))
+    }
+}
+
+impl Drop for FolderWriter {
+    fn drop(&mut self) {
+        // Gone already once it is finished.
+        std::fs::remove_dir_all(&self.unfinished).ok();
+    }
+}
+
+/// IEC 61966-2-1, in 8 bits.
+fn display(value: f32) -> u8 {
+    let value = value.clamp(0.0, 1.0);
+    let encoded = if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 };
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+    let byte = (255.0 * encoded).round() as u8;
+    byte
+}

@@ -1,0 +1,180 @@
+//! All images of a BTF in memory: display values, or half floats of linear ones.
+
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use glam::Vec3;
+use half::f16;
+use rayon::prelude::*;
+use subsurf_decoder::btf::ColourEncoding;
+
+use crate::capture::source::Source;
+use crate::error::{Error, Result};
+use crate::progress::Progress;
+
+/// The images of one material: three bytes a pixel, or three half floats where they are linear.
+#[derive(Debug)]
+pub struct Images {
+    label: String,
+    lights: Vec<Vec3>,
+    views: Vec<Vec3>,
+    size: [u32; 2],
+    tone: ColourEncoding,
+    raw_bytes: Option<u64>,
+    /// `[light][view][pixel][rgb]`.
+    pixels: Store,
+}
+
+#[derive(Debug)]
+enum Store {
+    Display(Vec<u8>),
+    Linear(Vec<f16>),
+}
+
+/// The toe of [`ColourEncoding::LogLuv`], in mean luminances.
+const TOE_OF_MEAN: f32 = 0.05;
+
+impl Images {
+    /// All images of a source.
+    ///
+    /// # Errors
+    /// The first that cannot be read; [`Error::Request`] if they do not fit into memory's address space.
+    pub fn load(source: &dyn Source, progress: &dyn Progress) -> Result<Self> {
+        let (lights, views, size) = (source.lights(), source.views(), source.size());
+        let pairs = lights.len() * views.len();
+        let image = 3 * size.iter().map(|side| *side as usize).product::<usize>();
+        let values = image.checked_mul(pairs).filter(|values| *values < isize::MAX as usize / 2);
+        let Some(values) = values else {
+            return Err(Error::Request(format!("{}: too many pixels", source.label())));
+        };
+        progress.begin("reading images", pairs as u64);
+        let read = |pair: usize| {
+            let pixels = source.read(pair / views.len(), pair % views.len())?;
+            progress.advance(1);
+            Ok(pixels)
+        };
+        let (pixels, tone) = if let Some(white) = source.white() {
+            let mut bytes = vec![0_u8; values];
+            bytes.par_chunks_mut(image).enumerate().try_for_each(|(pair, image)| -> Result<()> {
+                for (byte, value) in image.iter_mut().zip(read(pair)?.as_flattened()) {
+                    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+                    let rounded = (value.clamp(0.0, 1.0) * 255.0).round() as u8;
+                    *byte = rounded;
+                }
+                Ok(())
+            })?;
+            (Store::Display(bytes), ColourEncoding::Display { white })
+        } else {
+            let mut halves = vec![f16::ZERO; values];
+            let peak = AtomicU32::new(0);
+            let sums: Vec<f32> = halves
+                .par_chunks_mut(image)
+                .enumerate()
+                .map(|(pair, image)| -> Result<f32> {
+                    let mut sum = 0.0;
+                    let pixels = read(pair)?;
+                    for (halves, rgb) in image.as_chunks_mut::<3>().0.iter_mut().zip(&pixels) {
+                        *halves = rgb.map(|value| f16::from_f32(value.clamp(0.0, 65_504.0)));
+                        let [r, g, b] = halves.map(f16::to_f32);
+                        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+                        sum += luminance;
+                        // Floats that are not negative order as integers.
+                        peak.fetch_max(luminance.to_bits(), Ordering::Relaxed);
+                    }
+                    Ok(sum / pixels.len() as f32)
+                })
+                .collect::<Result<_>>()?;
+            let mean = sums.iter().sum::<f32>() / pairs as f32;
+            let toe = (TOE_OF_MEAN * mean).clamp(1e-6, 1e5);
+            let peak = f32::from_bits(peak.into_inner()).clamp(2.0 * toe, 1e6);
+            (Store::Linear(halves), ColourEncoding::LogLuv { toe, peak })
+        };
+        Ok(Self { label: source.label(), lights, views, size, tone, raw_bytes: source.raw_bytes(), pixels })
+    }
+
+    /// Name in errors.
+    #[must_use]
+    pub fn label(&self) -> &str {
+        &self.label
+    }
+
+    /// Unit vectors towards the lights.
+    #[must_use]
+    pub fn lights(&self) -> &[Vec3] {
+        &self.lights
+    }
+
+    /// Unit vectors towards the eyes.
+    #[must_use]
+    pub fn views(&self) -> &[Vec3] {
+        &self.views
+    }
+
+    /// Pixels in x and in y.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Pixels of an image.
+    #[must_use]
+    pub fn texels(&self) -> usize {
+        self.size.iter().map(|side| *side as usize).product()
+    }
+
+    /// Encoding of their channels.
+    #[must_use]
+    pub fn tone(&self) -> ColourEncoding {
+        self.tone
+    }
+
+    /// Pairs of a light and a view; pair l · views + v is light l and view v.
+    #[must_use]
+    pub fn pairs(&self) -> usize {
+        self.lights.len() * self.views.len()
+    }
+
+    /// The pair at a share of all pairs, 0 to below 1.
+    #[must_use]
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a pair of some thousands")]
+    pub fn pair_at(&self, share: f64) -> usize {
+        (share * self.pairs() as f64) as usize
+    }
+
+    /// Bytes of all images, as they are kept, or of what they were made from.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        if let Some(bytes) = self.raw_bytes {
+            return bytes;
+        }
+        match &self.pixels {
+            Store::Display(bytes) => bytes.len() as u64,
+            Store::Linear(halves) => 2 * halves.len() as u64,
+        }
+    }
+
+    /// All pixels of a pair, row by row.
+    #[must_use]
+    pub fn image(&self, pair: usize) -> Vec<[f32; 3]> {
+        let mut pixels = vec![[0.0; 3]; self.texels()];
+        self.each(pair, |texel, rgb| pixels[texel] = rgb);
+        pixels
+    }
+
+    /// Hands over all pixels of a pair, as images have them, with their numbers.
+    pub fn each(&self, pair: usize, mut with: impl FnMut(usize, [f32; 3])) {
+        let image = 3 * self.texels();
+        let range = pair * image..(pair + 1) * image;
+        match &self.pixels {
+            Store::Display(bytes) => {
+                for (texel, rgb) in bytes[range].as_chunks().0.iter().enumerate() {
+                    with(texel, rgb.map(|byte| f32::from(byte) * (1.0 / 255.0)));
+                }
+            }
+            Store::Linear(halves) => {
+                for (texel, rgb) in halves[range].as_chunks().0.iter().enumerate() {
+                    with(texel, rgb.map(f16::to_f32));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Isotropic BRDFs as BTFs of one texel.
+
+use std::f32::consts::{FRAC_PI_2, PI};
+use std::sync::LazyLock;
+
+use glam::Vec3;
+
+use super::{FILE_BYTES, Merl};
+use crate::capture::source::Source;
+use crate::error::Result;
+
+/// Views from the normal down, all at azimuth 0.
+const VIEWS: u16 = 18;
+/// Lights along either axis of the grid: twice the nodes that highlights need.
+const LIGHTS: u16 = 91;
+/// Angle from the normal of the lowest lights and views, in degrees.
+const REACH_DEG: f32 = 85.0;
+
+/// Lights of all images: uniform in α and in sin β.
+static ALL_LIGHTS: LazyLock<Vec<Vec3>> = LazyLock::new(|| {
+    let steps = || (0..LIGHTS).map(|k| 2.0 * f32::from(k) / f32::from(LIGHTS - 1) - 1.0);
+    let lowest = REACH_DEG.to_radians().cos();
+    let light = |alpha: f32, sin_beta: f32| {
+        let ((sin, cos), cos_beta) = ((alpha * FRAC_PI_2).sin_cos(), (1.0 - sin_beta * sin_beta).max(0.0).sqrt());
+        Vec3::new(cos_beta * sin, sin_beta, cos_beta * cos)
+    };
+    let all = steps().flat_map(|alpha| steps().map(move |sin_beta| light(alpha, sin_beta)));
+    all.filter(|light| light.z >= lowest).collect()
+});
+
+fn view(number: usize) -> Vec3 {
+    let theta = number as f32 * REACH_DEG.to_radians() / f32::from(VIEWS - 1);
+    Vec3::new(theta.sin(), 0.0, theta.cos())
+}
+
+impl Source for Merl {
+    fn label(&self) -> String {
+        self.path().display().to_string()
+    }
+
+    fn lights(&self) -> Vec<Vec3> {
+        ALL_LIGHTS.clone()
+    }
+
+    fn views(&self) -> Vec<Vec3> {
+        (0..usize::from(VIEWS)).map(view).collect()
+    }
+
+    fn size(&self) -> [u32; 2] {
+        [1, 1]
+    }
+
+    fn white(&self) -> Option<f32> {
+        None
+    }
+
+    fn read(&self, light: usize, number: usize) -> Result<Vec<[f32; 3]>> {
+        let light = ALL_LIGHTS[light];
+        Ok(vec![self.eval(light, view(number)).map(|value| PI * value * light.z)])
+    }
+
+    fn raw_bytes(&self) -> Option<u64> {
+        Some(FILE_BYTES as u64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{pairs, plastic};
+    use super::*;
+    use subsurf_decoder::NestedBtf;
+    use subsurf_decoder::btf::Grid;
+
+    use crate::btf::nested::{ChromaSizes, Options, Prepared, Sizes};
+    use crate::btf::{Ranks, TruncatedSvd};
+    use crate::capture::Images;
+
+    #[test]
+    fn brdfs_are_materials_of_one_texel() {
+        let place = tempfile::tempdir().unwrap();
+        let swapped = |light, view| {
+            let [r, g, b] = plastic(light, view);
+            [b, g, r]
+        };
+        let [red, blue] = ["red", "blue"].map(|name| place.path().join(name).with_extension("binary"));
+        Merl::write(&red, plastic).unwrap();
+        Merl::write(&blue, swapped).unwrap();
+        let materials = [red, blue].map(|path| Images::load(&Merl::open(&path).unwrap(), &()).unwrap());
+        assert_eq!(materials[0].bytes(), 34_992_012, "what was measured");
+        let svd = TruncatedSvd::new(&materials, Ranks { luma: 2, chroma: 2 }, 1, &()).unwrap();
+        let reach = REACH_DEG.to_radians();
+        let grid = Grid {
+            n_alpha: 33,
+            n_beta: 33,
+            n_theta: 18,
+            n_phi: 1,
+            alpha_max: reach,
+            sin_beta_max: reach.sin(),
+            theta_max: reach,
+            cos_light_min: reach.cos(),
+        };
+        let options = Options {
+            grid,
+            chroma: ChromaSizes { i2: 16, i1: 64, colours: 64, tints: 1 },
+            names: vec!["red".to_owned(), "blue".to_owned()],
+            has_mipmaps: false,
+            seed: 1,
+        };
+        let stages = [Sizes { p4: 2, p3: 2, p2: 36, p1: 1024 }];
+        let bytes = Prepared::new(&materials, &svd, options).encode(&stages, &()).unwrap().to_bytes();
+        let file = NestedBtf::parse(&bytes).unwrap();
+        for (number, brdf) in [plastic as fn(Vec3, Vec3) -> [f32; 3], swapped].into_iter().enumerate() {
+            let texel = file.texel(number, 0, [0, 0]).unwrap();
+            let (mut error, mut sum) = ([0.0_f32; 3], [0.0_f32; 3]);
+            for (light, view) in pairs(4_000) {
+                let found = file.eval(texel, light.to_array(), view.to_array());
+                let expected = brdf(light, view).map(|value| PI * value * light.z);
+                for c in 0..3 {
+                    error[c] += (found[c] - expected[c]).abs();
+                    sum[c] += expected[c];
+                }
+            }
+            for c in 0..3 {
+                assert!(error[c] < 0.05 * sum[c], "material {number}: mean error {:.3} of the mean", error[c] / sum[c]);
+            }
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! Writes captures window by window.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use half::f16;
+use npyz::WriterBuilder;
+
+use super::array::Scalar;
+use super::sidecar::{Sidecar, sidecar_path};
+use crate::error::Result;
+use crate::file::output::{write_atomically, write_bytes};
+
+/// Shape and place of a capture that is to be written.
+pub struct CaptureWriter<'a> {
+    /// The `.npy` file.
+    pub path: &'a Path,
+    /// Pixels in x and y.
+    pub size: [usize; 2],
+    /// R: windows have D = 2 R + 1 pixels to a side.
+    pub radius: usize,
+    /// Element type.
+    pub scalar: Scalar,
+    /// What goes beside the array.
+    pub sidecar: &'a Sidecar,
+}
+
+impl CaptureWriter<'_> {
+    /// Writes array and sidecar. `rows` is called once with a sink that takes whole rows of windows in order,
+    /// `[x][dy][dx][rgb]` in mm⁻², as many at a time as the caller likes.
+    ///
+    /// # Errors
+    /// [`crate::Error::Output`]; a file is there whole or as it was before.
+    pub fn write(&self, rows: impl FnOnce(&mut dyn FnMut(&[f32]) -> io::Result<()>) -> io::Result<()>) -> Result<()> {
+        let [width, height] = self.size;
+        let d = 2 * self.radius + 1;
+        let shape = [height, width, d, d, 3].map(|n| n as u64);
+        write_atomically(self.path, |file| match self.scalar {
+            Scalar::F32 => write_as(file, &shape, rows, |value| value),
+            Scalar::F16 => write_as(file, &shape, rows, f16::from_f32),
+        })?;
+        write_bytes(&sidecar_path(self.path), self.sidecar.to_json().as_bytes())
+    }
+}
+
+fn write_as<T: npyz::AutoSerialize>(
+    file: &mut dyn Write,
+    shape: &[u64],
+    rows: impl FnOnce(&mut dyn FnMut(&[f32]) -> io::Result<()>) -> io::Result<()>,
+    convert: impl Fn(f32) -> T,
+) -> io::Result<()> {
+    let mut array = npyz::WriteOptions::new().default_dtype().shape(shape).writer(file).begin_nd()?;
+    rows(&mut |values| array.extend(values.iter().map(|&value| convert(value))))?;
+    array.finish()
+}

@@ -1,0 +1,30 @@
+//! What a reader of BTF images has to tell.
+
+use glam::Vec3;
+
+use crate::error::Result;
+
+/// Source of the images of a BTF, an image for every pair of a light and a view.
+pub trait Source: Sync {
+    /// Name in errors: a path, for example.
+    fn label(&self) -> String;
+    /// Unit vectors towards the lights.
+    fn lights(&self) -> Vec<Vec3>;
+    /// Unit vectors towards the eyes.
+    fn views(&self) -> Vec<Vec3>;
+    /// Pixels in x and in y.
+    fn size(&self) -> [u32; 2];
+    /// The linear value of display white, where pixels are display values; `None` where they are linear.
+    fn white(&self) -> Option<f32>;
+    /// One image, row by row: π times the radiance under light of unit irradiance on a plane that faces it, as display
+    /// values or linear.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>>;
+
+    /// Bytes of what was measured, if images are not it but are made from it.
+    fn raw_bytes(&self) -> Option<u64> {
+        None
+    }
+}

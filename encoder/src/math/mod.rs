@@ -1,0 +1,9 @@
+//! Numerical methods that several encoders share.
+
+pub(crate) mod banded;
+pub(crate) mod eigen;
+pub(crate) mod k_means;
+pub(crate) mod lanes;
+pub(crate) mod lbfgs;
+pub(crate) mod matrix;
+pub(crate) mod svd;

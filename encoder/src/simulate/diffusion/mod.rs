@@ -1,0 +1,24 @@
+//! Captures of subsurface scattering by diffusion in a heterogeneous slab.
+//!
+//! A [`BuiltinMaterial`] or an artist's images ([`maps`]) give the media below every pixel ([`MediumMap`]); [`Request`]
+//! simulates what a camera and a projector would measure, and writes a capture.
+
+pub mod analytic;
+pub mod fresnel;
+mod grid;
+pub mod maps;
+mod material;
+pub mod medium;
+mod patterns;
+mod request;
+mod run;
+mod sensor;
+mod slab;
+mod solver;
+
+pub use material::BuiltinMaterial;
+pub use medium::Medium;
+pub use request::Request;
+pub use run::{Finish, Summary, expose, simulate};
+pub use sensor::Sensor;
+pub use slab::{MediumMap, Slab};

@@ -1,0 +1,139 @@
+//! A simulated capture from request to file.
+
+use std::ops::RangeInclusive;
+use std::path::Path;
+
+use serde_json::{Value, json};
+use subsurf_decoder::bssrdf::Addressing;
+use subsurf_decoder::bssrdf::layout::LENGTHS_MM;
+
+use super::run::{Finish, Summary, simulate};
+use super::slab::{MediumMap, Slab};
+use crate::capture::{CaptureWriter, Scalar, Sidecar};
+use crate::error::{Error, Result};
+use crate::progress::Progress;
+
+/// How much finer or coarser than usual voxels may be.
+const REFINE: RangeInclusive<f64> = 0.1..=16.0;
+/// Refractive indices that can be simulated.
+const ETA: RangeInclusive<f64> = 1.0..=4.0;
+/// Pixels to a side of a window, at most.
+const MAX_WINDOW: u32 = 2_047;
+/// Pixels to a side of a patch, at most.
+const MAX_SIDE: usize = 65_535;
+/// Voxels around a pixel, at most: each takes some 200 bytes on every core.
+const MAX_VOXELS: usize = 8_000_000;
+
+/// A capture to be simulated and written.
+#[derive(Clone, Debug)]
+pub struct Request<'a> {
+    /// Media of all pixels.
+    pub map: &'a MediumMap,
+    /// What the media are made from, for the sidecar.
+    pub source: Value,
+    /// What lies beyond the border.
+    pub addressing: Addressing,
+    /// Distance of neighbouring pixels in mm.
+    pub pitch_mm: f64,
+    /// Pixels to a side of the window in which light is measured, D; odd.
+    pub window: u32,
+    /// Thickness of the slab in mm.
+    pub thickness_mm: f64,
+    /// Refractive index, 1 to 4.
+    pub eta: f64,
+    /// Factor by which voxels are finer than usual, 0.1 to 16.
+    pub refine: f64,
+    /// What becomes of the solutions.
+    pub finish: Finish,
+    /// Seed of the pattern, for the sidecar.
+    pub seed: u64,
+    /// Element type of the array.
+    pub scalar: Scalar,
+}
+
+impl Request<'_> {
+    /// Whether it can be simulated.
+    ///
+    /// # Errors
+    /// [`Error::Request`] for what is out of range, by the names that the command has for it.
+    pub fn check(&self) -> Result<()> {
+        let refuse = |message: String| Err(Error::Request(message));
+        let photons = self.finish.sensor.map_or(1.0, |sensor| sensor.photons);
+        for (what, value) in [("pitch", self.pitch_mm), ("thickness", self.thickness_mm), ("noise", photons)] {
+            if !(value.is_finite() && value > 0.0) {
+                return refuse(format!("--{what} is {value}; it must be positive"));
+            }
+        }
+        let [shortest, longest] = LENGTHS_MM.map(f64::from);
+        if !(shortest..=longest).contains(&self.pitch_mm) {
+            return refuse(format!("--pitch is {} mm; from {shortest} to {longest} will do", self.pitch_mm));
+        }
+        if !REFINE.contains(&self.refine) {
+            let (least, most) = (REFINE.start(), REFINE.end());
+            return refuse(format!("--refine is {}; it may be {least} to {most}", self.refine));
+        }
+        if !ETA.contains(&self.eta) {
+            return refuse(format!("--eta is {}; refractive indices are 1 to 4", self.eta));
+        }
+        if self.window.is_multiple_of(2) || self.window > MAX_WINDOW {
+            return refuse(format!("--window is {}; it must be odd and at most {MAX_WINDOW}", self.window));
+        }
+        if self.map.size.iter().any(|side| *side > MAX_SIDE) {
+            return refuse(format!("--size is {:?}; the limit is {MAX_SIDE} pixels", self.map.size));
+        }
+        let voxels = self.slab().voxels();
+        if voxels > MAX_VOXELS {
+            return refuse(format!(
+                "this takes {voxels} voxels around every pixel, more than {MAX_VOXELS}: a smaller --window or --refine \
+                 takes fewer, and so does a --pitch nearer to the mean free path of light"
+            ));
+        }
+        Ok(())
+    }
+
+    fn slab(&self) -> Slab<'_> {
+        Slab {
+            map: self.map,
+            addressing: self.addressing,
+            pitch_mm: self.pitch_mm,
+            radius: self.window as usize / 2,
+            thickness_mm: self.thickness_mm,
+            eta: self.eta,
+            refine: self.refine,
+        }
+    }
+
+    /// Simulates, and writes array and sidecar.
+    ///
+    /// # Errors
+    /// As [`Self::check`] and [`simulate`].
+    pub fn write(&self, path: &Path, progress: &dyn Progress) -> Result<Summary> {
+        self.check()?;
+        let slab = self.slab();
+        let radius = slab.radius;
+        let sidecar = self.sidecar();
+        let writer = CaptureWriter { path, size: self.map.size, radius, scalar: self.scalar, sidecar: &sidecar };
+        simulate(&slab, &self.finish, &writer, progress)
+    }
+
+    /// The sidecar of the capture, which says that it is simulated and how.
+    #[must_use]
+    #[allow(clippy::cast_possible_truncation, reason = "lengths and indices need no more than f32")]
+    pub fn sidecar(&self) -> Sidecar {
+        let simulated = json!({
+            "by": concat!("subsurf ", env!("CARGO_PKG_VERSION")),
+            "source": self.source,
+            "thickness_mm": self.thickness_mm,
+            "seed": self.seed,
+            "reciprocal": !self.finish.one_way,
+            "photons": self.finish.sensor.map(|sensor| sensor.photons),
+            "refine": self.refine,
+        });
+        Sidecar {
+            pitch_mm: self.pitch_mm as f32,
+            addressing: self.addressing,
+            eta: self.eta as f32,
+            simulated: Some(simulated),
+        }
+    }
+}
