@@ -14,8 +14,8 @@ fn main() -> subsurf_scene::Result<()> {
 
     let towards = Vec3::new(0.9, 0.3, 0.35);
     let sun = Light { shape: LightShape::Directional { towards }, irradiance: [3.0, 2.9, 2.7] };
-    let seen = visibility(&mesh, &sun);
-    let hidden = seen.iter().filter(|seen| **seen == 0.0).count();
+    let seen = visibility(&mesh, &[sun]);
+    let hidden = seen.iter().filter(|seen| seen[0] == 0.0).count();
     println!("{file}: {} triangles, {hidden} of {} vertices in shadow", mesh.triangles.len(), seen.len());
 
     let studio = Environment::studio();

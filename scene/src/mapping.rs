@@ -1,13 +1,13 @@
-//! Which pixel of a material lies where on a surface; the twin of `mapping.wgsl`.
+//! Mapping of materials to surfaces; the twin of `mapping.wgsl`.
 
 use glam::{UVec3, Vec2, Vec3};
 
-/// Where on a surface which pixel of the patch lies.
+/// Rule by which pixels of a patch lie on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mapping {
-    /// Texture coordinates: the unit square shows the patch this many times in u and in v.
+    /// Texture coordinates; the unit square of them shows so many copies of the patch in u and in v.
     Uv([f32; 2]),
-    /// In its own size, from the side that each normal faces most (box mapping).
+    /// Box mapping: the patch in its own size, from the side of a box that each normal faces most.
     Box,
 }
 
@@ -17,7 +17,7 @@ fn sides_of(normal: Vec3) -> Vec3 {
     n8 / n8.element_sum()
 }
 
-/// A number from 0 to 1 for every block of half a pixel of the material (hash of three integers after Jarzynski and
+/// Random number from 0 to 1 for every block of half a pixel of the material (hash of three integers after Jarzynski and
 /// Olano 2020).
 fn chance(position_mm: Vec3, pitch_mm: f32) -> f32 {
     let cell = (position_mm / (0.5 * pitch_mm)).floor().as_ivec3().to_array().map(i32::cast_unsigned);

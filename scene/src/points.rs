@@ -1,4 +1,4 @@
-//! The vertices of a mesh as points that exchange light: area, pixel of the material, and a grid to find neighbours.
+//! Vertices of a mesh as points that exchange light: area, pixel of the material, and a grid to find neighbours.
 
 use glam::{UVec3, Vec2, Vec3, Vec4};
 use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader};
@@ -7,22 +7,22 @@ use crate::light::MAX_LIGHTS;
 use crate::mapping::{Mapping, place_in_box};
 use crate::mesh::Mesh;
 
-/// Points of a surface, sorted into the cells of a grid.
+/// Points of a surface, sorted into the cells of a grid; all tables but `cell_starts` and `point_of` have one entry for each point.
 #[derive(Clone, Debug)]
 pub struct SurfacePoints {
-    /// The grid.
+    /// Cells around the surface.
     pub grid: PointGrid,
-    /// Position in mm, and the area in mm² that the point stands for.
+    /// Positions in mm; in the fourth place, the area in mm² that the point stands for.
     pub positions: Vec<Vec4>,
-    /// Unit normal; 0 in the fourth place.
+    /// Unit normals; 0 in the fourth place.
     pub normals: Vec<Vec4>,
-    /// How much of each light reaches the point, 0 to 1.
+    /// Shares of each light that reach the point, 0 to 1.
     pub visibilities: Vec<[f32; MAX_LIGHTS]>,
-    /// Pixel of the material at the point.
+    /// Column and row of the material's pixel at the point.
     pub pixels: Vec<[u16; 2]>,
-    /// First point of every cell, `[z][y][x]`, and one more entry: the number of points.
+    /// Number of the first point of every cell, `[z][y][x]`, and one more entry: the number of points.
     pub cell_starts: Vec<u32>,
-    /// The point of every vertex.
+    /// Number of the point of every vertex, in the order of the mesh.
     pub point_of: Vec<u32>,
 }
 
@@ -39,12 +39,12 @@ pub struct PointGrid {
     pub points: u32,
 }
 
-/// Cells to a side, at most: the grid stays small however large the mesh is.
+/// Most cells to a side: the grid stays small however large the mesh is.
 const MAX_CELLS: f32 = 96.0;
 
 impl SurfacePoints {
-    /// Spreads a material over a mesh. `visibilities` says of every vertex how much of each light reaches it,
-    /// 0 to 1.
+    /// Points of a mesh that is made of a material. `visibilities` are the shares of each light that reach every vertex, 0 to
+    /// 1, as [`crate::visibility`] has them.
     ///
     /// Each vertex stands for a third of the triangles around it. A patch that clamps is mirrored where the mesh is
     /// larger than the patch: its border would be drawn out otherwise.
@@ -98,13 +98,14 @@ impl SurfacePoints {
         self.positions.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no points.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.positions.is_empty()
     }
 }
 
+/// Pixel of the material at a vertex.
 fn pixel_of(mesh: &Mesh, vertex: usize, mapping: Mapping, header: &BssrdfHeader) -> [u16; 2] {
     #[allow(clippy::cast_precision_loss, reason = "sides are below 65,536")]
     let size = Vec2::new(header.width as f32, header.height as f32);

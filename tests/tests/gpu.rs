@@ -235,7 +235,7 @@ fn scene() -> Scene {
             light(LightShape::Directional { towards: Vec3::new(0.5, 1.0, 0.8) }, [3.0, 2.8, 2.5]),
             light(LightShape::Point { position_mm: Vec3::new(-14.0, 4.0, 6.0) }, [0.8, 0.5, 0.2]),
             light(
-                LightShape::Spot { position_mm: Vec3::new(3.0, 9.0, 16.0), target_mm: Vec3::X, half_angle: 0.25 },
+                LightShape::Spot { position_mm: Vec3::new(3.0, 9.0, 16.0), target_mm: Vec3::X, half_angle_rad: 0.25 },
                 [0.1, 0.3, 0.9],
             ),
         ],

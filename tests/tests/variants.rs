@@ -30,7 +30,7 @@ fn lights_close_by_and_boxes_come_close_to_the_gather() {
     let file = material_of(BuiltinMaterial::Jade);
     let gpus = Backend::ALL.map(device);
     let point = |position_mm| LightShape::Point { position_mm };
-    let spot = |position_mm| LightShape::Spot { position_mm, target_mm: Vec3::ZERO, half_angle: 0.3 };
+    let spot = |position_mm| LightShape::Spot { position_mm, target_mm: Vec3::ZERO, half_angle_rad: 0.3 };
     let cases = [
         ("point, box", bowl(12.0, 2.0, 32), Mapping::Box, close_light(&bowl(12.0, 2.0, 32), point)),
         ("spot, uv", drapery(14.0, 1.0, 5, 40), Mapping::Uv([2.0, 1.0]), close_light(&drapery(14.0, 1.0, 5, 40), spot)),

@@ -12,7 +12,7 @@ mod window;
 
 pub use asset::{
     Asset, BtfImageSet, GpuAsset, MappingChoice, RenderSession, Scattering, TexturedMesh, choose_mapping, expect_uvs,
-    exposure_of, factors, light_of, points, repeats, upload_images, vertex_visibilities,
+    exposure_of, factors, light_of, points, repeats, upload_images,
 };
 pub use error::{Error, Result, one_line};
 pub use file::{Content, material_number, parse, parse_btf, read};

@@ -4,11 +4,9 @@ use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::NestedBtf;
 use subsurf_runtime::{BACKGROUND, BtfMaterial, Gpu, RuntimeOptions};
-use subsurf_scene::{Mesh, Placement, REFLECTION_SIZE, Scene};
+use subsurf_scene::{Mesh, Placement, REFLECTION_SIZE, Scene, visibility};
 use subsurf_shaders::{cpu, uniform};
-use subsurf_viewer::{
-    GpuAsset, RenderRequest, RenderSession, TexturedMesh, expect_uvs, exposure_of, upload_images, vertex_visibilities,
-};
+use subsurf_viewer::{GpuAsset, RenderRequest, RenderSession, TexturedMesh, expect_uvs, exposure_of, upload_images};
 
 use super::btf_args::BtfArgs;
 use super::exposure::{SUPERSAMPLING, average_down};
@@ -79,7 +77,7 @@ fn on_cpu(
     exposure: Option<f32>,
     size: [u32; 2],
 ) -> anyhow::Result<(Vec<[u8; 3]>, f32)> {
-    let visibilities = vertex_visibilities(mesh, &scene.lights);
+    let visibilities = visibility(mesh, &scene.lights);
     let textured = TexturedMesh::new(mesh, copies)?;
     let triangles = textured.triangles(mesh, &visibilities);
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };

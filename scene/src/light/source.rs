@@ -5,38 +5,38 @@ use glam::Vec3;
 /// Most lights of a scene.
 pub const MAX_LIGHTS: usize = 4;
 
-/// A source of light.
+/// Source of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
-    /// Where it is and where it shines.
+    /// Position or direction.
     pub shape: LightShape,
-    /// Irradiance on a plane that faces it, linear Rec. 709: anywhere from afar, and at the middle of the scene from
-    /// nearby, where it falls with the square of the distance.
+    /// Irradiance on a plane that faces the light, linear Rec. 709, in the scene's own unit: anywhere from afar; at the middle
+    /// of the mesh from nearby, where it falls with the square of the distance.
     pub irradiance: [f32; 3],
 }
 
-/// Where a light is and where it shines.
+/// Position or direction of a light, and the part of space that it shines into.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightShape {
-    /// From afar, from one direction.
+    /// Directional light, from afar.
     Directional {
-        /// Towards the light; need not be of unit length.
+        /// Direction towards the light, of any length.
         towards: Vec3,
     },
-    /// From a point, all around. What it lights should be within 75° of the direction to the middle of the scene: its
-    /// shadows are known no further.
+    /// Point light, which shines all around. What it lights should be within 75° of the direction to the middle of the mesh:
+    /// its shadows are known no further.
     Point {
-        /// In mm.
+        /// Position in mm.
         position_mm: Vec3,
     },
-    /// From a point, within a cone.
+    /// Spot light, which shines from a point into a cone.
     Spot {
-        /// In mm.
+        /// Position in mm.
         position_mm: Vec3,
-        /// Where the axis of the cone goes through, in mm.
+        /// Point on the axis of the cone, in mm.
         target_mm: Vec3,
-        /// Half the angle of the cone in radians, at most 75°; light fades over its outer tenth.
-        half_angle: f32,
+        /// Angle from the axis to the side of the cone in radians, at most 75°; light fades over its outer tenth.
+        half_angle_rad: f32,
     },
 }
 

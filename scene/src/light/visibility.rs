@@ -1,4 +1,4 @@
-//! Which vertices see the light: a ray from each, by a bounding volume hierarchy.
+//! Vertices that lights reach: a ray from each, by a bounding volume hierarchy.
 
 use bvh::aabb::{Aabb, Bounded};
 use bvh::bounding_hierarchy::BHShape;
@@ -8,9 +8,10 @@ use glam::Vec3;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
-use super::source::Light;
+use super::source::{Light, MAX_LIGHTS};
 use crate::mesh::Mesh;
 
+/// Triangle of the hierarchy.
 struct Triangle {
     corners: [Point3<f32>; 3],
     node: usize,
@@ -32,36 +33,48 @@ impl BHShape<f32, 3> for Triangle {
     }
 }
 
-/// A ray starts this share of the mesh's size above its vertex: the triangles around it must not shade it.
+/// Height above its vertex at which a ray starts, as a share of the mesh's longest side: the triangles around the vertex must
+/// not shade it.
 const OFFSET: f32 = 2e-3;
 
-/// 1 for every vertex that a light reaches, 0 for those in shadow.
+/// Visibility of lights at every vertex of a mesh: 1 where light number k reaches the vertex, 0 where the mesh itself is in
+/// the way or there is no such light.
+///
+/// Vertices that face away from a light count as reached: they get nothing from it anyway.
 #[must_use]
-pub fn visibility(mesh: &Mesh, light: &Light) -> Vec<f32> {
-    let point = |v: Vec3| Point3::new(v.x, v.y, v.z);
+pub fn visibility(mesh: &Mesh, lights: &[Light]) -> Vec<[f32; MAX_LIGHTS]> {
     let corners = |triangle: &[u32; 3]| triangle.map(|k| point(mesh.positions[k as usize]));
     let mut triangles: Vec<Triangle> =
         mesh.triangles.iter().map(|triangle| Triangle { corners: corners(triangle), node: 0 }).collect();
     let bvh = Bvh::build(&mut triangles);
     let [low, high] = mesh.bounds();
     let offset = OFFSET * (high - low).max_element();
-    let sees = |(position, normal): (&Vec3, &Vec3)| {
-        let (direction, distance) = light.direction_from(*position);
-        // What faces away gets no light anyway.
+    let is_reached = |position: Vec3, normal: Vec3, light: &Light| {
+        let (direction, distance) = light.direction_from(position);
         if normal.dot(direction) <= 0.0 {
-            return 1.0;
+            return true;
         }
         let ray = Ray::new(point(position + offset * normal), Vector3::new(direction.x, direction.y, direction.z));
-        let hit = bvh.traverse_iterator(&ray, &triangles).any(|triangle| {
+        !bvh.traverse_iterator(&ray, &triangles).any(|triangle| {
             let [a, b, c] = &triangle.corners;
             // Rays meet triangles from either side: meshes are not always wound the same way.
             [ray.intersects_triangle(a, b, c), ray.intersects_triangle(a, c, b)]
                 .iter()
                 .any(|hit| hit.distance > 0.0 && hit.distance < distance)
-        });
-        f32::from(u8::from(!hit))
+        })
     };
-    mesh.positions.par_iter().zip(&mesh.normals).map(sees).collect()
+    let of_vertex = |(position, normal): (&Vec3, &Vec3)| {
+        let mut of_lights = [0.0; MAX_LIGHTS];
+        for (visibility, light) in of_lights.iter_mut().zip(lights) {
+            *visibility = f32::from(u8::from(is_reached(*position, *normal, light)));
+        }
+        of_lights
+    };
+    mesh.positions.par_iter().zip(&mesh.normals).map(of_vertex).collect()
+}
+
+fn point(v: Vec3) -> Point3<f32> {
+    Point3::new(v.x, v.y, v.z)
 }
 
 #[cfg(test)]
@@ -77,17 +90,17 @@ mod tests {
     #[test]
     fn a_sphere_does_not_shade_itself() {
         let ball = sphere(10.0, 16);
-        assert!(visibility(&ball, &sun(Vec3::Y)).iter().all(|&seen| seen == 1.0), "convex");
+        assert!(visibility(&ball, &[sun(Vec3::Y)]).iter().all(|seen| seen[0] == 1.0), "convex");
     }
 
     #[test]
     fn a_torus_shades_its_far_inner_side() {
         let ring = torus(10.0, 3.0, 16);
         let along = Vec3::new(1.0, 0.05, 0.0).normalize();
-        let seen = visibility(&ring, &sun(along));
+        let seen = visibility(&ring, &[sun(along)]);
         // The inside of the tube at −x faces the light, behind the tube at +x.
         let mut shaded = 0;
-        for ((position, normal), seen) in ring.positions.iter().zip(&ring.normals).zip(&seen) {
+        for ((position, normal), [seen, ..]) in ring.positions.iter().zip(&ring.normals).zip(&seen) {
             let inner = position.x < -5.0 && position.y.abs() < 1.0 && normal.x > 0.9;
             let outer = position.x > 5.0 && normal.x > 0.9;
             assert!(!outer || *seen == 1.0, "{position} is in the light");

@@ -5,11 +5,11 @@ use std::collections::HashMap;
 use super::triangles::Mesh;
 use crate::error::{Error, Result};
 
-/// Subdivision stops rather than make more vertices than this.
+/// Most vertices that subdivision makes.
 const MAX_VERTICES: usize = 4_000_000;
 
 impl Mesh {
-    /// The mesh with no edge longer than `longest_mm`: long edges are halved until there are none, so that light and
+    /// Mesh with no edge longer than `longest_mm`: long edges are halved until there are none, so that light and
     /// material are sampled finely enough on large triangles. Positions stay on the given triangles.
     ///
     /// # Errors
@@ -42,7 +42,7 @@ impl Mesh {
         self.positions[a as usize].distance(self.positions[b as usize]) > longest_mm
     }
 
-    /// The vertex in the middle of an edge; both triangles of the edge get the same.
+    /// Number of the vertex in the middle of an edge; both triangles of the edge get the same.
     fn middle(&mut self, [a, b]: [u32; 2], middles: &mut HashMap<[u32; 2], u32>) -> u32 {
         *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
             let (a, b) = (a as usize, b as usize);

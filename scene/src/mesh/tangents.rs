@@ -1,4 +1,4 @@
-//! Directions of texture coordinates on a surface.
+//! Tangents: directions of texture coordinates on a surface.
 
 use glam::{Vec2, Vec3, Vec4};
 
@@ -39,7 +39,7 @@ impl Mesh {
     }
 }
 
-/// Where u and v grow on a triangle of two edges, times its area and that in texture coordinates.
+/// Directions in which u and v grow on a triangle of two edges, times twice its area.
 fn slopes([e1, e2]: [Vec3; 2], [t1, t2]: [Vec2; 2]) -> [Vec3; 2] {
     let sign = t1.perp_dot(t2).signum();
     let u = (e1 * t2.y - e2 * t1.y) * sign;

@@ -5,21 +5,22 @@ use glam::{Vec2, Vec3};
 use super::bounds::BoundingSphere;
 use crate::error::{Error, Result};
 
-/// A triangle mesh.
+/// Triangle mesh in mm.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     /// Positions of the vertices, in mm.
     pub positions: Vec<Vec3>,
     /// Unit normals of the vertices.
     pub normals: Vec<Vec3>,
-    /// Texture coordinates of the vertices, v upwards, if the mesh has any.
+    /// Texture coordinates of the vertices, v upwards, if there are any.
     pub uvs: Option<Vec<Vec2>>,
-    /// Vertices of the triangles.
+    /// Numbers of the vertices of each triangle, from 0.
     pub triangles: Vec<[u32; 3]>,
 }
 
 impl Mesh {
-    /// Checks indices and numbers, scales positions by `mm_per_unit`, and computes normals where `normals` is empty.
+    /// Mesh of `positions` in units of `mm_per_unit` mm, checked. Normals are means over the triangles around, weighted by
+    /// area, where `normals` does not hold a finite one for each vertex.
     ///
     /// # Errors
     /// [`Error::Mesh`] if the mesh is empty, an index leads outside, or a number is not finite.
@@ -72,7 +73,7 @@ impl Mesh {
         BoundingSphere { centre_mm, radius_mm }
     }
 
-    /// The mesh scaled so that its longest side is `extent_mm`, its middle at the origin.
+    /// Mesh scaled so that its longest side is `extent_mm`, its middle at the origin.
     ///
     /// # Errors
     /// [`Error::Mesh`] if it has no extent, or `extent_mm` is not positive.
@@ -84,7 +85,7 @@ impl Mesh {
         Self::new(positions, self.normals, self.uvs, self.triangles, scale)
     }
 
-    /// A third of the triangles around each vertex, in mm².
+    /// Area that each vertex stands for, a third of the triangles around it, in mm².
     #[must_use]
     pub fn vertex_areas(&self) -> Vec<f32> {
         let mut areas = vec![0.0; self.positions.len()];
@@ -99,7 +100,7 @@ impl Mesh {
     }
 }
 
-/// Normals weighted by area.
+/// Means of the normals of the triangles around each vertex, weighted by area; not of unit length.
 fn smooth_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     let mut normals = vec![Vec3::ZERO; positions.len()];
     for triangle in triangles {

@@ -1,4 +1,4 @@
-//! Meshes from files, and shapes by their names.
+//! Meshes from OBJ, PLY and glTF files, and shapes by their names.
 
 mod gltf;
 mod obj;
@@ -12,19 +12,19 @@ use glam::Vec3;
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, bowl, drapery, knot, relief, sphere, torus};
 
-/// Which way is up in the file.
+/// Axis that points up in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UpAxis {
-    /// As in glTF and most OBJ files.
+    /// Axis y, as in glTF and most OBJ files.
     Y,
-    /// As in most scans and CAD files.
+    /// Axis z, as in most scans and CAD files.
     Z,
 }
 
-/// Shapes that need no file.
+/// Names of the shapes that need no file.
 pub const SHAPES: [&str; 6] = ["knot", "bowl", "drapery", "relief", "sphere", "torus"];
 
-/// A shape by its name, smooth enough for a large picture.
+/// Shape of a name, smooth enough for a large picture.
 fn shape(name: &str) -> Option<Mesh> {
     Some(match name {
         "knot" => knot(20.0, 6.0, 40),
@@ -37,7 +37,7 @@ fn shape(name: &str) -> Option<Mesh> {
     })
 }
 
-/// Reads a mesh, or makes one of [`SHAPES`], and scales its longest side to `extent_mm`, its middle at the origin.
+/// Mesh from a file, or the shape if `path` is one of [`SHAPES`]; its longest side is `extent_mm`, its middle the origin.
 ///
 /// # Errors
 /// [`Error::File`] if the file is not a mesh, or a broken one.

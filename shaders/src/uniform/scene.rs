@@ -173,8 +173,8 @@ impl LightSource {
                 // All around: no cosine is below these.
                 Self::local(light, position_mm, to_centre, share.asin(), [-3.0, -2.0], (centre_mm, radius_mm, texels))
             }
-            LightShape::Spot { position_mm, target_mm, half_angle } => {
-                let half_angle = half_angle.clamp(0.01, WIDEST);
+            LightShape::Spot { position_mm, target_mm, half_angle_rad } => {
+                let half_angle = half_angle_rad.clamp(0.01, WIDEST);
                 let cone = [half_angle.cos(), (0.9 * half_angle).cos()];
                 Self::local(
                     light,

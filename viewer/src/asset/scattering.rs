@@ -6,7 +6,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_runtime::{
     AmbientTransfer, Gpu, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial, VertexData,
 };
-use subsurf_scene::{Light, MAX_LIGHTS, Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
+use subsurf_scene::{Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
 use subsurf_shaders::separable::{BasisSize, SeparableBasis};
 
 use super::gpu::GpuAsset;
@@ -123,19 +123,7 @@ pub fn factors(material: &Bssrdf<'_>, technique: Scattering) -> SeparableBasis {
 /// The mesh would have too many vertices.
 pub fn points(mesh: &Mesh, mapping: Mapping, material: &Bssrdf<'_>, scene: &Scene) -> Result<(Mesh, SurfacePoints)> {
     let fine = mesh.clone().subdivided(LONGEST_EDGE * material.header().pitch_mm)?;
-    let visibilities = vertex_visibilities(&fine, &scene.lights);
+    let visibilities = visibility(&fine, &scene.lights);
     let surface = SurfacePoints::new(&fine, mapping, material.header(), &visibilities);
     Ok((fine, surface))
-}
-
-/// What every vertex sees of every light: 1, or 0 in shadow.
-#[must_use]
-pub fn vertex_visibilities(mesh: &Mesh, lights: &[Light]) -> Vec<[f32; MAX_LIGHTS]> {
-    let mut visibilities = vec![[0.0; MAX_LIGHTS]; mesh.positions.len()];
-    for (k, light) in lights.iter().take(MAX_LIGHTS).enumerate() {
-        for (of_vertex, seen) in visibilities.iter_mut().zip(visibility(mesh, light)) {
-            of_vertex[k] = seen;
-        }
-    }
-    visibilities
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::picture::{Picture, single};
 
-/// The coefficients of [`super::Environment::irradiance_coefficients`].
+/// Coefficients of [`super::Environment::irradiance_coefficients`].
 ///
 /// Exact for a picture whose pixels are each of one radiance.
 pub(super) fn project(picture: &Picture) -> [[f32; 3]; 9] {

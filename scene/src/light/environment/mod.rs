@@ -16,10 +16,10 @@ use reflections::{level_size, reflect};
 
 pub use reflections::{REFLECTION_LEVELS, REFLECTION_SIZE};
 
-/// Brightest radiance of a picture: sums of it stay finite.
+/// Largest radiance of a picture: sums of it stay finite.
 const BRIGHTEST: f32 = 1e30;
 
-/// Light from all around, far away.
+/// Light from all around, far away: irradiance by the normal, and radiance in mirrors by direction and roughness.
 ///
 /// Pictures of it are in equirectangular projection: a direction (x, y, z), y up, is seen at
 /// u = ½ + atan2(x, z) / 2π from the left and v = acos(y) / π from the top.
@@ -30,9 +30,7 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// The same radiance from everywhere, `irradiance` / π.
-    ///
-    /// `irradiance` is what any surface gets, linear Rec. 709.
+    /// Environment of the same radiance from everywhere, `irradiance` / π; any surface gets `irradiance`, linear Rec. 709.
     #[must_use]
     pub fn uniform(irradiance: [f32; 3]) -> Self {
         let mut coefficients = [[0.0; 3]; 9];
@@ -42,7 +40,7 @@ impl Environment {
         Self { irradiance: coefficients, reflections: (0..REFLECTION_LEVELS).map(level).collect() }
     }
 
-    /// A photographer's studio without its key light: a large softbox overhead, a strip on the left, a dim floor. It has
+    /// Photographer's studio without its key light: a large softbox overhead, a strip on the left, a dim floor. It has
     /// something to reflect and needs no file.
     ///
     /// # Panics
@@ -52,7 +50,7 @@ impl Environment {
         Self::equirectangular(studio::SIZE, &studio::pixels()).expect("radiances of the studio are finite")
     }
 
-    /// From a picture of `size` width and height, row by row from the top, each from the left.
+    /// Environment from a picture of `size`, width and height, row by row from the top, each from the left.
     ///
     /// Pixels are radiance, linear Rec. 709, 0 to 10³⁰. Light of a pixel counts for the solid angle of the pixel.
     ///

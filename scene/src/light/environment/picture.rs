@@ -4,14 +4,16 @@ use std::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3};
 
-/// A picture of radiance in equirectangular projection.
+/// Picture of radiance in equirectangular projection.
 pub(super) struct Picture {
+    /// Width and height in pixels.
     pub(super) size: [u32; 2],
+    /// Radiance, linear Rec. 709, `[row][column]`.
     pub(super) pixels: Vec<Vec3>,
 }
 
 impl Picture {
-    /// The picture at another size; each texel is the mean of the light in its solid angle.
+    /// Picture at another size; each pixel is the mean of the light in its solid angle.
     pub(super) fn resized(&self, size: [u32; 2]) -> Self {
         let columns = shares(self.size[0], size[0], |u| u);
         let rows = shares(self.size[1], size[1], |v| -(std::f64::consts::PI * v).cos());
@@ -60,10 +62,12 @@ fn shares(from: u32, to: u32, measure: impl Fn(f64) -> f64) -> Vec<Vec<(usize, f
     (0..n_to).map(texel).collect()
 }
 
+/// Width and height as floats.
 pub(super) fn size_of([width, height]: [u32; 2]) -> Vec2 {
     Vec2::new(width as f32, height as f32)
 }
 
+/// Value rounded to single precision.
 #[allow(clippy::cast_possible_truncation, reason = "rounded")]
 pub(super) fn single(value: f64) -> f32 {
     value as f32

@@ -6,16 +6,16 @@ use glam::{Vec2, Vec3};
 
 use super::picture::{Picture, size_of};
 
-/// Levels of [`super::Environment::reflections`].
+/// Number of levels of [`super::Environment::reflections`].
 pub const REFLECTION_LEVELS: u32 = 6;
 
 /// Width and height of the finest level of [`super::Environment::reflections`], in texels.
 pub const REFLECTION_SIZE: [u32; 2] = [128, 64];
 
-/// Directions in which a rough mirror looks, for each of its texels.
+/// Number of directions in which a rough mirror looks, for each of its texels.
 const DIRECTIONS: u16 = 512;
 
-/// The levels of [`super::Environment::reflections`].
+/// Levels of [`super::Environment::reflections`].
 pub(super) fn reflect(picture: &Picture) -> Vec<Vec<[f32; 3]>> {
     // The picture in ever larger texels: a direction that stands for a large solid angle sees all that is in it.
     let mut sources = vec![picture.resized(REFLECTION_SIZE)];
@@ -29,14 +29,14 @@ pub(super) fn reflect(picture: &Picture) -> Vec<Vec<[f32; 3]>> {
     (0..REFLECTION_LEVELS).map(|k| level(k).iter().map(Vec3::to_array).collect()).collect()
 }
 
-/// A direction in which a rough mirror looks, z along the reflection of the eye.
+/// Direction in which a rough mirror looks, z along the reflection of the eye.
 struct Look {
     direction: Vec3,
     /// Solid angle that the direction stands for, in sr.
     solid_angle: f32,
 }
 
-/// Where a mirror of GGX roughness looks whose normal is z, looked at along z; α = roughness². Karis 2013.
+/// Directions in which a mirror of GGX roughness looks whose normal is z, looked at along z; α = roughness². Karis 2013.
 fn lobe(roughness: f32) -> Vec<Look> {
     let alpha_sq = roughness.powi(4);
     let look = |k: u16| {
@@ -75,7 +75,7 @@ fn blur(sources: &[Picture], size: [u32; 2], lobe: &[Look]) -> Vec<Vec3> {
     (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y])).map(|[x, y]| texel(x, y)).collect()
 }
 
-/// The finest source whose texels in that direction are not smaller than a solid angle in sr, which grows fourfold.
+/// Number of the finest source whose texels in that direction are not smaller than a solid angle in sr, which grows fourfold.
 fn source_of(direction: Vec3, solid_angle: f32) -> usize {
     let sin_theta = (1.0 - direction.y * direction.y).max(0.0).sqrt();
     let [width, height] = size_of(REFLECTION_SIZE).to_array();
@@ -86,6 +86,7 @@ fn source_of(direction: Vec3, solid_angle: f32) -> usize {
     level
 }
 
+/// Width and height of a level in texels.
 pub(super) fn level_size(level: u32) -> [u32; 2] {
     REFLECTION_SIZE.map(|side| side >> level)
 }

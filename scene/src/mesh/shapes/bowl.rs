@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3};
 use super::lattice::{EDGE, lattice, spans};
 use crate::mesh::triangles::Mesh;
 
-/// A bowl around the y axis, open upwards: a wall of `thickness_mm` from a half sphere of `radius_mm` around the origin
+/// Bowl around the y axis, open upwards: a wall of `thickness_mm` from a half sphere of `radius_mm` around the origin
 /// inwards, with a round rim; `rings` rings of quads outside and as many inside, each of four times as many quads. The
 /// wall is closed: it has an inside. u goes around, v from the lowest point outside over the rim to that inside.
 ///

@@ -7,7 +7,7 @@ use glam::Vec3;
 use super::lattice::{EDGE, lattice, spans};
 use crate::mesh::triangles::Mesh;
 
-/// A round cloth of `thickness_mm` that hangs over the y axis like a bell, 1.3 · `radius_mm` high from its hem at y = 0,
+/// Round cloth of `thickness_mm` that hangs over the y axis like a bell, 1.3 · `radius_mm` high from its hem at y = 0,
 /// in about `folds` folds that deepen from the top to the hem, where it is `radius_mm` wide on average; the hem is round.
 /// `rings` rings of quads outside and as many inside, each of six times as many quads. The cloth is closed: it has an
 /// inside. u goes around, v from the top of the inside over the hem to the top outside.
@@ -39,7 +39,7 @@ pub fn drapery(radius_mm: f32, thickness_mm: f32, folds: u16, rings: u16) -> Mes
     })
 }
 
-/// The middle of the cloth of [`drapery`], of radius 1, its unit normal outwards, and along it and away from its hem.
+/// Middle of the cloth of [`drapery`], of radius 1, its unit normal outwards, and along it and away from its hem.
 fn cloth(chi: f32, phi: f32, folds: f32) -> [Vec3; 3] {
     let (sin_chi, cos_chi) = chi.sin_cos();
     let (sin_phi, cos_phi) = phi.sin_cos();

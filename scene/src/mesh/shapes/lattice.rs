@@ -4,15 +4,15 @@ use glam::{Vec2, Vec3};
 
 use crate::mesh::triangles::Mesh;
 
-/// Quads around a rounded edge.
+/// Number of quads around a rounded edge.
 pub(super) const EDGE: u16 = 8;
 
-/// A rectangle of quads in u and v, placed by `place`.
+/// Mesh of `columns` × `rows` equal quads in u and v; `place` gives position and normal.
 pub(super) fn grid([columns, rows]: [u16; 2], place: impl Fn(Vec2) -> (Vec3, Vec3)) -> Mesh {
     lattice(&spans(&[(1.0, columns)]), &spans(&[(1.0, rows)]), place)
 }
 
-/// Where in 0 to 1 the borders of steps lie: of each span its length in any unit, and its number of steps.
+/// Borders of steps from 0 to 1; of each span is given its length in any unit and its number of steps.
 pub(super) fn spans(spans: &[(f32, u16)]) -> Vec<f32> {
     let length: f32 = spans.iter().map(|(length, _)| length).sum();
     let mut borders = vec![0.0];
@@ -24,7 +24,7 @@ pub(super) fn spans(spans: &[(f32, u16)]) -> Vec<f32> {
     borders
 }
 
-/// Quads between all given u and v, each of them growing, placed by `place`.
+/// Mesh of quads between all given u and v, each growing; `place` gives position and normal.
 pub(super) fn lattice(us: &[f32], vs: &[f32], place: impl Fn(Vec2) -> (Vec3, Vec3)) -> Mesh {
     let uvs: Vec<Vec2> = vs.iter().flat_map(|v| us.iter().map(|u| Vec2::new(*u, *v))).collect();
     let (positions, normals) = uvs.iter().map(|uv| place(*uv)).unzip();

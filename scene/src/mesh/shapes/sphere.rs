@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3};
 use super::lattice::grid;
 use crate::mesh::triangles::Mesh;
 
-/// A sphere of `radius_mm`, with `rings` rings of twice as many quads; u goes around, v from pole to pole.
+/// Sphere of `radius_mm`, with `rings` rings of twice as many quads; u goes around, v from pole to pole.
 ///
 /// # Panics
 /// If `rings` is less than 2 or the radius not positive.
@@ -17,7 +17,7 @@ pub fn sphere(radius_mm: f32, rings: u16) -> Mesh {
     grid([2 * rings, rings], |uv| (direction(uv) * radius_mm, direction(uv)))
 }
 
-/// A sphere of `radius_mm` on average with smooth bumps and hollows, about `bumps` of each around it, less than 2.1 /
+/// Sphere of `radius_mm` on average with smooth bumps and hollows, about `bumps` of each around it, less than 2.1 /
 /// (1 + 1.25 · `bumps`) of the radius high; `rings` rings of twice as many quads. u goes around, v from pole to pole.
 ///
 /// # Panics
@@ -56,7 +56,7 @@ const WAVES: [(Vec3, f32); 6] = [
 const SHORT: f32 = 0.525_731_1;
 const LONG: f32 = 0.850_650_8;
 
-/// The direction from the middle of a sphere that texture coordinates name.
+/// Direction from the middle of a sphere to the place of texture coordinates.
 fn direction(uv: Vec2) -> Vec3 {
     let (theta, phi) = (PI * (1.0 - uv.y), TAU * uv.x);
     Vec3::new(theta.sin() * phi.sin(), theta.cos(), theta.sin() * phi.cos())

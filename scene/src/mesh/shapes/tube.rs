@@ -7,7 +7,7 @@ use glam::Vec3;
 use super::lattice::grid;
 use crate::mesh::triangles::Mesh;
 
-/// A torus around the y axis: a tube of radius `tube_mm` whose middle runs `radius_mm` from the axis, with `rings`
+/// Torus around the y axis: a tube of radius `tube_mm` whose middle runs `radius_mm` from the axis, with `rings`
 /// quads around the tube and three times as many along it.
 ///
 /// # Panics
@@ -23,7 +23,7 @@ pub fn torus(radius_mm: f32, tube_mm: f32, rings: u16) -> Mesh {
     })
 }
 
-/// A tube of radius `tube_mm` around a trefoil, the (2, 3) knot on a torus around the y axis whose middle runs
+/// Tube of radius `tube_mm` around a trefoil, the (2, 3) knot on a torus around the y axis whose middle runs
 /// `radius_mm` from the axis; with `rings` quads around the tube and eight times as many along it. Spans 1.45 ·
 /// `radius_mm` + `tube_mm` to either side; u goes along the knot, within 9 % in its length, v around the tube.
 ///
