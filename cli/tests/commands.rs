@@ -18,7 +18,7 @@ fn from_simulation_to_judgement() {
     assert_eq!(sidecar["simulated"]["source"]["scene"], "chessboard");
 
     for (method, bytes) in
-        [("direct", 12 * 4 * 3 + 6 * 63 + 156), ("clusters", 12 * 4 * 3 + 63 + 132), ("lsp", 12 * 63 * 3 + 108)]
+        [("direct", 12 * 4 * 3 + 6 * 63 + 156), ("clusters", 12 * 4 * 3 + 63 + 132), ("song2009", 12 * 63 * 3 + 108)]
     {
         let report = json(folder, &format!("encode a.npy -M 4 --method {method} -o {method}.subsurf --json"));
         assert_eq!(report["bytes"], bytes, "{method}");
@@ -376,7 +376,7 @@ fn an_interrupted_fit_is_written() {
     let folder = folder.path();
     simulate(folder, "a");
     let mut long = command(folder);
-    long.args(["encode", "a.npy", "--method", "paper", "-K", "5", "-M", "200"]);
+    long.args(["encode", "a.npy", "--method", "yatagawa2020", "-K", "5", "-M", "200"]);
     let mut child = long.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
     std::thread::sleep(Duration::from_millis(1_000));
     let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();

@@ -18,11 +18,11 @@ use subsurf_tests::{open, shape, write_capture};
 /// Every method, K and coding.
 fn kinds() -> [Options; 10] {
     let direct = Options::default();
-    let [lsp, clusters] = [Method::Song2009, Method::Clusters].map(|method| Options { method, ..direct });
+    let [song, clusters] = [Method::Song2009, Method::Clusters].map(|method| Options { method, ..direct });
     let [one, three, five] = [1, 3, 5].map(|per_pixel| Options { per_pixel, ..direct });
     let [small, palette] = [Coding::SmallRatios, Coding::Palette].map(|coding| Options { coding, ..direct });
     let paper = Options { method: Method::Yatagawa2020, ..direct };
-    [lsp, clusters, paper, one, direct, three, five, small, palette, Options { half_profiles: true, ..direct }]
+    [song, clusters, paper, one, direct, three, five, small, palette, Options { half_profiles: true, ..direct }]
 }
 
 /// A capture of what a synthetic 2-BMPP file stands for.
@@ -60,12 +60,12 @@ fn finds_a_model_that_is_there() {
     let folder = tempfile::tempdir().unwrap();
     for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
         let path = capture_of_bmpp(folder.path(), [26, 20], 4, addressing);
-        let [lsp, clusters, _, _, direct, ..] = kinds();
-        let (lsp, _) = quality(&path, &fit(&path, lsp, 1).bytes);
+        let [song, clusters, _, _, direct, ..] = kinds();
+        let (song, _) = quality(&path, &fit(&path, song, 1).bytes);
         let (clusters, _) = quality(&path, &fit(&path, clusters, 24).bytes);
         let (direct, psnr) = quality(&path, &fit(&path, direct, 24).bytes);
-        println!("{addressing:?}: LSP {lsp:.5}, clusters {clusters:.5}, direct {direct:.5} and {psnr:.1} dB");
-        assert!(lsp < 0.01, "{addressing:?}: per-pixel profiles can hold it: {lsp}");
+        println!("{addressing:?}: LSP {song:.5}, clusters {clusters:.5}, direct {direct:.5} and {psnr:.1} dB");
+        assert!(song < 0.01, "{addressing:?}: per-pixel profiles can hold it: {song}");
         assert!(direct < 0.25 * clusters, "{addressing:?}: {direct} against {clusters}");
         assert!(psnr > 40.0, "{addressing:?}: {psnr} dB");
     }
