@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use subsurf_decoder::btf::nested::layout::Scales;
 use subsurf_decoder::btf::{ColourEncoding, Grid};
 use subsurf_decoder::container::{Crc, ENTRY_BYTES, FILE_HEADER_BYTES, crc32};
-use subsurf_decoder::{NestedBtf, ReadError, Section};
+use subsurf_decoder::{Bssrdf, Content, FactoredBtf, Family, File, NestedBtf, ReadError, Section};
 use subsurf_encoder::btf::nested::Database;
 use subsurf_encoder::synthetic::NestedShape;
 
@@ -241,14 +241,20 @@ fn sections_that_are_needed_are_missed() {
         seal(&mut bad);
         assert_eq!(NestedBtf::parse(&bad).unwrap_err(), ReadError::Missing { section });
     }
-    assert_eq!(
-        NestedBtf::parse(&subsurf_tests::format_example()).unwrap_err(),
-        ReadError::Missing { section: Section::BtfHeader }
-    );
-    assert_eq!(
-        subsurf_decoder::Bssrdf::parse(&file).unwrap_err(),
-        ReadError::Missing { section: Section::BssrdfHeader }
-    );
+}
+
+#[test]
+fn files_of_another_family_are_refused_as_such() {
+    let nested = shape().database(5).to_bytes();
+    let bssrdf = subsurf_tests::format_example();
+    let other = |found, expected| ReadError::OtherFamily { found, expected };
+    let error = Bssrdf::parse(&nested).unwrap_err();
+    assert_eq!(error, other(Family::NestedBtf, Family::Bssrdf));
+    assert_eq!(error.to_string(), "a nested BTF, not a BSSRDF");
+    assert_eq!(NestedBtf::parse(&bssrdf).unwrap_err(), other(Family::Bssrdf, Family::NestedBtf));
+    assert_eq!(FactoredBtf::parse(&nested).unwrap_err(), other(Family::NestedBtf, Family::FactoredBtf));
+    let content = File::parse(&nested).unwrap().content();
+    assert!(matches!(content, Content::NestedBtf(_)), "the front door finds out");
 }
 
 proptest! {

@@ -13,6 +13,7 @@ pub(crate) trait Field: Sized {
     fn put<'o>(self, out: &mut impl Iterator<Item = &'o mut u8>);
 
     /// The value at the start of `bytes`; zeros stand for bytes that are missing.
+    #[inline]
     fn from_bytes(mut bytes: &[u8]) -> Self {
         Self::take(&mut bytes)
     }
@@ -30,14 +31,14 @@ pub(crate) trait Field: Sized {
 macro_rules! number_fields {
     ($($number:ty)*) => { $(
         impl Field for $number {
+            #[inline]
             fn take(bytes: &mut &[u8]) -> Self {
-                let (first, rest) = bytes.split_first_chunk().unwrap_or((&[0; size_of::<Self>()], &[]));
-                *bytes = rest;
-                Self::from_le_bytes(*first)
+                Self::from_le_bytes(Field::take(bytes))
             }
 
+            #[inline]
             fn put<'o>(self, out: &mut impl Iterator<Item = &'o mut u8>) {
-                self.to_le_bytes().into_iter().zip(out).for_each(|(byte, place)| *place = byte);
+                self.to_le_bytes().put(out);
             }
         }
     )* };
@@ -45,13 +46,17 @@ macro_rules! number_fields {
 
 number_fields!(u8 u16 u32 u64 i16 f32);
 
-impl<T: Field, const N: usize> Field for [T; N] {
+impl<const N: usize> Field for [u8; N] {
+    #[inline]
     fn take(bytes: &mut &[u8]) -> Self {
-        core::array::from_fn(|_| T::take(bytes))
+        let (first, rest) = bytes.split_first_chunk().unwrap_or((&[0; N], &[]));
+        *bytes = rest;
+        *first
     }
 
+    #[inline]
     fn put<'o>(self, out: &mut impl Iterator<Item = &'o mut u8>) {
-        self.into_iter().for_each(|value| value.put(out));
+        self.into_iter().zip(out).for_each(|(byte, place)| *place = byte);
     }
 }
 
@@ -66,11 +71,13 @@ macro_rules! record {
         }
 
         impl $crate::container::record::Field for $record {
+            #[inline]
             fn take(bytes: &mut &[u8]) -> Self {
                 // Fields are evaluated in the order in which they are written.
                 Self { $($field: $crate::container::record::Field::take(bytes),)* }
             }
 
+            #[inline]
             fn put<'o>(self, out: &mut impl Iterator<Item = &'o mut u8>) {
                 $($crate::container::record::Field::put(self.$field, out);)*
             }
@@ -87,7 +94,7 @@ mod tests {
 
     record! {
         /// Fields that would have gaps between them otherwise.
-        Example { small: u8, wide: u32, pair: [u16; 2], real: f32, signed: i16, long: u64, }
+        Example { small: u8, wide: u32, name: [u8; 4], real: f32, signed: i16, long: u64, }
     }
 
     #[test]
@@ -97,7 +104,7 @@ mod tests {
         let bytes: [u8; 23] = core::array::from_fn(|at| u8::try_from(at).unwrap_or(0));
         let record = Example::from_bytes(&bytes);
         assert_eq!({ record.wide }, 0x0403_0201);
-        assert_eq!({ record.pair }, [0x0605, 0x0807]);
+        assert_eq!(record.name, [5, 6, 7, 8]);
         assert_eq!({ record.signed }, 0x0E0D);
         assert_eq!(record.to_bytes::<23>(), bytes);
     }

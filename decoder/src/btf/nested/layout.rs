@@ -34,8 +34,10 @@ record! {
         i1: u32,
         colours: u32,
         tints: u32,
-        first: [f32; 2],
-        step: [f32; 2],
+        first_a: f32,
+        first_b: f32,
+        step_a: f32,
+        step_b: f32,
         is_relative: u8,
         reserved: [u8; 3],
     }
@@ -54,7 +56,10 @@ record! {
 record! {
     /// What `BOOK` says of a stage.
     StageRecord {
-        codebooks: [CodebookRecord; 4],
+        p6: CodebookRecord,
+        p4: CodebookRecord,
+        p3: CodebookRecord,
+        p2: CodebookRecord,
         slices: u32,
         is_signed: u8,
         reserved: [u8; 3],
@@ -128,9 +133,11 @@ impl ChromaSizes {
     /// Record as it stands in the file.
     #[must_use]
     pub fn to_bytes(&self) -> [u8; BOOK_BYTES] {
-        let Self { merged, i2, i1, colours, tints, first, step, is_relative } = *self;
+        let Self { merged, i2, i1, colours, tints, is_relative, .. } = *self;
+        let ([first_a, first_b], [step_a, step_b]) = (self.first, self.step);
         let (is_relative, reserved) = (is_relative.into(), [0; 3]);
-        ChromaRecord { merged, i2, i1, colours, tints, first, step, is_relative, reserved }.to_bytes()
+        ChromaRecord { merged, i2, i1, colours, tints, first_a, first_b, step_a, step_b, is_relative, reserved }
+            .to_bytes()
     }
 
     /// Reads and checks the record that stands at `origin`.
@@ -138,22 +145,18 @@ impl ChromaSizes {
         use ChromaRecord as R;
         let record = R::from_bytes(bytes);
         let entries = |at, value| origin.integer(at, value, 1..=MAX_ENTRIES);
+        let chroma = |at, value| origin.number(at, value, CHROMA);
         Ok(Self {
             merged: entries(offset_of!(R, merged), record.merged)?,
             i2: entries(offset_of!(R, i2), record.i2)?,
             i1: entries(offset_of!(R, i1), record.i1)?,
             colours: entries(offset_of!(R, colours), record.colours)?,
             tints: origin.integer(offset_of!(R, tints), record.tints, 0..=MAX_ENTRIES)?,
-            first: pair(origin.at(offset_of!(R, first)), record.first)?,
-            step: pair(origin.at(offset_of!(R, step)), record.step)?,
+            first: [chroma(offset_of!(R, first_a), record.first_a)?, chroma(offset_of!(R, first_b), record.first_b)?],
+            step: [chroma(offset_of!(R, step_a), record.step_a)?, chroma(offset_of!(R, step_b), record.step_b)?],
             is_relative: flag(origin, offset_of!(R, is_relative), record.is_relative)?,
         })
     }
-}
-
-/// Chroma of both channels.
-fn pair(origin: Origin, [a, b]: [f32; 2]) -> Result<[f32; 2], ReadError> {
-    Ok([origin.number(0, a, CHROMA)?, origin.number(size_of::<f32>(), b, CHROMA)?])
 }
 
 /// 0 or 1.
@@ -198,18 +201,21 @@ impl StageSizes {
     #[must_use]
     pub fn to_bytes(&self) -> [u8; BOOK_BYTES] {
         let Self { codebooks, slices, is_signed } = *self;
-        let codebooks = codebooks.map(CodebookSize::record);
-        StageRecord { codebooks, slices, is_signed: is_signed.into(), reserved: [0; 3] }.to_bytes()
+        let [p6, p4, p3, p2] = codebooks.map(CodebookSize::record);
+        StageRecord { p6, p4, p3, p2, slices, is_signed: is_signed.into(), reserved: [0; 3] }.to_bytes()
     }
 
     /// Reads and checks the record that stands at `origin`.
     fn parse(bytes: &[u8; BOOK_BYTES], origin: Origin, is_first: bool) -> Result<Self, ReadError> {
         use StageRecord as R;
         let record = R::from_bytes(bytes);
-        let mut codebooks = [CodebookSize::default(); 4];
-        for (number, (codebook, record)) in codebooks.iter_mut().zip(record.codebooks).enumerate() {
-            *codebook = CodebookSize::parse(record, origin.at_item(number, size_of::<CodebookRecord>()))?;
-        }
+        let codebook = |at, record| CodebookSize::parse(record, origin.at(at));
+        let codebooks = [
+            codebook(offset_of!(R, p6), record.p6)?,
+            codebook(offset_of!(R, p4), record.p4)?,
+            codebook(offset_of!(R, p3), record.p3)?,
+            codebook(offset_of!(R, p2), record.p2)?,
+        ];
         let slices = origin.integer(offset_of!(R, slices), record.slices, 1..=MAX_ENTRIES)?;
         let is_signed = flag(origin, offset_of!(R, is_signed), record.is_signed)?;
         if is_first && is_signed {

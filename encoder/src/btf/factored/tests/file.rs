@@ -7,7 +7,7 @@ use subsurf_decoder::btf::{
     BtfHeader, BtfModel, ColourEncoding, Evaluate, ExpandedBtf, FactoredBtf, Grid, GridCoord, LerpCoord, Material,
 };
 use subsurf_decoder::container::Crc;
-use subsurf_decoder::{ReadError, Section};
+use subsurf_decoder::{Family, ReadError, Section};
 
 use crate::btf::factored::angles::Tucker;
 use crate::btf::factored::texels::Quantised;
@@ -257,7 +257,10 @@ fn what_is_wrong_is_named() {
     let wrong = ReadError::IndexOutOfRange { section: Section::TexelIndices, offset: index as u64, index: 3, len: 3 };
     assert_eq!(with(index, 3), Some(wrong));
     assert!(
-        matches!(subsurf_decoder::NestedBtf::parse(&bytes), Err(ReadError::BadField { value: 2, .. })),
+        matches!(
+            subsurf_decoder::NestedBtf::parse(&bytes),
+            Err(ReadError::OtherFamily { found: Family::FactoredBtf, .. })
+        ),
         "another model"
     );
 }
