@@ -62,7 +62,7 @@ enum Command {
     Demo(demo::Args),
 }
 
-/// Does what the arguments ask for.
+/// Runs the subcommand that the arguments ask for.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! Values that several commands take.
+//! Options: values that several commands take.
 
 use std::str::FromStr;
 
@@ -42,7 +42,7 @@ pub struct CaptureArgs {
 }
 
 impl CaptureArgs {
-    /// What wins over the sidecar.
+    /// Facts that win over those of the sidecar.
     pub fn overrides(&self) -> Overrides {
         Overrides { pitch_mm: self.pitch, addressing: self.addressing.map(Into::into), eta: self.eta }
     }

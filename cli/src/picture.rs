@@ -20,7 +20,7 @@ pub fn write_png(path: &Path, image: &RgbImage) -> anyhow::Result<()> {
     Ok(write_bytes(path, &bytes.into_inner())?)
 }
 
-/// Light grey, between pictures.
+/// Width of the light grey between pictures, in pixels.
 const GAP: u32 = 6;
 const PAPER: Rgb<u8> = Rgb([235; 3]);
 

@@ -11,43 +11,43 @@ pub type Result<T> = std::result::Result<T, Error>;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A material file that cannot be read from disk.
+    /// Material file that cannot be read from disk.
     #[error("{}: {source}; expected a .subsurf file", path.display())]
     Open {
-        /// The file.
+        /// Name of the file.
         path: PathBuf,
-        /// The system's reason.
+        /// Reason of the operating system.
         source: std::io::Error,
     },
-    /// A material file whose bytes are wrong.
+    /// Material file whose bytes are wrong.
     #[error("not a usable {kind}: {}: {source}", path.display())]
     File {
-        /// Where the bytes are from.
+        /// Name of the file, for people.
         path: PathBuf,
-        /// What it was taken for, in words.
+        /// Kind that the file was taken for: "material" or "BTF".
         kind: &'static str,
-        /// The decoder's reason.
+        /// Reason of the decoder.
         source: ReadError,
     },
-    /// A request that makes no sense, and what to do instead.
+    /// Request that makes no sense, and what to do instead.
     #[error("{0}")]
     Request(String),
     /// Images of a BTF that cannot be had, as [`LoadImages`](crate::LoadImages) says.
     #[error("{0}")]
     Images(#[source] Box<dyn std::error::Error + Send + Sync>),
-    /// A mesh that cannot be used.
+    /// Mesh or environment that cannot be used.
     #[error(transparent)]
     Scene(#[from] subsurf_scene::Error),
-    /// The renderer's reason: the file, the device or the budget.
+    /// Failure of the renderer: of the file, the device or the budget.
     #[error(transparent)]
     Runtime(#[from] subsurf_runtime::Error),
-    /// There is nothing to show pictures on.
+    /// Absence of a display or of a surface to show pictures on.
     #[error("{0}")]
     NoDisplay(String),
-    /// The device was lost, and no other could be opened.
+    /// Loss of the device, after which no other could be opened.
     #[error("the device was lost")]
     Lost(#[source] Box<Error>),
-    /// The host did not take a picture.
+    /// Failure of the host to take a picture.
     #[error("{0}")]
     Host(#[source] Box<dyn std::error::Error + Send + Sync>),
 }

@@ -1,4 +1,4 @@
-//! Material files that can be drawn.
+//! Material files: reading and parsing those that can be drawn.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ pub enum Content<'a> {
 /// Bytes of a material file.
 ///
 /// # Errors
-/// [`Error::Open`].
+/// [`Error::Open`] if the system refuses.
 pub fn read(path: &Path) -> Result<Vec<u8>> {
     std::fs::read(path).map_err(|source| Error::Open { path: path.to_owned(), source })
 }

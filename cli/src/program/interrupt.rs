@@ -1,4 +1,4 @@
-//! Ctrl-C and polite requests to end.
+//! Interruptions: Ctrl-C and polite requests to end.
 
 use std::sync::atomic::{AtomicU8, Ordering};
 
@@ -9,7 +9,7 @@ pub(super) const INTERRUPTED: u8 = 130;
 const AT_ONCE: u8 = 0;
 /// The first one is for the work at hand to see.
 const GRACEFULLY: u8 = 1;
-/// It has come.
+/// The interruption has come.
 const CAME: u8 = 2;
 
 static STATE: AtomicU8 = AtomicU8::new(AT_ONCE);

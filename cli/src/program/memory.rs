@@ -1,9 +1,9 @@
-//! What this process holds of the machine's memory.
+//! Memory of this process and of the machine.
 
 /// Resident memory in bytes, as far as the system tells.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Resident {
-    /// The most there has been so far.
+    /// Largest resident memory so far.
     pub peak: u64,
     /// Of what is resident now, pages of mapped files.
     pub mapped: u64,

@@ -74,12 +74,12 @@ fn test_meshes() -> anyhow::Result<Vec<TestMesh>> {
     all.into_iter().map(test_mesh).collect()
 }
 
-/// What is timed.
+/// Row of the table: times of one mesh, device and layout.
 struct Row {
     device: String,
     layout: BtfLayout,
     filtering: BtfFiltering,
-    /// Frames in ms.
+    /// Times of frames in ms.
     times: Vec<f64>,
     material_bytes: u64,
 }
@@ -204,7 +204,7 @@ fn number(args: &Args, btf: &NestedBtf<'_>) -> anyhow::Result<usize> {
         .ok_or_else(|| bad_request(format!("--material {asked}: the file has {}", names.join(", "))))
 }
 
-/// A mesh on a device.
+/// Setting of a measurement: a mesh on a device.
 struct Setting<'a> {
     backend: Backend,
     gpu: &'a Gpu,

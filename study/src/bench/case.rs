@@ -18,16 +18,16 @@ pub(super) struct BenchCase {
     pub(super) times: Times,
 }
 
-/// Milliseconds of frames, and what they took on the device.
+/// Times of frames in ms, and bytes on the device.
 pub(super) struct Times {
-    /// Whole frames.
+    /// Times of whole frames in ms.
     pub(super) frames: Vec<f64>,
-    /// Each pass by itself.
+    /// Times of each pass by itself in ms, by its name.
     pub(super) passes: BTreeMap<&'static str, Vec<f64>>,
-    /// In the order of the frame.
+    /// Names of passes in the order of the frame.
     pub(super) order: Vec<&'static str>,
     pub(super) material_bytes: u64,
-    /// Of everything but the material and the mesh.
+    /// Bytes of everything but the material and the mesh.
     pub(super) buffer_bytes: u64,
 }
 

@@ -2,12 +2,12 @@
 
 use std::time::Instant;
 
-/// The middle value; 0 of none.
+/// Median of values; 0 of none.
 pub(crate) fn median(values: &[f64]) -> f64 {
     quantile(values, 0.5)
 }
 
-/// The value that this share of all is not above, linear between two of them; 0 of none.
+/// Quantile: the value that this share of all is not above, linear between two of them; 0 of none.
 pub(crate) fn quantile(values: &[f64], share: f64) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -23,7 +23,7 @@ pub(crate) fn quantile(values: &[f64], share: f64) -> f64 {
 pub(crate) struct Clock(Instant);
 
 impl Clock {
-    /// Starts now.
+    /// A clock that starts now.
     pub(crate) fn new() -> Self {
         Self(Instant::now())
     }
@@ -37,7 +37,7 @@ impl Clock {
     }
 }
 
-/// Microseconds for people.
+/// Time for people, from microseconds.
 pub(crate) fn micros(us: f64) -> String {
     match us {
         us if us >= 1e6 => format!("{:.2} s", us / 1e6),

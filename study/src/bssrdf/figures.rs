@@ -18,7 +18,7 @@ fn widened(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     if low > high { 1.0..10.0 } else { low / 1.5..high * 1.5 }
 }
 
-/// Error against K, and quality against size.
+/// Charts of error against K, and of quality against size.
 pub(super) fn charts(study: &Results<'_>, out: &mut String) -> anyhow::Result<()> {
     out.push_str("<h2>Curves</h2><div class=\"charts\">");
     let halves = study.halves();
@@ -76,7 +76,7 @@ pub(super) fn charts(study: &Results<'_>, out: &mut String) -> anyhow::Result<()
     Ok(())
 }
 
-/// Mixture ratios of K = 3 and 5 in falling order.
+/// Chart and maps of the mixture ratios of K = 3 and 5, in falling order.
 pub(super) fn ratios(study: &Results<'_>, out: &mut String) -> anyhow::Result<()> {
     out.push_str("<h2>Mixture ratios, sorted (their figure 4)</h2><div class=\"charts\">");
     for k in [3, 5] {

@@ -16,7 +16,7 @@ use crate::page::panel::{Bar, Row, panel};
 use crate::page::{CSS, duration, other, table};
 
 impl Results<'_> {
-    /// The page.
+    /// The page in HTML.
     pub(super) fn html(&self) -> anyhow::Result<String> {
         let mut out =
             String::from("<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>subsurf study</title>");

@@ -1,4 +1,4 @@
-//! What is simulated and fitted.
+//! Plan: the fits of every capture.
 
 use subsurf_decoder::bssrdf::Coding;
 use subsurf_encoder::bssrdf::{Method, Options};
@@ -6,12 +6,12 @@ use subsurf_encoder::bssrdf::{Method, Options};
 /// Base materials throughout, as in the paper.
 pub(super) const BASE_MATERIALS: usize = 128;
 
-/// One fit of every capture.
+/// Fit that every capture goes through.
 #[derive(Clone, Debug)]
 pub(super) struct Fit {
-    /// Its name in files and tables.
+    /// Name in files and tables.
     pub(super) label: String,
-    /// Its name for people.
+    /// Name for people.
     pub(super) title: String,
     pub(super) options: Options,
     /// Whether M is whatever fits into the bytes of K = 2, M = 128.

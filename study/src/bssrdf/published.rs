@@ -1,16 +1,16 @@
 //! What Yatagawa et al. 2020 report of their measured materials, with their digits: tables 2, 5 and 6.
 
-/// One measured material.
+/// Measured material, with the numbers that the paper prints for it.
 pub(super) struct Published {
-    /// Its name in their tables.
+    /// Name in the paper's tables.
     pub(super) name: &'static str,
     pub(super) pixels: &'static str,
     pub(super) original: &'static str,
-    /// Of [`SIZED`].
+    /// Bytes by the rows of [`SIZED`].
     pub(super) bytes: [&'static str; 5],
-    /// Of all of these but the first.
+    /// Times by the rows of [`SIZED`], the first left out.
     pub(super) times: [&'static str; 4],
-    /// Of [`COMPARED`].
+    /// Relative errors by the rows of [`COMPARED`].
     pub(super) relative_error: [&'static str; 6],
     pub(super) psnr_db: [&'static str; 6],
     pub(super) ssim: [&'static str; 6],

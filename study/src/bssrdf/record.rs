@@ -20,7 +20,7 @@ use crate::page::colour::{error_map, grey_map};
 use subsurf_cli::picture::{linear, write_png};
 use subsurf_cli::program::progress::Bars;
 
-/// What came of one fit. Judged by the capture without noise, whatever it was fitted to.
+/// Record: what came of one fit. Judged by the capture without noise, whatever it was fitted to.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct Record {
     pub(super) material: String,
@@ -44,12 +44,12 @@ pub(super) struct Record {
     pub(super) lz4: u64,
 }
 
-/// One capture of the study.
+/// Capture of the study, to be fitted.
 pub(super) struct FitCase<'a> {
     pub(super) material: &'a str,
     pub(super) noisy: bool,
     pub(super) capture: &'a Capture,
-    /// Without noise.
+    /// The same capture without noise, by which fits are judged.
     pub(super) truth: &'a Capture,
     pub(super) folder: &'a Path,
 }
@@ -99,7 +99,7 @@ impl FitCase<'_> {
         Ok((record, true))
     }
 
-    /// Options with M settled.
+    /// Options of a fit, with M chosen where it is to have the bytes of another.
     fn settled(&self, fit: &Fit) -> anyhow::Result<Options> {
         if !fit.equal_bytes {
             return Ok(fit.options);

@@ -1,4 +1,4 @@
-//! Results of the study.
+//! Results of the study, and how they are looked up.
 
 use std::path::Path;
 

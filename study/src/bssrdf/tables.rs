@@ -22,7 +22,7 @@ fn better(a: &Record, b: Option<&Record>) -> String {
     mark(share < 1.0 && gain > 0.0, &format!("{share:.2} × the error, at least {gain:+.1} dB"))
 }
 
-/// What is claimed of every capture.
+/// Table of what is claimed, and whether it holds for every capture.
 pub(super) fn claims(study: &Results<'_>) -> String {
     let titles = [
         "",
@@ -66,7 +66,7 @@ pub(super) fn claims(study: &Results<'_>) -> String {
     table(&titles.map(str::to_owned), &rows) + note
 }
 
-/// Precisions of K = 2, and what a compressor would still find.
+/// Table of the precisions of K = 2, and of what a compressor would still find.
 pub(super) fn precision(study: &Results<'_>) -> String {
     let titles =
         ["", "", "bytes", "relative error", "PSNR uniform / disc / line (dB)", "deflate would save", "LZ4 would save"];
@@ -93,7 +93,7 @@ pub(super) fn precision(study: &Results<'_>) -> String {
     table(&titles.map(str::to_owned), &rows)
 }
 
-/// All records, for spreadsheets.
+/// All records as comma-separated values, for spreadsheets.
 pub(super) fn csv(study: &Results<'_>) -> String {
     let mut out = String::from(
         "material,noise,fit,K,M,bytes,seconds,relative_error,psnr_uniform_db,psnr_disc_db,psnr_line_db,ssim_uniform,\

@@ -13,7 +13,7 @@ use subsurf_encoder::rate::btf::search;
 
 use super::svd::{SEED, shared_svd};
 
-/// A way to compress, and for baselines whose bytes they may take.
+/// Codec: a way to compress. Baselines may take as many bytes as another codec takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Codec {
     Nested,
@@ -46,7 +46,7 @@ impl Made {
 /// Clusters that local PCA is tried with.
 const CLUSTERS: [usize; 4] = [2, 3, 4, 6];
 
-/// What the encoders of one file are told.
+/// Options of the encoders of one file.
 pub(super) fn setup(method: Method, names: &[String], images: &[Images]) -> subsurf_encoder::Result<Setup> {
     Setup::new(images, names, &Options { method, seed: SEED, ..Options::default() })
 }
@@ -89,7 +89,7 @@ impl Codec {
         }
     }
 
-    /// Whose bytes a baseline may take.
+    /// Codec whose bytes a baseline may take.
     pub(super) fn budget_of(self) -> Option<Self> {
         match self {
             Self::Nested | Self::Havran2010 | Self::Factored => None,

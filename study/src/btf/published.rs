@@ -1,12 +1,12 @@
 //! What Havran et al. 2010 report of their measured materials, with their digits: tables 2 and 3.
 
-/// One measured material.
+/// Measured material, with the numbers that the paper prints for it.
 pub(super) struct Published {
     pub(super) name: &'static str,
     /// Compression ratio with indices of as few bits as possible and scales of eight, and bytes.
     pub(super) ratio: &'static str,
     pub(super) bytes: &'static str,
-    /// Hours.
+    /// Time of compression in hours.
     pub(super) time: &'static str,
     /// MSSIM in YCrCb of theirs, PCA and local PCA.
     pub(super) mssim: [&'static str; 3],

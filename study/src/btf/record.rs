@@ -21,7 +21,7 @@ use crate::cache;
 /// Pairs of directions that are shown: shares of all of them.
 pub(super) const PICTURED: [f64; 3] = [0.12, 0.52, 0.73];
 
-/// What came of a codec.
+/// Record: what came of a material through a codec.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct Record {
     /// What it answers; another one is another question.
@@ -30,7 +30,7 @@ pub(super) struct Record {
     pub(super) label: String,
     pub(super) bytes: u64,
     pub(super) raw_bytes: u64,
-    /// Of Y, Cr and Cb.
+    /// Mean structural similarity of Y, Cr and Cb.
     pub(super) mssim: [f64; 3],
     pub(super) psnr_db: f64,
     pub(super) seconds: f64,
@@ -52,7 +52,7 @@ impl Record {
     }
 }
 
-/// A material of the study.
+/// Material of the study, to be sent through codecs.
 pub(super) struct CodecCase<'a> {
     pub(super) name: &'a str,
     /// Pixels of its images in x and in y.
@@ -187,7 +187,7 @@ fn evaluations_per_second(file: &dyn Evaluate) -> f64 {
     f64::from(count) / start.elapsed().as_secs_f64()
 }
 
-/// Bytes and what they are of what was measured.
+/// Bytes for people, and their ratio to the bytes of all images.
 pub(super) fn size(bytes: u64, raw_bytes: u64) -> String {
     #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
     let ratio = raw_bytes as f64 / bytes.max(1) as f64;

@@ -25,22 +25,22 @@ pub(super) struct Member {
 }
 
 impl Member {
-    /// As its images and files are called.
+    /// Name of its images and files.
     pub(super) fn name(self) -> String {
         let name = self.sample.name();
         if self.seed == SEED { name.to_owned() } else { format!("{name}-{}", self.seed) }
     }
 }
 
-/// Materials that may share a file.
+/// Set of materials that may share a file.
 pub(super) struct Set {
-    /// As its files are called.
+    /// Name in files.
     pub(super) label: String,
     pub(super) title: String,
     pub(super) members: Vec<Member>,
 }
 
-/// Members of a family.
+/// Number of members of a family.
 const FAMILY: u64 = 4;
 
 impl Set {
@@ -57,16 +57,16 @@ impl Set {
     }
 }
 
-/// What sharing saves.
+/// Record: what sharing a file saves.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct Shared {
     request: String,
     pub(super) title: String,
     /// Sum of the files apart, and their mean structural similarity over a sample of pairs.
     pub(super) apart: (u64, f64),
-    /// The shared file, likewise.
+    /// Bytes and mean structural similarity of the shared file.
     pub(super) together: (u64, f64),
-    /// Entries of P4 in it.
+    /// Entries of P4 in the shared file.
     pub(super) p4: usize,
 }
 

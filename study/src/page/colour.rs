@@ -1,4 +1,4 @@
-//! Maps of numbers as pictures.
+//! Colours: maps of numbers as pictures.
 
 use image::{Rgb, RgbImage};
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
@@ -7,7 +7,7 @@ use subsurf_shaders::cpu::display;
 
 /// Relative errors that the two ends of the scale stand for; the scale is logarithmic.
 pub(crate) const ERRORS: [f64; 2] = [1e-4, 1e-1];
-/// Where nothing was measured.
+/// Colour of pixels where nothing was measured.
 const NOTHING: Rgb<u8> = Rgb([128; 3]);
 
 /// Colour of a place on the scale, 0 to 1.
@@ -16,7 +16,7 @@ pub(crate) fn colour(place: f64) -> Rgb<u8> {
     Rgb([r, g, b])
 }
 
-/// Errors on the logarithmic scale.
+/// Picture of relative errors, on the logarithmic scale of [`ERRORS`].
 pub(crate) fn error_map(errors: &[Option<f64>], width: u32) -> RgbImage {
     let [low, high] = ERRORS.map(f64::ln);
     let place = |error: f64| (error.max(f64::MIN_POSITIVE).ln() - low) / (high - low);
@@ -28,7 +28,7 @@ pub(crate) fn grey(value: f32) -> Rgb<u8> {
     Rgb(display([value; 3]))
 }
 
-/// Numbers from 0, black, to 1, white.
+/// Picture of numbers from 0, black, to 1, white.
 pub(crate) fn grey_map(values: &[f32], width: u32) -> RgbImage {
     map(values, width, grey)
 }

@@ -42,7 +42,7 @@ pub(crate) fn mark(holds: bool, what: &str) -> String {
     format!("{} {what}", if holds { '✓' } else { '✗' })
 }
 
-/// Seconds for people.
+/// Time for people, from seconds.
 pub(crate) fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 100.0 => format!("{s:.1} s"),

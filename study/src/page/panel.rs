@@ -6,7 +6,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use image::Rgb;
 
-/// Side of a picture on the page.
+/// Width of a picture on the page, in its pixels.
 const SIDE: usize = 130;
 const GAP: usize = 10;
 const LEFT: usize = 74;
@@ -14,13 +14,13 @@ const TOP: usize = 24;
 const BOTTOM: usize = 34;
 const BAR: usize = 92;
 
-/// What a column or row of pictures shows, and its pictures; `None` leaves a hole.
+/// Row of a panel: its title and its pictures, PNG; `None` leaves a hole.
 pub(crate) struct Row {
     pub(crate) title: String,
     pub(crate) pictures: Vec<Option<Vec<u8>>>,
 }
 
-/// A colour bar beside a panel.
+/// Colour bar beside a panel.
 pub(crate) struct Bar {
     pub(crate) title: &'static str,
     /// What stands beside the bar, with its place from 0, the lower end, to 1.

@@ -1,4 +1,4 @@
-//! Curves, as SVG.
+//! Charts of curves and points, as SVG.
 
 use plotters::prelude::*;
 
@@ -16,13 +16,13 @@ pub(crate) struct Axis {
     pub(crate) scale: Scale,
 }
 
-/// How values stand along an axis.
+/// Scale of an axis.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Scale {
     Linear,
     /// Equal factors are equally far apart.
     Logarithmic,
-    /// Only whole numbers mean something.
+    /// Labels stand at whole numbers only.
     Whole,
 }
 

@@ -16,28 +16,28 @@ pub enum GpuAsset {
         mesh: GpuMesh,
         /// Points, and which of them exchange light.
         points: GpuPoints,
-        /// Profiles.
+        /// Tables of the profiles and of what mixes them, as they stand in the file.
         material: Material,
     },
     /// Light spread over what lies around where it enters.
     Splat {
-        /// Mesh.
+        /// Mesh, with ambient transfer at every vertex.
         mesh: GpuMesh,
-        /// Factors as discs.
+        /// Planes of the file, and the basis whose Gaussians are splatted.
         material: SplatMaterial,
     },
     /// Weighted irradiance maps, blurred by shared Gaussians.
     Separable {
-        /// Mesh.
+        /// Mesh, with ambient transfer at every vertex.
         mesh: GpuMesh,
-        /// Weights and Gaussians.
+        /// Weights of the basis for every pixel, and its Gaussians.
         material: SeparableMaterial,
     },
     /// A bidirectional texture function.
     Btf {
         /// Mesh, with tangents.
         mesh: GpuMesh,
-        /// Codebooks or images.
+        /// Nested codebooks as they stand in the file, or uncompressed images.
         material: BtfMaterial,
         /// Number of the material in its file.
         number: usize,
@@ -77,7 +77,7 @@ impl GpuAsset {
         }
     }
 
-    /// What the renderer draws.
+    /// Mesh and material as the renderer draws them.
     #[must_use]
     pub fn drawable(&self) -> Drawable<'_> {
         match self {
@@ -88,7 +88,7 @@ impl GpuAsset {
         }
     }
 
-    /// How the renderer draws it.
+    /// Technique by which the renderer draws it.
     #[must_use]
     pub fn technique(&self) -> Technique {
         match self {

@@ -5,7 +5,7 @@ use subsurf_scene::{Mapping, Mesh};
 
 use crate::error::{Error, Result};
 
-/// Mapping that is asked for.
+/// Choice of how a translucent material lies on a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MappingChoice {
     /// Texture coordinates if the mesh has any, else [`Box`](Self::Box).

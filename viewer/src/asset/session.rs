@@ -1,4 +1,4 @@
-//! Drawing pictures of one size.
+//! Session: pictures of one size, of one asset.
 
 use subsurf_runtime::{Frame, Gpu, Renderer, RuntimeOptions};
 use subsurf_scene::Scene;
@@ -9,11 +9,11 @@ use crate::error::Result;
 
 /// Asset, pipelines and buffers to draw pictures of one size with.
 pub struct RenderSession {
-    /// What is drawn.
+    /// Material and mesh on the device.
     pub asset: GpuAsset,
-    /// Pipelines of its technique.
+    /// Pipelines of the asset's technique.
     pub renderer: Renderer,
-    /// Buffers of the size.
+    /// Buffers for pictures of the size.
     pub frame: Frame,
 }
 

@@ -78,7 +78,7 @@ impl<'a> App<'a> {
         }
     }
 
-    /// How it ended.
+    /// Result, once the window is closed.
     pub(super) fn outcome(self) -> Result<()> {
         self.outcome
     }
@@ -237,7 +237,7 @@ impl<'a> App<'a> {
     }
 }
 
-/// All that the window shows.
+/// Picture of all that the window shows.
 fn picture(stage: &mut Stage, shows: Shows, overlay: &Overlay) -> Result<Picture> {
     Ok(Picture { size: stage.canvas.size(), pixels: stage.capture(shows, overlay)? })
 }

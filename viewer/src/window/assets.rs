@@ -13,7 +13,7 @@ pub(super) struct MaterialFile {
     path: PathBuf,
     bytes: Arc<[u8]>,
     name: String,
-    /// Which material of a BTF.
+    /// Index of the material in a BTF file; 0 otherwise.
     number: usize,
     is_btf: bool,
 }
@@ -79,7 +79,7 @@ pub(super) struct Assets {
     pub(super) materials: Vec<Arc<MaterialFile>>,
     pub(super) mesh: Arc<Mesh>,
     pub(super) mesh_name: String,
-    /// Tells meshes apart.
+    /// Count of the meshes so far: a number for each.
     pub(super) mesh_number: u32,
     reading: MeshReading,
 }

@@ -1,4 +1,4 @@
-//! What keys and the pointer mean.
+//! Controls: what keys and the pointer mean.
 
 use glam::Vec2;
 use winit::event::{ElementState, MouseButton, MouseScrollDelta};
@@ -72,7 +72,7 @@ pub(super) fn command(key: &Key) -> Option<Command> {
     })
 }
 
-/// Thing that the pointer drags.
+/// Eye or light, whichever the pointer drags.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Drag {
     View,

@@ -1,22 +1,22 @@
-//! What other threads tell the window.
+//! Events: what other threads tell the window.
 
 use super::job::JobResult;
 
 /// Event of an [`EventLoop`](winit::event_loop::EventLoop) that runs a [`Viewer`](crate::Viewer).
 pub struct Event(pub(super) EventKind);
 
-/// What has happened.
+/// Kind of an event.
 #[allow(clippy::large_enum_variant, reason = "a few in flight at a time")]
 pub(super) enum EventKind {
-    /// A job is done.
+    /// Result of a job.
     Computed(JobResult),
-    /// The device of this number is gone.
+    /// Loss of a device.
     DeviceLost {
-        /// The first device is 1.
+        /// Number of the device; the first is 1.
         number: u32,
-        /// The driver's words.
+        /// Reason in the driver's words.
         reason: String,
     },
-    /// The device complains.
+    /// Complaint of the device, in the driver's words.
     DeviceError(String),
 }

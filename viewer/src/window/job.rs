@@ -17,11 +17,11 @@ use crate::file::Content;
 /// Way in which a material is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RenderMode {
-    /// A translucent one, by a technique.
+    /// By a technique, if it is translucent.
     Scattering(Scattering),
-    /// A BTF, from its file.
+    /// From its file, if it is a BTF.
     Btf,
-    /// A BTF, from the images that it was made from.
+    /// From the images that the BTF was made from.
     Images,
 }
 
@@ -132,12 +132,12 @@ impl JobQueue {
         Self { send, pending: None, cache: Vec::new() }
     }
 
-    /// What is being computed.
+    /// Key of the job that is being done.
     pub(super) fn pending(&self) -> Option<&Key> {
         self.pending.as_ref()
     }
 
-    /// What was computed already.
+    /// Result in the cache.
     pub(super) fn find(&self, key: &Key) -> Option<Arc<Computed>> {
         self.cache.iter().find(|(cached, _)| cached == key).map(|(_, computed)| computed.clone())
     }

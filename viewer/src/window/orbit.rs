@@ -14,14 +14,14 @@ pub(super) struct Orbit {
     /// Above the horizon, less than a right angle.
     up: f32,
     distance_mm: f32,
-    /// Nearest and furthest.
+    /// Least and largest distance.
     range_mm: [f32; 2],
     angle: f32,
 }
 
 /// The eye comes this close to the poles, where left and right would swap.
 const HIGHEST: f32 = FRAC_PI_2 - 0.05;
-/// A step of the wheel.
+/// Factor of the distance for a step of the wheel.
 const STEP: f32 = 0.9;
 
 impl Orbit {
@@ -40,7 +40,7 @@ impl Orbit {
         }
     }
 
-    /// What it sees.
+    /// Camera at its place.
     pub(super) fn view(&self, exposure: f32) -> Camera {
         let towards = Vec3::new(self.up.cos() * self.around.sin(), self.up.sin(), self.up.cos() * self.around.cos());
         Camera {

@@ -1,4 +1,4 @@
-//! The panel over the picture.
+//! Panel over the picture.
 
 use egui::{Color32, Context, FontId, Frame, RichText, Slider, TextStyle, Ui, Window};
 use subsurf_runtime::Plan;
@@ -18,7 +18,7 @@ pub(super) struct Settings {
     pub(super) shows_error: bool,
     /// A BTF on the left, its images on the right.
     pub(super) splits: bool,
-    /// The light goes around.
+    /// Whether the light goes around.
     pub(super) turns_light: bool,
     pub(super) is_open: bool,
 }
@@ -31,18 +31,18 @@ pub(super) struct Facts {
     pub(super) materials: Vec<String>,
     pub(super) mesh: String,
     pub(super) size: [u32; 2],
-    /// Median and number of frames.
+    /// Median of frame times in ms, and the number of frames.
     pub(super) frame_ms: Option<(f64, usize)>,
     pub(super) device_bytes: u64,
     pub(super) budget_bytes: Option<u64>,
     pub(super) model_bytes: Option<[u64; 2]>,
     pub(super) plan: Option<Plan>,
-    /// What one has to wait for.
+    /// What has to be waited for, in words.
     pub(super) busy: Option<String>,
     pub(super) message: Option<Message>,
 }
 
-/// News, until the next.
+/// Message below the facts, until the next.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Message {
     Done(String),

@@ -20,7 +20,7 @@ use crate::request::ROUGHNESS;
 /// The reference of translucent materials.
 const GATHER: RenderMode = RenderMode::Scattering(Scattering::Gather);
 
-/// All that outlives a device.
+/// Session: all that outlives a device.
 pub(super) struct Session {
     pub(super) assets: Assets,
     pub(super) state: SceneState,
@@ -145,7 +145,7 @@ impl Session {
         }
     }
 
-    /// Takes in what was computed.
+    /// Takes in the result of a job.
     pub(super) fn receive(&mut self, result: JobResult, jobs: &mut JobQueue) {
         if let Err((key, error)) = jobs.receive(result) {
             self.refuse(key, error);
@@ -188,7 +188,7 @@ impl Session {
         stage.draw(role, self.state.scene(light, &self.settings))
     }
 
-    /// What the window shows.
+    /// Choice of what the window shows: what is wanted, as far as it is there.
     pub(super) fn shows(&self, stage: &Stage) -> Shows {
         // The gather itself differs from nothing: it is shown.
         let reference = self.wanted(Role::Reference);
@@ -314,7 +314,7 @@ impl Session {
         self.fail(error);
     }
 
-    /// What the panel tells.
+    /// Facts for the panel.
     pub(super) fn facts(&self, stage: &Stage, jobs: &JobQueue) -> Facts {
         let busy = jobs.pending().map(|key| match key.mode {
             GATHER => "finding which points exchange light ...".to_owned(),

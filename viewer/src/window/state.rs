@@ -7,14 +7,14 @@ use super::orbit::{Orbit, dragged};
 use super::panel::Settings;
 use crate::request::RenderRequest;
 
-/// Radians in a second.
+/// Speed of the light that goes around, in radians per second.
 const LIGHT_SPEED: f32 = 0.6;
 
 /// Scene, and what moves in it.
 pub(super) struct SceneState {
     scene: Scene,
     orbit: Orbit,
-    /// Towards the light.
+    /// Direction towards the light, of length 1.
     pub(super) light: Vec3,
     /// The same when it was last let go.
     pub(super) rested: Vec3,

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// Frames that count.
+/// Number of frames that the median is of.
 const FRAMES: usize = 60;
 
 /// Times of the last frames.

@@ -1,4 +1,4 @@
-//! Opens the window.
+//! Viewer: opens its files, then its window.
 
 use winit::event_loop::EventLoop;
 

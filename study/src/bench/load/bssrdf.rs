@@ -54,7 +54,7 @@ pub(super) struct Case {
     pub(super) window: u32,
     pub(super) base_materials: u32,
     pub(super) samples: u32,
-    /// In words: where it comes from.
+    /// Origin of the files, in words.
     pub(super) source: &'static str,
     /// Capture, per-pixel profiles, 2-BMPP.
     pub(super) files: [PathBuf; 3],

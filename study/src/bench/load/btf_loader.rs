@@ -94,7 +94,7 @@ impl<'a> BtfLoader<'a> {
         3 * self.size.iter().map(|side| *side as usize).product::<usize>()
     }
 
-    /// The bytes of an image.
+    /// Pixels of the image of a light and a view.
     fn image<'b>(&self, bytes: &'b [u8], light: usize, view: usize) -> &'b [[u8; 3]] {
         let len = self.image_len();
         let first = (light * self.views.len() + view) * len;

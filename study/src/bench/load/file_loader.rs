@@ -136,7 +136,7 @@ impl<'a> FileLoader<'a> {
     }
 }
 
-/// The CPU twin's view of a capture.
+/// Entries of a capture, as the CPU twin of the gather reads them.
 struct Entries<'a> {
     header: BssrdfHeader,
     entries: &'a [u8],

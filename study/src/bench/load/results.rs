@@ -9,7 +9,7 @@ use crate::bench::timing::median;
 /// Microseconds of the steps from a file to a picture; medians once several runs are taken together.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 pub(super) struct Steps {
-    /// From the file into memory.
+    /// Reading the file into memory.
     pub(super) read: f64,
     /// All checks, CRCs included.
     pub(super) parse: f64,
@@ -17,7 +17,7 @@ pub(super) struct Steps {
     pub(super) upload: f64,
     /// Gathering 64 × 64 pixels and reading their picture back.
     pub(super) first_frame: f64,
-    /// All of these.
+    /// Sum of all steps.
     pub(super) total: f64,
 }
 
@@ -28,7 +28,7 @@ impl Steps {
     }
 }
 
-/// Step-wise medians.
+/// Medians of runs, step by step.
 pub(super) fn medians(runs: &[Steps]) -> Steps {
     let of = |step: fn(&Steps) -> f64| median(&runs.iter().map(step).collect::<Vec<_>>());
     Steps {
@@ -51,9 +51,9 @@ pub(super) struct Storage {
     pub(super) peak_rss_bytes: u64,
     /// Of that, what the process and its driver had before the first load.
     pub(super) baseline_rss_bytes: u64,
-    /// File in the page cache.
+    /// Times with the file in the page cache.
     pub(super) warm_us: Steps,
-    /// Page cache dropped before every read; absent where the system cannot.
+    /// Times with the page cache dropped before every read; absent where the system cannot.
     pub(super) cold_us: Option<Steps>,
     /// Parts of `parse`, and what to compare them with.
     #[serde(flatten)]

@@ -154,7 +154,7 @@ fn similarity(reference: &[[u8; 3]], found: &[[u8; 3]], width: u32) -> (f64, f64
     (psnr_db(&of(&a), &of(&b)), ssim(&a, &b, width as usize).unwrap_or(0.0))
 }
 
-/// Ten times the difference.
+/// Ten times the difference of two pictures.
 fn differences(reference: &[[u8; 3]], found: &[[u8; 3]]) -> Vec<[u8; 3]> {
     let pairs = reference.iter().zip(found);
     pairs.map(|(a, b)| [0, 1, 2].map(|c| a[c].abs_diff(b[c]).saturating_mul(10))).collect()

@@ -1,4 +1,4 @@
-//! Results as one page.
+//! Page of the results.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -12,7 +12,7 @@ use subsurf_viewer::human;
 
 use crate::page::CSS;
 
-/// One path, one material, one mesh, one device.
+/// Row of the table: one technique, material, mesh and device.
 pub(super) struct Row {
     pub(super) material: String,
     pub(super) mesh: String,
@@ -22,7 +22,7 @@ pub(super) struct Row {
     pub(super) ssim: f64,
     /// Median and 95th percentile of frames in ms.
     pub(super) frame_ms: Option<[f64; 2]>,
-    /// Of the reference, in the same run.
+    /// Time of a frame of the reference in the same run, in ms.
     pub(super) gather_ms: Option<f64>,
     pub(super) material_bytes: u64,
     pub(super) buffer_bytes: u64,
@@ -81,7 +81,7 @@ impl Row {
 pub(super) struct Page<'a> {
     pub(super) folder: &'a Path,
     pub(super) rows: Vec<Row>,
-    /// Title and file.
+    /// Titles and file names.
     pub(super) pictures: Vec<(String, String)>,
 }
 

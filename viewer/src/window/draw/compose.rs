@@ -12,7 +12,7 @@ use subsurf_runtime::wgpu::{
 /// Choice of what the window shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::window) enum Shows {
-    /// The picture.
+    /// The picture alone.
     Picture,
     /// Ten times the difference of display values.
     Difference,

@@ -70,7 +70,7 @@ pub(in crate::window) struct Stage {
     composer: Composer,
     painter: Painter,
     options: RuntimeOptions,
-    /// Made once for each path.
+    /// Pipelines, compiled once for each technique.
     renderers: Vec<(Technique, Renderer)>,
     drawn: [Option<Drawn>; 2],
     pictures: Option<BindGroup>,
@@ -128,7 +128,7 @@ impl Stage {
         self.is_lost.load(Ordering::Relaxed)
     }
 
-    /// What a picture is of.
+    /// Identity of the picture in a role.
     pub(in crate::window) fn key(&self, role: Role) -> Option<&Key> {
         self.drawn[role as usize].as_ref().map(|drawn| &drawn.key)
     }

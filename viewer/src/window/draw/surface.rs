@@ -84,12 +84,12 @@ impl Canvas {
         self.config.format
     }
 
-    /// Pixels of the window.
+    /// Width and height of the window in pixels.
     pub(in crate::window) fn size(&self) -> [u32; 2] {
         [self.config.width, self.config.height]
     }
 
-    /// Follows the window.
+    /// Follows the window to another size in pixels.
     pub(in crate::window) fn resize(&mut self, gpu: &Gpu, size: [u32; 2]) {
         [self.config.width, self.config.height] = size.map(|side| side.max(1));
         self.configure(gpu);

@@ -1,8 +1,6 @@
 //! The study of BTFs, at the size of a stamp.
 
-mod common;
-
-use common::{assert_refused, files, run, succeed};
+use crate::common::{assert_refused, files, run, succeed};
 
 #[test]
 fn a_study_of_btfs_is_one_page_too() {

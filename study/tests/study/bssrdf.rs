@@ -1,8 +1,6 @@
 //! The study of translucent materials, at the size of a stamp.
 
-mod common;
-
-use common::{assert_refused, files, run, succeed};
+use crate::common::{assert_refused, files, run, succeed};
 
 #[test]
 fn a_study_is_one_page_and_goes_on_where_it_was() {

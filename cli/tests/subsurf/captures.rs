@@ -1,10 +1,8 @@
 //! Captures that are not what they should be: one clear line, exit code 2, and nothing left behind.
 
-mod common;
-
 use std::path::Path;
 
-use common::{assert_refused, files, json, run, succeed};
+use crate::common::{assert_refused, files, json, run, succeed};
 
 /// A .npy file of version 1.0 with any header and any bytes.
 fn write_npy(folder: &Path, name: &str, descr: &str, fortran: bool, shape: &str, values: &[u8]) {

@@ -1,14 +1,12 @@
 //! The command, in a folder of its own.
 
-#![allow(dead_code, unused_imports, reason = "every test file takes what it needs")]
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_json::Value;
-use subsurf_tests::program::Program;
+use subsurf_tests::program::{Program, Run};
 
-pub(crate) use subsurf_tests::program::{Run, assert_refused, files, finish, under_display, without_display};
+pub(crate) use subsurf_tests::program::{assert_refused, files, finish, under_display, without_display};
 
 pub(crate) const SUBSURF: Program = Program(env!("CARGO_BIN_EXE_subsurf"));
 

@@ -1,11 +1,9 @@
 //! Benchmarks, as short as can be.
 
-mod common;
-
 use std::process::Stdio;
 use std::time::Duration;
 
-use common::{assert_refused, command, files, json, run, succeed};
+use crate::common::{assert_refused, command, files, json, run, succeed};
 use subsurf_encoder::capture::{FolderWriter, Pixels};
 use subsurf_encoder::simulate::relief::{Sample, simulate};
 use subsurf_encoder::synthetic::{NestedShape, Shape};

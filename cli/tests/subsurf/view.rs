@@ -1,12 +1,8 @@
 //! The window, on a display that nobody sees.
 
-#![cfg(target_os = "linux")]
-
-mod common;
-
 use std::path::Path;
 
-use common::{SUBSURF, assert_refused, command, finish, run, under_display, without_display};
+use crate::common::{SUBSURF, assert_refused, command, finish, run, under_display, without_display};
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::synthetic::{NestedShape, Shape};
 

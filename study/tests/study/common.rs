@@ -1,14 +1,12 @@
 //! The program, in a folder of its own.
 
-#![allow(dead_code, unused_imports, reason = "every test file takes what it needs")]
-
 use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
-use subsurf_tests::program::Program;
+use subsurf_tests::program::{Program, Run};
 
-pub(crate) use subsurf_tests::program::{Run, assert_refused, files};
+pub(crate) use subsurf_tests::program::{assert_refused, files};
 
 const STUDY: Program = Program(env!("CARGO_BIN_EXE_subsurf-study"));
 

@@ -1,0 +1,113 @@
+//! Captures: simulated, encoded, judged.
+
+use crate::common::{assert_refused, command, files, finish, json, run, simulate, succeed};
+
+#[test]
+fn from_simulation_to_judgement() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let capture = simulate(folder, "a");
+    let capture_bytes = std::fs::metadata(&capture).unwrap().len();
+    let sidecar: serde_json::Value = serde_json::from_slice(&std::fs::read(folder.join("a.json")).unwrap()).unwrap();
+    assert_eq!(sidecar["pitch_mm"], 0.5);
+    assert_eq!(sidecar["simulated"]["source"]["scene"], "chessboard");
+
+    for (method, bytes) in
+        [("direct", 12 * 4 * 3 + 6 * 63 + 156), ("clusters", 12 * 4 * 3 + 63 + 132), ("song2009", 12 * 63 * 3 + 108)]
+    {
+        let report = json(folder, &format!("encode a.npy -M 4 --method {method} -o {method}.subsurf --json"));
+        assert_eq!(report["bytes"], bytes, "{method}");
+        assert_eq!(report["measured"], report["entries"], "{method}");
+        assert!(report["seconds"].is_number() && report["peak_rss_bytes"].is_number(), "{method}: {report}");
+
+        let judgement = json(folder, &format!("compare a.npy {method}.subsurf --json"));
+        assert_eq!(judgement["bytes"], bytes, "{method}");
+        assert_eq!(judgement["capture_bytes"], capture_bytes, "{method}");
+        assert!(judgement["relative_error_mean"].as_f64().unwrap() < 0.05, "{method}: {judgement}");
+        for light in ["uniform", "disc", "line"] {
+            assert!(judgement["psnr_db"][light].as_f64().unwrap() > 25.0, "{method}, {light}: {judgement}");
+            // Nine by seven pixels are less than the index's window.
+            assert!(judgement["ssim"][light].is_null(), "{method}, {light}: {judgement}");
+        }
+        for key in ["relative_error_mean", "psnr_db", "ssim"] {
+            assert_eq!(report[key], judgement[key], "{method}: encode and compare agree");
+        }
+    }
+    succeed(folder, "compare a.npy direct.subsurf --images pictures");
+    assert_eq!(files(&folder.join("pictures")), ["comparison.png", "disc.png", "line.png", "uniform.png"]);
+    let sheet = image::open(folder.join("pictures/comparison.png")).unwrap();
+    // Three by three pictures of 9 × 7 pixels, 28 times enlarged, with gaps of 6.
+    assert_eq!((sheet.width(), sheet.height()), (3 * (9 * 28 + 6) + 6, 3 * (7 * 28 + 6) + 6));
+
+    succeed(folder, "simulate --material jade --size 5x5 --window 5 --thickness 5 -o other.npy");
+    assert_refused(&run(folder, "compare other.npy direct.subsurf"), &["5 × 5", "9 × 7", "not the same material"]);
+}
+
+#[test]
+fn simulations_depend_on_their_seed_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let args = "simulate --material marble --size 8 --window 5 --thickness 5 --noise 1e5 -o";
+    let with = |threads: &str, name: &str, more: &str| {
+        let mut command = command(folder);
+        let words = args.split_whitespace().chain([name]).chain(more.split_whitespace());
+        let run = finish(command.args(words).env("RAYON_NUM_THREADS", threads));
+        assert_eq!(run.code, 0, "{}", run.err);
+        std::fs::read(folder.join(name)).unwrap()
+    };
+    let one = with("1", "one.npy", "");
+    assert_eq!(one, with("2", "two.npy", ""));
+    assert_eq!(one, with("8", "eight.npy", ""));
+    assert_ne!(one, with("2", "other.npy", "--seed 2"));
+}
+
+#[test]
+fn images_drive_simulations() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    // Left half black, right half white.
+    let picture = image::RgbImage::from_fn(16, 16, |x, _| image::Rgb([if x < 8 { 0 } else { 255 }; 3]));
+    picture.save(folder.join("mask.png")).unwrap();
+    let grey = image::RgbImage::from_pixel(16, 16, image::Rgb([188; 3]));
+    grey.save(folder.join("grey.png")).unwrap();
+    let small = "--size 6 --window 3 --thickness 5";
+
+    succeed(folder, &format!("simulate --maps skin2=mask.png --maps marble=rest {small} -o mix.npy"));
+    succeed(folder, "encode mix.npy -M 8");
+    let report =
+        succeed(folder, &format!("simulate --maps albedo=grey.png --maps mfp=1.5,1,0.6 {small} -o albedo.npy"));
+    assert!(report.out.contains("synthetic capture"), "{}", report.out);
+    succeed(folder, &format!("simulate --maps albedo=grey.png --maps mfp=mask.png:0.5:2 {small} -o map.npy"));
+
+    let refused = |maps: &str, words: &[&str]| {
+        assert_refused(&run(folder, &format!("simulate {maps} {small} -o no.npy")), words);
+    };
+    refused("--maps granite=rest", &["\"granite\"", "marble"]);
+    refused("--maps marble=missing.png", &["missing.png", "an image"]);
+    refused("--maps marble=mask.png", &["no material at pixel (0, 0)", "rest"]);
+    refused("--maps marble=rest --maps skin1=rest", &["only one"]);
+    refused("--maps albedo=grey.png", &["mfp"]);
+    refused("--maps mfp=1", &["albedo"]);
+    refused("--maps albedo=grey.png --maps mfp=far", &["mfp=far", "IMAGE:FROM:TO"]);
+    refused("--maps albedo=grey.png --maps mfp=0", &["mean free path of 0 mm"]);
+    refused("--maps marble", &["NAME=VALUE"]);
+    assert_refused(&run(folder, "simulate --material onyx --window 4 -o no.npy"), &["--window is 4", "odd"]);
+    assert_refused(&run(folder, "simulate --material onyx --pitch 0 -o no.npy"), &["--pitch is 0", "positive"]);
+    assert!(!folder.join("no.npy").exists(), "nothing is written");
+}
+
+#[test]
+fn targets_choose_the_model() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    simulate(folder, "a");
+    let report = json(folder, "encode a.npy --target-bytes 2kB --json");
+    assert!(report["bytes"].as_u64().unwrap() <= 2_000, "{report}");
+    assert!(!report["curve"].as_array().unwrap().is_empty(), "{report}");
+    let told = succeed(folder, "encode a.npy --target-psnr 30");
+    assert!(told.out.contains("rate-distortion curve"), "{}", told.out);
+    assert_refused(&run(folder, "encode a.npy --target-psnr 300"), &["300 dB", "the best has"]);
+    assert_refused(&run(folder, "encode a.npy --max-memory 1kB"), &["memory", "--max-memory allows 1.00 kB"]);
+    assert_eq!(run(folder, "encode a.npy --target-psnr 30 -M 8").code, 2, "M is what is looked for");
+    assert_refused(&run(folder, "encode a.npy --pitch 1 --threads 0"), &["--threads"]);
+}

@@ -1,0 +1,10 @@
+//! The commands as their users call them.
+
+mod bssrdf;
+mod btf;
+mod captures;
+mod common;
+mod interrupt;
+mod render;
+#[cfg(target_os = "linux")]
+mod view;

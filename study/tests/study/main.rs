@@ -1,0 +1,6 @@
+//! The program's commands, at the size of a stamp.
+
+mod bench;
+mod bssrdf;
+mod btf;
+mod common;
