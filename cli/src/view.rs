@@ -14,9 +14,9 @@ use crate::options::{ByteCount, Size};
 use crate::outln;
 use crate::picture::{image, write_png};
 use crate::program::failure::{NoDisplay, line};
-use crate::render::{BtfArgs, Copies, MappingArg, PathArg, UpArg, read_environment};
+use crate::render::{BtfArgs, Copies, MappingArg, TechniqueArg, UpArg, read_environment};
 
-/// Look at materials on a mesh in a window: turn it, drag the light, switch paths, see the error; BTFs beside their images.
+/// Look at materials on a mesh in a window: turn it, drag the light, switch techniques, see the error; BTFs beside their images.
 #[derive(clap::Args)]
 #[command(after_help = help())]
 pub(crate) struct Args {
@@ -37,7 +37,7 @@ pub(crate) struct Args {
     mapping: MappingArg,
     /// How light scatters in translucent materials, to begin with
     #[arg(long, value_enum, default_value = "separable")]
-    path: PathArg,
+    technique: TechniqueArg,
     /// Begin with ten times the difference to the gather, or of a BTF to its images
     #[arg(long)]
     error: bool,
@@ -80,7 +80,7 @@ const EXAMPLES: &str = "\
 Examples:
   subsurf view jade.subsurf onyx.subsurf --mesh bunny.ply
   subsurf view jade.subsurf --budget 16MB --backend gl
-  subsurf view jade.subsurf --path splat --screenshot jade.png
+  subsurf view jade.subsurf --technique splat --screenshot jade.png
   subsurf view leather.subsurf --images leather/ --repeat 6
 
 Exit codes: 3 if there is no display or no device that draws to it.";
@@ -111,7 +111,7 @@ impl Args {
             extent_mm: self.extent,
             up: self.up.into(),
             mapping: self.mapping.into(),
-            technique: self.path.into(),
+            technique: self.technique.into(),
             shows_error: self.error,
             repeats: self.btf.repeat.map(|Copies(repeats)| repeats),
             images: self.btf.images.clone().map(load_images),

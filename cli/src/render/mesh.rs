@@ -42,7 +42,7 @@ pub(crate) fn draw_mesh(
             session.picture(gpu, &scene)?
         }
         None if technique != Scattering::Gather => {
-            return Err(bad_request("the CPU draws meshes by --path gather only; the other paths need a device"));
+            return Err(bad_request("the CPU draws meshes by --technique gather only; the other techniques need a device"));
         }
         None => {
             let (fine, surface) = points(mesh, mapping, material, &scene)?;

@@ -29,10 +29,10 @@ use options::{AnglesArg, LightArg};
 
 pub(crate) use btf_args::{BtfArgs, Copies};
 pub(crate) use mesh::draw_mesh;
-pub(crate) use options::{MappingArg, PathArg, UpArg, read_environment};
+pub(crate) use options::{MappingArg, TechniqueArg, UpArg, read_environment};
 pub(crate) use patch::{draw_patch, patch_irradiance};
 
-/// Draw a material: a translucent one flat or on a mesh, by the reference path or by a fast one; a BTF on a mesh.
+/// Draw a material: a translucent one flat or on a mesh, by the reference technique or by a fast one; a BTF on a mesh.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -50,7 +50,7 @@ pub(crate) struct Args {
     extent: f32,
     /// How light scatters in a translucent material; gather if not given
     #[arg(long, value_enum)]
-    path: Option<PathArg>,
+    technique: Option<TechniqueArg>,
     /// Light from all around: an equirectangular picture, .hdr or .png; a dim studio if not given
     #[arg(long, value_name = "FILE", requires = "mesh")]
     environment: Option<PathBuf>,
@@ -88,7 +88,7 @@ pub(crate) struct Args {
 const EXAMPLES: &str = "\
 Examples:
   subsurf render jade.subsurf -o patch.png --light line
-  subsurf render jade.subsurf -o bunny.png --mesh bunny.ply --path separable
+  subsurf render jade.subsurf -o bunny.png --mesh bunny.ply --technique separable
   subsurf render leather.subsurf -o leather.png
   subsurf render leather.subsurf -o sofa.png --mesh sofa.glb --repeat 8 --environment room.hdr --samples 32
   subsurf render leather.subsurf -o both.png --images leather/        the file and the images, side by side";
@@ -143,7 +143,7 @@ const BTF_SHAPE: &str = "knot";
 /// A translucent material, flat or on a mesh; and what drew it.
 fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, Map<String, Value>, String)> {
     args.btf.expect_none()?;
-    let technique = Scattering::from(args.path.unwrap_or(PathArg::Gather));
+    let technique = Scattering::from(args.technique.unwrap_or(TechniqueArg::Gather));
     let is_separable = matches!(technique, Scattering::Separable | Scattering::Homogeneous);
     let mut gpu = args.backend.open()?;
     let is_short_of_halves = gpu.as_ref().is_some_and(|gpu| gpu.target_format() == TargetFormat::Packed);
@@ -194,7 +194,7 @@ impl Args {
     /// Refuses options that say nothing to a BTF.
     fn refuse_scattering(&self) -> anyhow::Result<()> {
         let given = [
-            ("--path", self.path.is_some()),
+            ("--technique", self.technique.is_some()),
             ("--roughness", self.roughness.is_some()),
             ("--mapping box", self.mapping == MappingArg::Box),
         ];

@@ -13,7 +13,7 @@ use crate::program::failure::bad_request;
 
 /// Technique by which light in a translucent material is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum PathArg {
+pub(crate) enum TechniqueArg {
     /// Every point gathers light from all others within reach: the reference
     Gather,
     /// Every place that the light reaches is spread over what lies around it; for meshes
@@ -35,13 +35,13 @@ pub(crate) enum MappingArg {
     Box,
 }
 
-impl From<PathArg> for Scattering {
-    fn from(arg: PathArg) -> Self {
+impl From<TechniqueArg> for Scattering {
+    fn from(arg: TechniqueArg) -> Self {
         match arg {
-            PathArg::Gather => Self::Gather,
-            PathArg::Splat => Self::Splat,
-            PathArg::Separable => Self::Separable,
-            PathArg::Homogeneous => Self::Homogeneous,
+            TechniqueArg::Gather => Self::Gather,
+            TechniqueArg::Splat => Self::Splat,
+            TechniqueArg::Separable => Self::Separable,
+            TechniqueArg::Homogeneous => Self::Homogeneous,
         }
     }
 }

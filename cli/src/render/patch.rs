@@ -83,5 +83,5 @@ pub(crate) fn draw_patch(
 }
 
 fn no_splats() -> anyhow::Error {
-    bad_request("--path splat is for meshes; a flat patch is drawn by gather or separable")
+    bad_request("--technique splat is for meshes; a flat patch is drawn by gather or separable")
 }

@@ -239,7 +239,7 @@ fn draws_btfs() {
     std::fs::write(folder.join("bare.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
     for (args, words) in [
         ("render leather.subsurf --mesh bare.obj", ["texture coordinates", "UV"]),
-        ("render leather.subsurf --path splat", ["--path", "this file is a BTF"]),
+        ("render leather.subsurf --technique splat", ["--technique", "this file is a BTF"]),
         ("render leather.subsurf --samples 5000", ["--samples is 5000", "1024"]),
         ("render both.subsurf --material jade", ["--material jade", "leather, wood"]),
         ("render leather.subsurf --images nothing --size 40", ["nothing", "a folder of images"]),

@@ -2,16 +2,16 @@
 
 use crate::common::{assert_refused, command, finish, json, run, simulate, succeed};
 
-/// A driver that does not draw to half floats: the paths that can do without draw the same, the other says why not.
+/// A driver that does not draw to half floats: the techniques that can do without draw the same, the other says why not.
 #[test]
 fn draws_without_half_floats_to_draw_to() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     simulate(folder, "a");
     succeed(folder, "encode a.npy -M 4");
-    let draw = |path: &str, output: &str, has_halves: bool| {
+    let draw = |technique: &str, output: &str, has_halves: bool| {
         let args = format!(
-            "render a.subsurf --mesh torus --extent 8 --size 60x50 --exposure 1 --backend gl --path {path} -o {output}"
+            "render a.subsurf --mesh torus --extent 8 --size 60x50 --exposure 1 --backend gl --technique {technique} -o {output}"
         );
         let mut command = command(folder);
         if !has_halves {
@@ -19,14 +19,14 @@ fn draws_without_half_floats_to_draw_to() {
         }
         finish(command.args(args.split_whitespace()))
     };
-    for path in ["gather", "separable"] {
+    for technique in ["gather", "separable"] {
         for (output, has_halves) in [("halves.png", true), ("packed.png", false)] {
-            let run = draw(path, output, has_halves);
-            assert_eq!(run.code, 0, "{path}: {}", run.err);
+            let run = draw(technique, output, has_halves);
+            assert_eq!(run.code, 0, "{technique}: {}", run.err);
         }
         let [a, b] = ["halves.png", "packed.png"].map(|file| image::open(folder.join(file)).unwrap().into_rgb8());
         let worst = a.iter().zip(b.iter()).map(|(a, b)| a.abs_diff(*b)).max();
-        assert!(worst <= Some(2), "{path}: {worst:?} of 255");
+        assert!(worst <= Some(2), "{technique}: {worst:?} of 255");
     }
     let run = draw("splat", "splat.png", false);
     assert!(run.code != 0 && run.err.contains("GL_EXT_color_buffer_half_float"), "{} {}", run.code, run.err);

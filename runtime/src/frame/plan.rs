@@ -26,7 +26,7 @@ pub struct Plan {
 const HALF4: u64 = 8;
 /// Largest divisor whose maps still look like the scene.
 const LARGEST_DIVISOR: u32 = 4;
-/// Fewest texels to a side of lights' views that still look like the scene.
+/// Fewest texels to a side of shadow maps that still look like the scene.
 pub(crate) const LEAST_LIGHT_TEXELS: u32 = 128;
 
 impl Plan {
@@ -52,7 +52,7 @@ impl Plan {
         Upsampling { texels_per_pixel: [maps[0] / picture[0], maps[1] / picture[1]], near_mm, pad: 0 }
     }
 
-    /// Bytes of lights' views with `levels` levels, and of their depth.
+    /// Bytes of shadow maps with `levels` levels, and of their depth.
     pub(crate) fn light_bytes(&self, levels: u32) -> u64 {
         let texels = |level: u32| u64::from((self.light_texels >> level).max(1)).pow(2);
         let views = (0..levels).map(texels).sum::<u64>() * u64::from(light_layers(self.lights)) * 3 * HALF4;

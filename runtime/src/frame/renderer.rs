@@ -13,9 +13,9 @@ use crate::error::{Error, Result};
 use crate::gpu::{DEPTH, Gpu, Surface2d, TextureSpec};
 use crate::technique::common::{Common, Lap, reflection_sampler};
 use crate::technique::drawable::{Drawable, Technique};
-use crate::technique::light_views::{self, LightViews};
 use crate::technique::mesh_pass::{MeshPass, Target};
 use crate::technique::pipelines::{Bindings, Pipelines};
+use crate::technique::tsm::{self, TranslucentShadowMaps};
 use crate::technique::{btf, gather, separable, splat};
 
 /// Bytes that uniform blocks of all passes are sure not to exceed.
@@ -26,7 +26,7 @@ const UNIFORMS: u64 = 32 << 10;
 pub struct Renderer {
     options: RuntimeOptions,
     technique: Technique,
-    light_view: MeshPass,
+    tsm_render: MeshPass,
     pipelines: Arc<dyn Pipelines>,
 }
 
@@ -35,7 +35,7 @@ pub struct Renderer {
 pub struct Frame {
     plan: Plan,
     common: Common,
-    lights: LightViews,
+    lights: TranslucentShadowMaps,
     scene: BindGroup,
     depth: Surface2d,
     /// Target of pixels with several samples.
@@ -66,10 +66,10 @@ impl Renderer {
             Technique::Separable(terms) => Arc::new(separable::Passes::new(gpu, terms, format, samples)?),
             Technique::Btf(layout) => Arc::new(btf::Passes::new(gpu, layout, options.btf, format, samples)?),
         };
-        Ok(Self { options, technique, light_view: light_views::pass(gpu)?, pipelines })
+        Ok(Self { options, technique, tsm_render: tsm::pass(gpu)?, pipelines })
     }
 
-    /// Makes room for pictures of `size` pixels of a drawable, within the budget: lights' views and maps become coarser until
+    /// Makes room for pictures of `size` pixels of a drawable, within the budget: shadow maps and maps become coarser until
     /// everything fits.
     ///
     /// # Errors
@@ -92,7 +92,7 @@ impl Renderer {
         let plan = plan.within(self.options.budget_bytes, gpu.ledger().bytes(), bytes)?;
         let common = Common::new(gpu)?;
         let levels = self.pipelines.light_levels(&plan, placement);
-        let lights = LightViews::new(gpu, &self.light_view, &common.block, &plan, levels)?;
+        let lights = TranslucentShadowMaps::new(gpu, &self.tsm_render, &common.block, &plan, levels)?;
         let bindings = self.pipelines.clone().bind(gpu, drawable, &common, &lights, &plan)?;
         let sampler = reflection_sampler(gpu);
         let of_scene = [
@@ -208,8 +208,8 @@ impl Renderer {
     ) -> CommandEncoder {
         let mesh = drawable.mesh();
         let lights = scene.lights.len().min(frame.plan.lights as usize);
-        frame.lights.record(&mut encoder, &self.light_view, mesh, lights);
-        encoder = lap("light views", encoder);
+        frame.lights.record(&mut encoder, &self.tsm_render, mesh, lights);
+        encoder = lap("shadow maps", encoder);
         encoder = frame.bindings.record(encoder, mesh, lights, &frame.plan, lap);
         let (view, resolved) = match &frame.samples {
             Some(samples) => (&samples.view, Some(target)),

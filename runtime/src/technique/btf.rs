@@ -10,9 +10,9 @@ use wgpu::{BindGroup, Buffer, TextureFormat};
 
 use super::common::Common;
 use super::drawable::Drawable;
-use super::light_views::LightViews;
 use super::mesh_pass::MeshPass;
 use super::pipelines::{Bindings, Pipelines, wrong_drawable};
+use super::tsm::TranslucentShadowMaps;
 use crate::error::{Error, Result};
 use crate::frame::plan::Plan;
 use crate::gpu::{Gpu, Tracked};
@@ -76,7 +76,7 @@ impl Pipelines for Passes {
         gpu: &Gpu,
         drawable: &Drawable<'_>,
         _common: &Common,
-        _lights: &LightViews,
+        _lights: &TranslucentShadowMaps,
         _plan: &Plan,
     ) -> Result<Box<dyn Bindings>> {
         let Drawable::Btf { mesh, material, number } = drawable else {

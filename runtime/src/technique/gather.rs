@@ -10,9 +10,9 @@ use wgpu::{BindGroup, BindingResource, TextureFormat};
 
 use super::common::Common;
 use super::drawable::Drawable;
-use super::light_views::LightViews;
 use super::mesh_pass::MeshPass;
 use super::pipelines::{Bindings, Pipelines, wrong_drawable};
+use super::tsm::TranslucentShadowMaps;
 use crate::error::Result;
 use crate::frame::plan::Plan;
 use crate::gpu::{FullscreenPass, Gpu, Rows, array_size};
@@ -65,7 +65,7 @@ impl Pipelines for Passes {
         gpu: &Gpu,
         drawable: &Drawable<'_>,
         common: &Common,
-        _lights: &LightViews,
+        _lights: &TranslucentShadowMaps,
         _plan: &Plan,
     ) -> Result<Box<dyn Bindings>> {
         let Drawable::Gather { mesh, points, material } = drawable else {

@@ -8,12 +8,12 @@ mod cascade;
 pub(crate) mod common;
 pub(crate) mod drawable;
 pub(crate) mod gather;
-pub(crate) mod light_views;
 pub(crate) mod mesh_pass;
 mod patch;
 pub(crate) mod pipelines;
 pub(crate) mod separable;
 pub(crate) mod splat;
+pub(crate) mod tsm;
 
 pub use btf::BtfOptions;
 pub use btf_query::{BtfAnswer, BtfQueries, BtfQuery};

@@ -9,8 +9,8 @@ use wgpu::{BindGroup, CommandEncoder};
 
 use super::common::{Common, Lap};
 use super::drawable::Drawable;
-use super::light_views::LightViews;
 use super::mesh_pass::MeshPass;
+use super::tsm::TranslucentShadowMaps;
 use crate::asset::GpuMesh;
 use crate::error::{Error, Result};
 use crate::frame::plan::Plan;
@@ -18,12 +18,12 @@ use crate::gpu::Gpu;
 
 /// Pipelines of one technique; made at load, never in a frame.
 pub(crate) trait Pipelines: Debug {
-    /// Bytes on the device of lights' views and of all maps, for frames of a plan.
+    /// Bytes on the device of shadow maps and of all maps, for frames of a plan.
     fn bytes(&self, plan: &Plan, _placement: &Placement) -> u64 {
         plan.light_bytes(1)
     }
 
-    /// Levels that lights' views have.
+    /// Mipmap levels of the shadow maps, at least 1.
     fn light_levels(&self, _plan: &Plan, _placement: &Placement) -> u32 {
         1
     }
@@ -46,7 +46,7 @@ pub(crate) trait Pipelines: Debug {
         gpu: &Gpu,
         drawable: &Drawable<'_>,
         common: &Common,
-        lights: &LightViews,
+        lights: &TranslucentShadowMaps,
         plan: &Plan,
     ) -> Result<Box<dyn Bindings>>;
 }
@@ -66,7 +66,7 @@ pub(crate) trait Bindings: Debug {
         plan: &Plan,
     ) -> Result<()>;
 
-    /// Records all passes between lights' views and the picture, of the first `lights` lights; `lap` is called after each.
+    /// Records all passes between shadow maps and the picture, of the first `lights` lights; `lap` is called after each.
     fn record(
         &self,
         encoder: CommandEncoder,

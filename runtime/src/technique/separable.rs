@@ -11,9 +11,9 @@ use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureFor
 use super::cascade::{BlurPasses, Cascade};
 use super::common::{Common, Lap};
 use super::drawable::Drawable;
-use super::light_views::{FAR, LightViews};
 use super::mesh_pass::{MeshPass, Target};
 use super::pipelines::{Bindings, Pipelines, wrong_drawable};
+use super::tsm::{FAR, TranslucentShadowMaps};
 use crate::asset::GpuMesh;
 use crate::error::{Error, Result};
 use crate::frame::plan::Plan;
@@ -88,7 +88,7 @@ impl Pipelines for Passes {
         gpu: &Gpu,
         drawable: &Drawable<'_>,
         common: &Common,
-        lights: &LightViews,
+        lights: &TranslucentShadowMaps,
         plan: &Plan,
     ) -> Result<Box<dyn Bindings>> {
         let Drawable::Separable { material, .. } = drawable else {

@@ -15,9 +15,9 @@ use crate::frame::plan::Plan;
 use crate::gpu::{DEPTH, Gpu, HALF, Rows, Surface2d, TextureSpec, Tracked, layers_of_level, level_of};
 use crate::technique::common::{Common, Lap};
 use crate::technique::drawable::Drawable;
-use crate::technique::light_views::{FAR, LightViews};
 use crate::technique::mesh_pass::{MeshPass, Target};
 use crate::technique::pipelines::{Bindings, Pipelines, wrong_drawable};
+use crate::technique::tsm::{FAR, TranslucentShadowMaps};
 
 /// Maps, blocks and bind groups for one size of picture.
 #[derive(Debug)]
@@ -70,7 +70,7 @@ impl Bound {
         passes: Arc<Passes>,
         material: &SplatMaterial,
         common: &Common,
-        lights: &LightViews,
+        lights: &TranslucentShadowMaps,
         plan: &Plan,
         placement: &Placement,
     ) -> Result<Self> {
@@ -181,7 +181,7 @@ impl Pipelines for Passes {
         gpu: &Gpu,
         drawable: &Drawable<'_>,
         common: &Common,
-        lights: &LightViews,
+        lights: &TranslucentShadowMaps,
         plan: &Plan,
     ) -> Result<Box<dyn Bindings>> {
         let Drawable::Splat { mesh, material } = drawable else {

@@ -14,7 +14,7 @@ const TEXELS_PER_SAMPLE: f32 = 2.0;
 /// Levels and rings for a mesh of a certain size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Levels {
-    /// Level of lights' views that the first ring takes its samples from.
+    /// Level of shadow maps that the first ring takes its samples from.
     pub(super) first: u32,
     /// Number of rings.
     pub(super) rings: u32,
@@ -36,7 +36,7 @@ impl Levels {
         Self { first, rings: rings.min(light_texels.ilog2().saturating_sub(first).max(1)) }
     }
 
-    /// Number of levels of lights' views.
+    /// Number of levels of shadow maps.
     pub(super) fn count(&self) -> u32 {
         self.first + self.rings
     }

@@ -7,11 +7,11 @@
 
 // All maps at texel x, wrapped by the sampler.
 fn maps_at(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
-    let place = middle_of(x, textureDimensions(irradiance));
-    let e = textureSampleLevel(irradiance, nearest, place, 0.0).xyz;
+    let uv = middle_of(x, textureDimensions(irradiance));
+    let e = textureSampleLevel(irradiance, nearest, uv, 0.0).xyz;
     var all: array<vec4<f32>, TERMS>;
     for (var l = 0u; l < TERMS; l++) {
-        all[l] = vec4<f32>(textureSampleLevel(coefficients, nearest, place, l, 0.0).xyz * e, 0.0);
+        all[l] = vec4<f32>(textureSampleLevel(coefficients, nearest, uv, l, 0.0).xyz * e, 0.0);
     }
     return all;
 }

@@ -4,10 +4,10 @@
 
 // All maps at texel x, wrapped by the sampler.
 fn maps_at(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
-    let place = middle_of(x, textureDimensions(maps));
+    let uv = middle_of(x, textureDimensions(maps));
     var all: array<vec4<f32>, TERMS>;
     for (var l = 0u; l < TERMS; l++) {
-        all[l] = textureSampleLevel(maps, nearest, place, l, 0.0);
+        all[l] = textureSampleLevel(maps, nearest, uv, l, 0.0);
     }
     return all;
 }

@@ -15,7 +15,7 @@ pub(crate) const FAR: Color = Color { r: 0.0, g: 0.0, b: 0.0, a: 60_000.0 };
 
 /// Positions, fluxes and places that lights see, a layer for each light.
 #[derive(Debug)]
-pub(crate) struct LightViews {
+pub(crate) struct TranslucentShadowMaps {
     surfaces: [Surface2d; 3],
     /// View of all layers and levels of each.
     pub(crate) all: [TextureView; 3],
@@ -33,7 +33,7 @@ pub(crate) fn pass(gpu: &Gpu) -> Result<MeshPass> {
     MeshPass::new(gpu, table::TSM_RENDER.only(), &[gpu.target_texture_format(); 3])
 }
 
-impl LightViews {
+impl TranslucentShadowMaps {
     pub(crate) fn new(gpu: &Gpu, pass: &MeshPass, scene: &Buffer, plan: &Plan, levels: u32) -> Result<Self> {
         let size = [plan.light_texels; 2];
         let layers = light_layers(plan.lights);
