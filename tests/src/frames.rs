@@ -1,19 +1,16 @@
-//! A mesh made of a material, under a scene, drawn by any path on any device.
+//! Meshes made of a material, under a scene, drawn by any technique on any device.
+
+use std::path::Path;
 
 use glam::Vec3;
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::Addressing;
-use subsurf_encoder::bssrdf::{Options, encode};
 use subsurf_encoder::metrics::psnr_db;
-use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish};
 use subsurf_runtime::{
     AmbientTransfer, BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, Renderer, RuntimeOptions,
     SeparableMaterial, SplatMaterial, Technique, VertexData,
 };
 use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
 use subsurf_shaders::separable::{BasisSize, SeparableBasis};
-
-use crate::simulated;
 
 /// Display values: steps of 255 between the two APIs. Their arithmetic is the same but for rounding; sums of splats are
 /// half floats that lose up to 2⁻¹¹ with each addition.
@@ -148,15 +145,14 @@ impl Loaded {
     }
 }
 
-/// A small simulated material, encoded.
+/// Small simulated material by its name in `tests/materials`, as a file.
 ///
 /// # Panics
-/// If it cannot be.
+/// If it is not there.
 #[must_use]
-pub fn material_of(recipe: BuiltinMaterial) -> Vec<u8> {
-    let folder = tempfile::tempdir().unwrap();
-    let capture = simulated(folder.path(), recipe, 32, 8, 0.8, Addressing::Repeat, &Finish::default());
-    encode(&capture, None, &Options { base_materials: 32, ..Options::default() }, &()).unwrap().bytes
+pub fn material_of(name: &str) -> Vec<u8> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("materials").join(name).with_extension("subsurf");
+    std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 /// PSNR of display values over the pixels that the mesh covers in either picture.

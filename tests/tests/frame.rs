@@ -5,7 +5,6 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::baseline::song2009::per_pixel_of;
 use subsurf_encoder::metrics::psnr_db;
-use subsurf_encoder::simulate::diffusion::BuiltinMaterial;
 use subsurf_runtime::{BACKGROUND, Backend, Drawable, Error, Gpu, Renderer, RuntimeOptions, Technique};
 use subsurf_scene::{bowl, drapery, knot, torus};
 use subsurf_tests::frames::{API_TOLERANCE, Loaded, SIZE, RenderMode, assert_close, device, material_of, scene};
@@ -14,7 +13,7 @@ use subsurf_tests::shape;
 /// Every path against the gather, on meshes thick and thin; and both APIs against each other.
 #[test]
 fn paths_come_close_to_the_gather_and_apis_to_each_other() {
-    let file = material_of(BuiltinMaterial::Jade);
+    let file = material_of("jade");
     let gpus = Backend::ALL.map(device);
     let meshes = [("knot", knot(14.0, 4.5, 32)), ("bowl", bowl(12.0, 2.0, 32)), ("drapery", drapery(14.0, 1.0, 5, 40))];
     for (name, mesh) in &meshes {
@@ -42,7 +41,7 @@ fn splats_are_the_same_from_profiles_of_every_pixel() {
 #[test]
 fn far_meshes_do_not_shimmer() {
     const LARGER: u32 = 8;
-    let file = material_of(BuiltinMaterial::Chessboard);
+    let file = material_of("chessboard");
     let mesh = torus(9.0, 4.0, 48);
     let gpu = device(Backend::Vulkan);
     let loaded = Loaded::new(&gpu, RenderMode::Separable, &file, &mesh);

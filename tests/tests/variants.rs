@@ -4,7 +4,6 @@
 use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
-use subsurf_encoder::simulate::diffusion::BuiltinMaterial;
 use subsurf_runtime::wgpu::TextureFormat;
 use subsurf_runtime::{
     BACKGROUND, Backend, Error, Gpu, Material, MaterialLayout, PatchLight, PatchRenderer, Region, Renderer,
@@ -27,7 +26,7 @@ fn close_light(mesh: &Mesh, shape: impl Fn(Vec3) -> LightShape) -> Scene {
 /// Points and cones of light, on a patch that lies on the mesh as on a box.
 #[test]
 fn lights_close_by_and_boxes_come_close_to_the_gather() {
-    let file = material_of(BuiltinMaterial::Jade);
+    let file = material_of("jade");
     let gpus = Backend::ALL.map(device);
     let point = |position_mm| LightShape::Point { position_mm };
     let spot = |position_mm| LightShape::Spot { position_mm, target_mm: Vec3::ZERO, half_angle_rad: 0.3 };
