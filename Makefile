@@ -1,12 +1,11 @@
 # make demo: build, and do everything once: simulate, encode, judge, draw, time; pictures and tables in demo-out/
-# make test: every test, on Vulkan and on OpenGL ES 3.0
+# make test: the tests, on Vulkan and on OpenGL ES 3.0
 # Where there is no graphics card, both install Mesa's software drivers with apt-get.
 
 .PHONY: demo test
 
 subsurf = cargo run --quiet --release --package subsurf-cli --
 study = cargo run --quiet --release --package subsurf-study --
-subsurf_dev = cargo run --quiet --package subsurf-cli --
 
 demo:
 	cargo build --release --package subsurf-cli --package subsurf-study
@@ -15,9 +14,5 @@ demo:
 	$(subsurf) demo
 	$(study) bench load --files demo-out/onyx.npy demo-out/onyx-profiles.subsurf demo-out/onyx.subsurf -o demo-out
 
-# The tests need both APIs, and Mesa for OpenGL ES 3.0 in particular.
 test:
-	cargo build --package subsurf-cli
-	@scripts/has-drivers "$(subsurf_dev)" || scripts/install-software-gpu
-	cargo test --workspace
-	decoder/freestanding/check
+	scripts/test

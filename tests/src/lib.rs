@@ -1,5 +1,6 @@
 //! What the tests of several crates share.
 
+pub mod fits;
 pub mod frames;
 pub mod nested;
 pub mod program;

@@ -1,75 +1,15 @@
 //! Captures of all kinds through the encoder.
 
-use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{Addressing, Coding};
 use subsurf_encoder::Progress;
-use subsurf_encoder::bssrdf::{Encoded, Method, Options, Problem, encode, file_bytes};
-use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
-use subsurf_encoder::metrics::bssrdf::compare;
-use subsurf_encoder::metrics::psnr_db;
+use subsurf_encoder::bssrdf::{Method, Options, Problem, encode, file_bytes};
 use subsurf_encoder::rate::Target;
 use subsurf_encoder::rate::bssrdf::{Curve, Point, search};
-use subsurf_encoder::synthetic::{capture_row, unit};
-use subsurf_tests::{open, shape, write_capture};
-
-/// Every method, K and coding.
-fn kinds() -> [Options; 10] {
-    let direct = Options::default();
-    let [song, clusters] = [Method::Song2009, Method::Clusters].map(|method| Options { method, ..direct });
-    let [one, three, five] = [1, 3, 5].map(|per_pixel| Options { per_pixel, ..direct });
-    let [small, palette] = [Coding::SmallRatios, Coding::Palette].map(|coding| Options { coding, ..direct });
-    let paper = Options { method: Method::Yatagawa2020, ..direct };
-    [song, clusters, paper, one, direct, three, five, small, palette, Options { half_profiles: true, ..direct }]
-}
-
-/// A capture of what a synthetic 2-BMPP file stands for.
-fn capture_of_bmpp(folder: &Path, size: [u32; 2], radius: u16, addressing: Addressing) -> PathBuf {
-    let file = shape(size, radius, addressing).bmpp();
-    let material = Bssrdf::parse(&file).unwrap();
-    let path = folder.join("bmpp.npy");
-    let sidecar = Sidecar { pitch_mm: 0.5, addressing, eta: 1.4, simulated: None };
-    let writer = CaptureWriter {
-        path: &path,
-        size: size.map(|side| side as usize),
-        radius: radius.into(),
-        scalar: Scalar::F32,
-        sidecar: &sidecar,
-    };
-    writer.write(|sink| (0..size[1]).try_for_each(|y| sink(&capture_row(&material, y)))).unwrap();
-    path
-}
-
-fn fit(path: &Path, kind: Options, base_materials: usize) -> Encoded {
-    encode(&open(path), None, &Options { base_materials, ..kind }, &()).unwrap()
-}
-
-/// Mean relative albedo error, and PSNR under uniform light in dB.
-fn quality(path: &Path, file: &[u8]) -> (f64, f64) {
-    let material = Bssrdf::parse(file).unwrap();
-    let comparison = compare(&open(path), &material, &()).unwrap();
-    let uniform = comparison.lit[0].normalised().unwrap();
-    (comparison.albedo.mean_relative_error(), psnr_db(&uniform.reference, &uniform.image))
-}
-
-#[test]
-fn finds_a_model_that_is_there() {
-    // Seven base materials mixed at random pixel by pixel: nothing to lean on but the entries themselves.
-    let folder = tempfile::tempdir().unwrap();
-    for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
-        let path = capture_of_bmpp(folder.path(), [26, 20], 4, addressing);
-        let [song, clusters, _, _, direct, ..] = kinds();
-        let (song, _) = quality(&path, &fit(&path, song, 1).bytes);
-        let (clusters, _) = quality(&path, &fit(&path, clusters, 24).bytes);
-        let (direct, psnr) = quality(&path, &fit(&path, direct, 24).bytes);
-        println!("{addressing:?}: LSP {song:.5}, clusters {clusters:.5}, direct {direct:.5} and {psnr:.1} dB");
-        assert!(song < 0.01, "{addressing:?}: per-pixel profiles can hold it: {song}");
-        assert!(direct < 0.25 * clusters, "{addressing:?}: {direct} against {clusters}");
-        assert!(psnr > 40.0, "{addressing:?}: {psnr} dB");
-    }
-}
+use subsurf_tests::fits::{capture_of_bmpp, fit, kinds, quality, with_holes};
+use subsurf_tests::{open, write_capture};
 
 #[test]
 fn bytes_do_not_depend_on_threads() {
@@ -87,23 +27,6 @@ fn bytes_do_not_depend_on_threads() {
             assert_eq!(one, with(8), "{kind:?}");
         }
     }
-}
-
-/// A copy of a capture in which some entries, and some single channels, are replaced by no measurement.
-fn with_holes(folder: &Path, path: &Path, hole: impl Fn(u32) -> f32) -> PathBuf {
-    let capture = open(path);
-    let mut windows = vec![0.0; capture.pixels() * capture.window_len()];
-    for (pixel, window) in windows.chunks_mut(capture.window_len()).enumerate() {
-        capture.read_window(pixel, window);
-    }
-    let size = [capture.width(), capture.height()];
-    let len = capture.window_len();
-    write_capture(folder, "holes.npy", size, capture.radius(), capture.addressing(), |pixel, place, c| {
-        let n = u32::try_from(pixel * len + place * 3).unwrap();
-        let (entry, channel) = (unit(n) < 0.2, unit(0x5000_0000 + n) < 0.1 && c == 2);
-        // A pixel needs something: its own exitance stays.
-        if (entry || channel) && place != len / 6 { hole(n) } else { windows[pixel * len + place * 3 + c] }
-    })
 }
 
 #[test]
@@ -132,72 +55,6 @@ fn smaller_codings_cost_little() {
     // The capture is a 2-BMPP model itself: what is left is hardly more than the codings' own errors.
     assert!(exact > 65.0 && small > 65.0 && half > 65.0, "{exact} {small} {half}");
     assert!(palette > 55.0, "{palette}");
-}
-
-#[test]
-fn missing_entries_weigh_nothing() {
-    for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
-        missing_entries_weigh_nothing_with(addressing);
-    }
-}
-
-fn missing_entries_weigh_nothing_with(addressing: Addressing) {
-    let folder = tempfile::tempdir().unwrap();
-    let full = capture_of_bmpp(folder.path(), [26, 20], 4, addressing);
-    // The paper's fit ends where chance takes it, with holes or without.
-    for kind in kinds().into_iter().filter(|kind| kind.method != Method::Yatagawa2020) {
-        // However a hole is written, it is the same hole.
-        let by_hole = [0.0, -1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY].map(|hole| {
-            let holes = with_holes(folder.path(), &full, |_| hole);
-            fit(&holes, kind, 24)
-        });
-        for other in &by_hole[1..] {
-            assert_eq!(by_hole[0].bytes, other.bytes, "{kind:?}");
-        }
-        let missing = 1.0 - by_hole[0].measured as f64 / by_hole[0].entries as f64;
-        assert!((0.15..0.3).contains(&missing), "{missing}");
-        // And what is left is enough: judged by the whole capture, the fit is hardly worse.
-        let (whole, _) = quality(&full, &fit(&full, kind, 24).bytes);
-        let (holes, _) = quality(&full, &by_hole[0].bytes);
-        println!(
-            "{addressing:?}, {kind:?}: relative error {whole:.5}, with {:.0} % missing {holes:.5}",
-            100.0 * missing
-        );
-        assert!(holes < 1.3 * whole + 0.002, "{addressing:?}, {kind:?}: {holes} against {whole}");
-    }
-}
-
-#[test]
-fn odd_captures_give_sound_files() {
-    let folder = tempfile::tempdir().unwrap();
-    let falling = |place: usize, d: usize| {
-        let (dx, dy) = ((place % d).abs_diff(d / 2), (place / d).abs_diff(d / 2));
-        0.2 * (-((dx * dx + dy * dy) as f32).sqrt()).exp()
-    };
-    for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
-        for (name, size, radius) in [
-            ("one pixel, no window", [1, 1], 0),
-            ("one pixel", [1, 1], 2),
-            ("one row, smaller than the window", [5, 1], 4),
-            ("constant", [9, 8], 2),
-        ] {
-            let path = write_capture(folder.path(), "odd.npy", size, radius, addressing, |_, place, c| {
-                // One colour channel measured nothing at all.
-                if c == 1 { f32::NAN } else { falling(place, 2 * radius + 1) }
-            });
-            for kind in kinds() {
-                // More base materials than there are distinct profiles.
-                let encoded = fit(&path, kind, 40);
-                let material = Bssrdf::parse(&encoded.bytes).unwrap();
-                let rd = material.rd([0, 0], [0, 0]);
-                assert!((rd[0] - 0.2).abs() < 0.01 && (rd[2] - 0.2).abs() < 0.01, "{name}, {addressing:?}: {rd:?}");
-                // Those that no pixel has are left out.
-                let distinct = if (name, addressing) == ("constant", Addressing::Repeat) { 5 } else { 40 };
-                let bases = material.header().base_materials;
-                assert!(bases <= distinct, "{name}, {addressing:?}, {kind:?}: {bases} base materials");
-            }
-        }
-    }
 }
 
 #[test]
