@@ -26,7 +26,7 @@ use crate::program::progress::Bars;
 
 /// Arguments of a fit to a capture.
 #[derive(clap::Args)]
-pub(super) struct Args {
+pub(super) struct FitArgs {
     /// The capture: a .npy array of shape (height, width, D, D, 3) of Rd in mm⁻², and its sidecar .json with the pixel pitch
     #[arg(required = true)]
     capture: Option<PathBuf>,
@@ -121,7 +121,7 @@ impl From<MethodArg> for Method {
     }
 }
 
-impl Args {
+impl FitArgs {
     fn options(&self) -> Options {
         Options {
             method: self.method.into(),
@@ -138,7 +138,7 @@ impl Args {
     }
 }
 
-pub(super) fn run(args: &Args) -> anyhow::Result<()> {
+pub(super) fn run(args: &FitArgs) -> anyhow::Result<()> {
     let Some(path) = &args.capture else {
         return Err(bad_request("what is to be encoded? Give a capture, or `btf` and its images"));
     };
@@ -184,7 +184,7 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 /// Refuses what the machine's memory does not hold, before it is tried.
-fn check_memory(args: &Args, capture: &Capture, options: &Options) -> anyhow::Result<()> {
+fn check_memory(args: &FitArgs, capture: &Capture, options: &Options) -> anyhow::Result<()> {
     // A target may lead to the most base materials there can be.
     let base_materials = if args.target().is_some() { MAX_BASE_MATERIALS as usize } else { options.base_materials };
     let needed = fit_bytes(capture, args.samples, &Options { base_materials, ..*options })?;

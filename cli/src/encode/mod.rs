@@ -16,7 +16,7 @@ pub(crate) struct Args {
     #[command(subcommand)]
     other: Option<Other>,
     #[command(flatten)]
-    capture: capture::Args,
+    capture: capture::FitArgs,
 }
 
 /// Inputs that are no captures.

@@ -42,7 +42,9 @@ pub(crate) fn draw_mesh(
             session.picture(gpu, &scene)?
         }
         None if technique != Scattering::Gather => {
-            return Err(bad_request("the CPU draws meshes by --technique gather only; the other techniques need a device"));
+            return Err(bad_request(
+                "the CPU draws meshes by --technique gather only; the other techniques need a device",
+            ));
         }
         None => {
             let (fine, surface) = points(mesh, mapping, material, &scene)?;

@@ -18,7 +18,7 @@ use crate::program::progress::Bars;
 
 /// Arguments of a simulated capture.
 #[derive(clap::Args)]
-pub(super) struct Args {
+pub(super) struct SlabArgs {
     /// A built-in material
     #[arg(long, value_enum, conflicts_with = "maps", required_unless_present = "maps")]
     material: Option<MaterialArg>,
@@ -89,7 +89,7 @@ impl ValueEnum for MaterialArg {
     }
 }
 
-pub(super) fn run(args: &Args) -> anyhow::Result<()> {
+pub(super) fn run(args: &SlabArgs) -> anyhow::Result<()> {
     let size = args.size.0.map(|side| side as usize);
     let (map, source) = match args.material {
         Some(MaterialArg(material)) => {

@@ -17,7 +17,7 @@ pub(crate) struct Args {
     #[command(subcommand)]
     other: Option<Other>,
     #[command(flatten)]
-    capture: Option<capture::Args>,
+    capture: Option<capture::SlabArgs>,
 }
 
 /// Simulations that are no captures.

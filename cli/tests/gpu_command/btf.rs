@@ -193,7 +193,8 @@ fn btfs_in_factors() {
 fn btfs_by_the_encoder_of_the_paper() {
     let folder = tempfile::tempdir().unwrap();
     let images = images().join("wood");
-    let paper = json(folder.path(), &format!("encode btf {} --method havran2010 -o paper.subsurf --json", images.display()));
+    let paper =
+        json(folder.path(), &format!("encode btf {} --method havran2010 -o paper.subsurf --json", images.display()));
     assert!(paper["error"]["mssim"]["mean"].as_f64().unwrap() > 0.7, "{paper}");
 }
 
