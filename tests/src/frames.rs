@@ -9,7 +9,9 @@ use subsurf_runtime::{
     AmbientTransfer, BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, Renderer, RuntimeOptions,
     SeparableMaterial, SplatMaterial, Technique, VertexData,
 };
-use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
+use subsurf_scene::{
+    Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene, SurfacePoints, visibility,
+};
 use subsurf_shaders::separable::{BasisSize, SeparableBasis};
 
 /// Display values: steps of 255 between the two APIs. Their arithmetic is the same but for rounding; sums of splats are
@@ -172,7 +174,12 @@ pub fn psnr(reference: &[[u8; 3]], found: &[[u8; 3]]) -> f64 {
 ///
 /// # Panics
 /// If they are further apart than [`EDGE_PIXELS`] or the limits say.
-pub fn assert_close(name: &str, gpus: &[Gpu; 2], limits: [(RenderMode, f64); 2], draw: impl Fn(&Gpu, RenderMode) -> Vec<[u8; 3]>) {
+pub fn assert_close(
+    name: &str,
+    gpus: &[Gpu; 2],
+    limits: [(RenderMode, f64); 2],
+    draw: impl Fn(&Gpu, RenderMode) -> Vec<[u8; 3]>,
+) {
     let reference = draw(&gpus[0], RenderMode::Gather);
     for (mode, least_db) in limits {
         let pictures = gpus.each_ref().map(|gpu| draw(gpu, mode));

@@ -25,7 +25,8 @@ fn examples_run() {
         if name == "embed" {
             command.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("materials/jade.subsurf"));
         }
-        let output = command.output().unwrap_or_else(|error| panic!("{name}: {error}; `cargo build --examples` makes it"));
+        let output =
+            command.output().unwrap_or_else(|error| panic!("{name}: {error}; `cargo build --examples` makes it"));
         assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
         assert!(!output.stdout.is_empty(), "{name} says what it found");
     }

@@ -7,7 +7,7 @@ use subsurf_encoder::baseline::song2009::per_pixel_of;
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_runtime::{BACKGROUND, Backend, Drawable, Error, Gpu, Renderer, RuntimeOptions, Technique};
 use subsurf_scene::{bowl, drapery, knot, torus};
-use subsurf_tests::frames::{API_TOLERANCE, Loaded, SIZE, RenderMode, assert_close, device, material_of, scene};
+use subsurf_tests::frames::{API_TOLERANCE, Loaded, RenderMode, SIZE, assert_close, device, material_of, scene};
 use subsurf_tests::shape;
 
 /// Every path against the gather, on meshes thick and thin; and both APIs against each other.

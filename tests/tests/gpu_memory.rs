@@ -3,7 +3,7 @@
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_runtime::{Backend, Error, Frame, Gpu, Renderer, RuntimeOptions};
 use subsurf_scene::{Scene, torus};
-use subsurf_tests::frames::{Loaded, SIZE, RenderMode, device, scene};
+use subsurf_tests::frames::{Loaded, RenderMode, SIZE, device, scene};
 use subsurf_tests::shape;
 
 fn prepared(gpu: &Gpu, loaded: &Loaded, scene: &Scene, budget_bytes: Option<u64>) -> Result<Frame, Error> {

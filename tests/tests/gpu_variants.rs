@@ -11,7 +11,8 @@ use subsurf_runtime::{
 };
 use subsurf_scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
 use subsurf_tests::frames::{
-    API_TOLERANCE, EDGE_PIXELS, Loaded, SIZE, RenderMode, assert_close, device, material_of, psnr, scene, share_that_differs,
+    API_TOLERANCE, EDGE_PIXELS, Loaded, RenderMode, SIZE, assert_close, device, material_of, psnr, scene,
+    share_that_differs,
 };
 use subsurf_tests::shape;
 

@@ -81,7 +81,7 @@ fn draw(bytes: &[u8], backend: Backend) {
             assert_eq!(host.recovered.len(), 1, "the device was lost once: {:?}", host.recovered);
             assert!(host.frames > 3, "frames go on");
             let picture = host.captured.expect("a picture");
-            assert_eq!((picture.size, picture.pixels.len()), (SIZE, 560 * 240));
+            assert_eq!((picture.size, picture.pixels.len()), (SIZE, 560 * 240), "a picture of the whole window");
             // Right of the panel: the torus before a dark background.
             let is_bright =
                 |(k, pixel): &(usize, &[u8; 3])| k % SIZE[0] as usize > 330 && pixel.iter().all(|c| *c > 90);

@@ -141,7 +141,7 @@ impl TruncatedSvd {
     /// Decomposition of all images of some materials, by a few passes over them.
     ///
     /// # Errors
-    /// [`Error::Request`] if the materials do not go into one file.
+    /// [`Error::Request`](crate::Error::Request) if the materials do not go into one file.
     pub fn new(materials: &[Images], detail: Ranks, seed: u64, progress: &dyn Progress) -> Result<Self> {
         let tone = common_tone(materials)?;
         let pairs = materials[0].pairs();

@@ -26,7 +26,7 @@ impl SplatMaterial {
     /// Uploads the planes of a file as they stand in it, and the albedo that its separable basis gives.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if some numbers of the basis are missing.
+    /// [`Error::Unsupported`](crate::Error::Unsupported) if the device takes no texture of that size; [`Error::Device`](crate::Error::Device) if some numbers of the basis are missing.
     pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>, basis: &SeparableBasis) -> Result<Self> {
         whole(basis)?;
         Ok(Self {

@@ -56,7 +56,7 @@ pub(super) struct Job {
 
 /// What a job computes: all that takes long and needs no device.
 pub(super) enum Computed {
-    Scattering(Asset),
+    Scattering(Box<Asset>),
     Btf { repeats: [f32; 2] },
     Images { repeats: [f32; 2], images: Box<dyn BtfImageSet> },
 }
@@ -91,7 +91,7 @@ impl Job {
             (Content::Bssrdf(material), RenderMode::Scattering(technique)) => {
                 let mapping = choose_mapping(&self.mesh, self.mapping, &material)?;
                 let asset = Asset::compute(&material, &self.mesh, mapping, &self.scene, technique, sky)?;
-                Ok(Computed::Scattering(asset))
+                Ok(Computed::Scattering(Box::new(asset)))
             }
             (Content::Btf(btf), mode) => {
                 expect_uvs(&self.mesh)?;

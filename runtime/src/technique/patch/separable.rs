@@ -31,7 +31,7 @@ impl SeparableRenderer {
     /// Compiles the passes.
     ///
     /// # Errors
-    /// [`Error::Device`] if the driver refuses them; [`Error::NoHalfFloats`].
+    /// [`Error::Device`](crate::Error::Device) if the driver refuses them; [`Error::NoHalfFloats`](crate::Error::NoHalfFloats).
     pub fn new(gpu: &Gpu, terms: usize) -> Result<Self> {
         gpu.expect_half_targets("blurs on flat patches")?;
         let choice = Choice::Terms(terms);
@@ -46,7 +46,7 @@ impl SeparableRenderer {
     /// Makes room for the maps of a patch.
     ///
     /// # Errors
-    /// [`Error::Device`] if the material has another number of terms, [`Error::Unsupported`] if it is too large.
+    /// [`Error::Device`](crate::Error::Device) if the material has another number of terms, [`Error::Unsupported`](crate::Error::Unsupported) if it is too large.
     pub fn prepare(&self, gpu: &Gpu, material: &SeparableMaterial, light: &PatchLight) -> Result<SeparablePatch> {
         material.expect(self.terms)?;
         let header = material.header();
@@ -79,7 +79,7 @@ impl SeparableRenderer {
     /// Draws the exitance of the whole patch.
     ///
     /// # Errors
-    /// [`Error::Device`] if the device is lost.
+    /// [`Error::Device`](crate::Error::Device) if the device is lost.
     pub fn draw<'a>(&self, gpu: &Gpu, patch: &'a SeparablePatch) -> Result<&'a Exitance> {
         let ends =
             Ends { first: (&self.first, &patch.first), last: (&self.last, &patch.last), target: patch.exitance.view() };
