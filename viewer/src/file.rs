@@ -60,3 +60,9 @@ pub fn material_number(names: &[String], asked: &str) -> Option<usize> {
     let by_number = || asked.parse().ok().filter(|number| *number < names.len());
     names.iter().position(|name| name == asked).or_else(by_number)
 }
+
+/// Name of a file without folder and extension.
+#[must_use]
+pub fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}

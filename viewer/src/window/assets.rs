@@ -6,7 +6,7 @@ use std::sync::Arc;
 use subsurf_scene::{Mesh, SHAPES, UpAxis, load_mesh};
 
 use crate::error::{Error, Result};
-use crate::file::{Content, material_number, parse, read};
+use crate::file::{Content, material_number, parse, read, stem};
 
 /// Material of a file that was found to be in order.
 pub(super) struct MaterialFile {
@@ -60,11 +60,6 @@ impl MaterialFile {
     pub(super) fn read(&self) -> Result<Content<'_>> {
         parse(&self.path, &self.bytes)
     }
-}
-
-/// Name of a file without folder and extension.
-fn stem(path: &Path) -> String {
-    path.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 /// How mesh files are read: to which size, and which way is up in them.

@@ -14,12 +14,12 @@ use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::{psnr_db, ssim};
 use subsurf_runtime::{BACKGROUND, Backend, Gpu, RuntimeOptions};
 use subsurf_scene::{Mesh, Scene};
-use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scattering, choose_mapping, read};
+use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scattering, choose_mapping, read, stem};
 
 use self::page::{Page, Row};
 use super::case::{self, BenchCase};
 use super::devices::to_compare;
-use super::meshes::{named, stem};
+use super::meshes::named;
 use super::timing::{median, quantile};
 
 /// Compare all paths with the reference gather: PSNR, SSIM, difference pictures, frame times and memory.
