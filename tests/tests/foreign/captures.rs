@@ -1,0 +1,1 @@
+//! Captures, their sidecars, and the images that a command takes.

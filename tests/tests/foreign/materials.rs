@@ -1,0 +1,1 @@
+//! BTFs and BRDFs, as folders and as files of others.
