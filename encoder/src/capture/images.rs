@@ -1,6 +1,6 @@
-//! All images of a BTF in memory: display values, or half floats of linear ones.
+//! All images of a BTF in memory: bytes, or half floats of what bytes do not hold.
 
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 use glam::Vec3;
 use half::f16;
@@ -9,9 +9,10 @@ use subsurf_decoder::btf::ColourEncoding;
 
 use crate::capture::source::Source;
 use crate::error::{Error, Result};
+use crate::memory::expect;
 use crate::progress::Progress;
 
-/// The images of one material: three bytes a pixel, or three half floats where they are linear.
+/// The images of one material: three bytes a pixel, or three half floats where they are linear or deeper than bytes.
 #[derive(Debug)]
 pub struct Images {
     label: String,
@@ -20,81 +21,125 @@ pub struct Images {
     size: [u32; 2],
     tone: ColourEncoding,
     raw_bytes: Option<u64>,
+    warnings: Vec<String>,
     /// `[light][view][pixel][rgb]`.
     pixels: Store,
 }
 
 #[derive(Debug)]
 enum Store {
-    Display(Vec<u8>),
-    Linear(Vec<f16>),
+    Bytes(Vec<u8>),
+    Halves(Vec<f16>),
 }
 
 /// The toe of [`ColourEncoding::LogLuv`], in mean luminances.
 const TOE_OF_MEAN: f32 = 0.05;
 
+/// Reads images of a source, and brings their values into the range that images have.
+struct Reader<'a> {
+    source: &'a dyn Source,
+    views: usize,
+    /// The largest value: 1 of display values, that of half floats otherwise.
+    largest: f32,
+    /// Values that were out of range.
+    clamped: AtomicU64,
+    progress: &'a dyn Progress,
+}
+
+impl<'a> Reader<'a> {
+    fn new(source: &'a dyn Source, views: usize, progress: &'a dyn Progress) -> Self {
+        let largest = if source.white().is_some() { 1.0 } else { f16::MAX.to_f32() };
+        Self { source, views, largest, clamped: AtomicU64::new(0), progress }
+    }
+
+    fn read(&self, pair: usize) -> Result<Vec<[f32; 3]>> {
+        let mut pixels = self.source.read(pair / self.views, pair % self.views)?;
+        let range = 0.0..=self.largest;
+        let mut clamped = 0;
+        for value in pixels.as_flattened_mut().iter_mut().filter(|value| !range.contains(*value)) {
+            *value = if value.is_nan() { 0.0 } else { value.clamp(0.0, self.largest) };
+            clamped += 1;
+        }
+        self.clamped.fetch_add(clamped, Ordering::Relaxed);
+        self.progress.advance(1);
+        Ok(pixels)
+    }
+
+    /// What is to be said of the source once all is read.
+    fn warnings(self) -> Vec<String> {
+        let mut warnings = self.source.warnings();
+        let (clamped, largest) = (self.clamped.into_inner(), self.largest);
+        if clamped > 0 {
+            let label = self.source.label();
+            warnings.push(format!("{label}: {clamped} values are not from 0 to {largest}; they are moved there"));
+        }
+        warnings
+    }
+}
+
+/// Reads every image of a source, and keeps none of them: says what [`Images::load`] would, in as little memory as there
+/// is.
+///
+/// # Errors
+/// The first image that cannot be read.
+pub fn check_images(source: &dyn Source, progress: &dyn Progress) -> Result<Vec<String>> {
+    let (lights, views) = (source.lights().len(), source.views().len());
+    progress.begin("reading images", (lights * views) as u64);
+    let reader = Reader::new(source, views, progress);
+    (0..lights * views).into_par_iter().try_for_each(|pair| reader.read(pair).map(drop))?;
+    Ok(reader.warnings())
+}
+
 impl Images {
     /// All images of a source.
     ///
     /// # Errors
-    /// The first that cannot be read; [`Error::Request`] if they do not fit into memory's address space.
+    /// The first that cannot be read; [`Error::Request`] if they do not fit into memory.
     pub fn load(source: &dyn Source, progress: &dyn Progress) -> Result<Self> {
         let (lights, views, size) = (source.lights(), source.views(), source.size());
         let pairs = lights.len() * views.len();
-        let image = 3 * size.iter().map(|side| *side as usize).product::<usize>();
-        let values = image.checked_mul(pairs).filter(|values| *values < isize::MAX as usize / 2);
-        let Some(values) = values else {
+        let sides = size.map(|side| side as usize);
+        let image = sides[0].checked_mul(sides[1]).and_then(|texels| texels.checked_mul(3));
+        let values = image.and_then(|image| image.checked_mul(pairs)).filter(|values| *values < isize::MAX as usize / 2);
+        let Some((image, values)) = image.zip(values) else {
             return Err(Error::Request(format!("{}: too many pixels", source.label())));
         };
+        let value_bytes = if source.has_bytes() { 1 } else { 2 };
+        expect(values as u64 * value_bytes, || format!("{}: all images", source.label()))?;
         progress.begin("reading images", pairs as u64);
-        let read = |pair: usize| {
-            let pixels = source.read(pair / views.len(), pair % views.len())?;
-            progress.advance(1);
-            Ok(pixels)
-        };
-        let (pixels, tone) = if let Some(white) = source.white() {
-            let mut bytes = vec![0_u8; values];
-            bytes.par_chunks_mut(image).enumerate().try_for_each(|(pair, image)| -> Result<()> {
-                for (byte, value) in image.iter_mut().zip(read(pair)?.as_flattened()) {
-                    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-                    let rounded = (value.clamp(0.0, 1.0) * 255.0).round() as u8;
-                    *byte = rounded;
-                }
-                Ok(())
-            })?;
-            (Store::Display(bytes), ColourEncoding::Display { white })
-        } else {
-            let mut halves = vec![f16::ZERO; values];
-            let peak = AtomicU32::new(0);
-            let sums: Vec<f32> = halves
-                .par_chunks_mut(image)
-                .enumerate()
-                .map(|(pair, image)| -> Result<f32> {
-                    let mut sum = 0.0;
-                    let pixels = read(pair)?;
-                    for (halves, rgb) in image.as_chunks_mut::<3>().0.iter_mut().zip(&pixels) {
-                        *halves = rgb.map(|value| f16::from_f32(value.clamp(0.0, 65_504.0)));
-                        let [r, g, b] = halves.map(f16::to_f32);
-                        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-                        sum += luminance;
-                        // Floats that are not negative order as integers.
-                        peak.fetch_max(luminance.to_bits(), Ordering::Relaxed);
+        let reader = Reader::new(source, views.len(), progress);
+        let (pixels, tone) = match source.white() {
+            Some(white) if source.has_bytes() => {
+                let mut bytes = vec![0_u8; values];
+                bytes.par_chunks_mut(image).enumerate().try_for_each(|(pair, image)| -> Result<()> {
+                    for (byte, value) in image.iter_mut().zip(reader.read(pair)?.as_flattened()) {
+                        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+                        let rounded = (value * 255.0).round() as u8;
+                        *byte = rounded;
                     }
-                    Ok(sum / pixels.len() as f32)
-                })
-                .collect::<Result<_>>()?;
-            let mean = sums.iter().sum::<f32>() / pairs as f32;
-            let toe = (TOE_OF_MEAN * mean).clamp(1e-6, 1e5);
-            let peak = f32::from_bits(peak.into_inner()).clamp(2.0 * toe, 1e6);
-            (Store::Linear(halves), ColourEncoding::LogLuv { toe, peak })
+                    Ok(())
+                })?;
+                (Store::Bytes(bytes), ColourEncoding::Display { white })
+            }
+            white => {
+                let (halves, log_luv) = halves(&reader, values, image)?;
+                (Store::Halves(halves), white.map_or(log_luv, |white| ColourEncoding::Display { white }))
+            }
         };
-        Ok(Self { label: source.label(), lights, views, size, tone, raw_bytes: source.raw_bytes(), pixels })
+        let (label, raw_bytes, warnings) = (source.label(), source.raw_bytes(), reader.warnings());
+        Ok(Self { label, lights, views, size, tone, raw_bytes, warnings, pixels })
     }
 
     /// Name in errors.
     #[must_use]
     pub fn label(&self) -> &str {
         &self.label
+    }
+
+    /// What was changed or left out of the source, a line each.
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// Unit vectors towards the lights.
@@ -147,8 +192,8 @@ impl Images {
             return bytes;
         }
         match &self.pixels {
-            Store::Display(bytes) => bytes.len() as u64,
-            Store::Linear(halves) => 2 * halves.len() as u64,
+            Store::Bytes(bytes) => bytes.len() as u64,
+            Store::Halves(halves) => 2 * halves.len() as u64,
         }
     }
 
@@ -165,16 +210,43 @@ impl Images {
         let image = 3 * self.texels();
         let range = pair * image..(pair + 1) * image;
         match &self.pixels {
-            Store::Display(bytes) => {
+            Store::Bytes(bytes) => {
                 for (texel, rgb) in bytes[range].as_chunks().0.iter().enumerate() {
                     with(texel, rgb.map(|byte| f32::from(byte) * (1.0 / 255.0)));
                 }
             }
-            Store::Linear(halves) => {
+            Store::Halves(halves) => {
                 for (texel, rgb) in halves[range].as_chunks().0.iter().enumerate() {
                     with(texel, rgb.map(f16::to_f32));
                 }
             }
         }
     }
+}
+
+/// All pixels as half floats, and the encoding of linear ones by their luminances.
+fn halves(reader: &Reader<'_>, values: usize, image: usize) -> Result<(Vec<f16>, ColourEncoding)> {
+    let mut halves = vec![f16::ZERO; values];
+    let peak = AtomicU32::new(0);
+    let sums: Vec<f32> = halves
+        .par_chunks_mut(image)
+        .enumerate()
+        .map(|(pair, image)| -> Result<f32> {
+            let mut sum = 0.0;
+            let pixels = reader.read(pair)?;
+            for (halves, rgb) in image.as_chunks_mut::<3>().0.iter_mut().zip(&pixels) {
+                *halves = rgb.map(f16::from_f32);
+                let [r, g, b] = halves.map(f16::to_f32);
+                let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+                sum += luminance;
+                // Floats that are not negative order as integers.
+                peak.fetch_max(luminance.to_bits(), Ordering::Relaxed);
+            }
+            Ok(sum / pixels.len() as f32)
+        })
+        .collect::<Result<_>>()?;
+    let mean = sums.iter().sum::<f32>() / sums.len() as f32;
+    let toe = (TOE_OF_MEAN * mean).clamp(1e-6, 1e5);
+    let peak = f32::from_bits(peak.into_inner()).clamp(2.0 * toe, 1e6);
+    Ok((halves, ColourEncoding::LogLuv { toe, peak }))
 }

@@ -3,8 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use crate::capture::directions::{Direction, directions_of, image_name};
+use super::listing::Listing;
+use crate::capture::directions::{Direction, image_name};
 use crate::error::{Error, Result};
+use crate::picture::{Header, Picture};
 
 /// A folder with an image for every pair of a light and a view.
 #[derive(Debug)]
@@ -12,47 +14,24 @@ pub struct Folder {
     path: PathBuf,
     lights: Vec<Direction>,
     views: Vec<Direction>,
-    size: [u32; 2],
-    extension: String,
+    /// What all images have in common.
+    header: Header,
     /// Files by light and view.
     images: BTreeMap<[Direction; 2], PathBuf>,
+    facts: Option<serde_json::Value>,
+    /// Factor that brought values into the range that is displayed.
+    exposure: f64,
+    warnings: Vec<String>,
 }
 
-/// Images that are read, by their extensions; the last two hold linear floats.
-const EXTENSIONS: [&str; 5] = ["png", "jpg", "jpeg", "exr", "hdr"];
-
 impl Folder {
-    /// Looks through a folder: every light is there with every view, all images have one format and one size. What is in
-    /// them is not read yet.
+    /// Looks through a folder, or those inside of it if it has no images itself: every light is there with every view, all
+    /// images have one format and one size. What is in them is not read yet.
     ///
     /// # Errors
     /// [`Error::Input`] with what is missing, twice there, or of another size.
     pub fn open(path: &Path) -> Result<Self> {
-        let expected =
-            "a folder of images named \"tl000 pl000 tv000 pv000.png\" (.jpg, .exr, .hdr): light and view in degrees";
-        let entries = std::fs::read_dir(path).map_err(|error| Error::input(path, error, expected))?;
-        let mut images = BTreeMap::new();
-        let mut extension: Option<String> = None;
-        for entry in entries {
-            let file = entry.map_err(|error| Error::input(path, error, expected))?.path();
-            let lower = |text: &std::ffi::OsStr| text.to_string_lossy().to_ascii_lowercase();
-            let kind = file.extension().map(lower).unwrap_or_default();
-            let pair = file.file_stem().and_then(|stem| directions_of(&lower(stem)));
-            let Some(pair) = pair.filter(|_| EXTENSIONS.contains(&kind.as_str())) else {
-                continue;
-            };
-            if *extension.get_or_insert_with(|| kind.clone()) != kind {
-                let first = extension.unwrap_or_default();
-                return Err(Error::input(&file, "one image in another format", format!("all of them in .{first}")));
-            }
-            if let Some(other) = images.insert(pair, file.clone()) {
-                let found = format!("the same directions as {}", other.display());
-                return Err(Error::input(&file, found, "one image for every pair of directions"));
-            }
-        }
-        let Some(extension) = extension else {
-            return Err(Error::input(path, "no image that is named by its directions", expected));
-        };
+        let Listing { images, warnings } = Listing::new(path)?;
         let of = |which: usize| images.keys().map(|pair| pair[which]).collect::<BTreeSet<_>>().into_iter().collect();
         let (lights, views): (Vec<Direction>, Vec<Direction>) = (of(0), of(1));
         let pairs = || lights.iter().flat_map(|light| views.iter().map(move |view| [*light, *view]));
@@ -65,25 +44,13 @@ impl Folder {
                 views.len(),
                 image_name(*light, *view)
             );
-            return Err(Error::input(path, found, "every light with every view"));
+            let left_out = warnings.first().map_or_else(String::new, |warning| format!(" ({warning})"));
+            return Err(Error::input(path, format!("{found}{left_out}"), "every light with every view"));
         }
-        let mut folder = Self { path: path.to_owned(), lights, views, size: [0; 2], extension, images };
-        folder.size = folder.common_size()?;
-        Ok(folder)
-    }
-
-    fn common_size(&self) -> Result<[u32; 2]> {
-        let mut common = None;
-        for file in self.images.values() {
-            let wrong = |error| Error::input(file, error, "an image");
-            let (width, height) = image::image_dimensions(file).map_err(wrong)?;
-            let [w, h] = *common.get_or_insert([width, height]);
-            if [w, h] != [width, height] {
-                let found = format!("{width} × {height} pixels");
-                return Err(Error::input(file, found, format!("{w} × {h}, as the images before it")));
-            }
-        }
-        Ok(common.unwrap_or_default())
+        let header = common_header(images.values())?;
+        let facts = facts(path)?;
+        let exposure = exposure(path, facts.as_ref())?;
+        Ok(Self { path: path.to_owned(), lights, views, header, images, facts, exposure, warnings })
     }
 
     /// The folder.
@@ -107,27 +74,49 @@ impl Folder {
     /// Pixels in x and in y.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
-        self.size
+        self.header.size
     }
 
     /// Whether images hold linear floats; display values otherwise.
     #[must_use]
     pub fn is_linear(&self) -> bool {
-        matches!(self.extension.as_str(), "exr" | "hdr")
+        self.header.is_linear
     }
 
-    /// Bytes of all images in memory, three channels of one byte or four.
+    /// Whether display values have 16 bits rather than 8.
+    #[must_use]
+    pub fn is_deep(&self) -> bool {
+        self.header.is_deep
+    }
+
+    /// Bytes of all images in memory, three channels of one byte, of two or of four.
     #[must_use]
     pub fn raw_bytes(&self) -> u64 {
-        let pixels = u64::from(self.size[0]) * u64::from(self.size[1]) * self.images.len() as u64;
-        pixels * if self.is_linear() { 12 } else { 3 }
+        let value_bytes = match self.header {
+            Header { is_linear: true, .. } => 4,
+            Header { is_deep: true, .. } => 2,
+            _ => 1,
+        };
+        let pixels = u64::from(self.header.size[0]) * u64::from(self.header.size[1]);
+        3 * value_bytes * pixels * self.images.len() as u64
     }
 
     /// Where the images come from, as `btf.json` beside them says; `None` if there is none.
     #[must_use]
-    pub fn facts(&self) -> Option<serde_json::Value> {
-        let bytes = std::fs::read(self.path.join("btf.json")).ok()?;
-        serde_json::from_slice(&bytes).ok()
+    pub fn facts(&self) -> Option<&serde_json::Value> {
+        self.facts.as_ref()
+    }
+
+    /// The factor that brought values into the range that is displayed, as `btf.json` says; 1 if it does not.
+    #[must_use]
+    pub fn exposure(&self) -> f64 {
+        self.exposure
+    }
+
+    /// What was left out of the folder, a line each.
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// One image, row by row: display values 0 to 1, or linear ones.
@@ -139,9 +128,50 @@ impl Folder {
             let found = format!("no image \"{}\"", image_name(light, view));
             return Err(Error::input(&self.path, found, "directions that the folder has"));
         };
-        let image = image::open(file).map_err(|error| Error::input(file, error, "an image"))?.into_rgb32f();
-        Ok(image.pixels().map(|pixel| pixel.0).collect())
+        Ok(Picture::open(file)?.pixels().to_vec())
     }
+}
+
+/// The header that all images have, as far as it matters here.
+fn common_header<'a>(mut files: impl Iterator<Item = &'a PathBuf>) -> Result<Header> {
+    let Some(first) = files.next() else {
+        return Err(Error::Request("no image".to_owned()));
+    };
+    let mut common = Header::open(first)?;
+    for file in files {
+        let Header { size: [width, height], is_linear, is_deep } = Header::open(file)?;
+        common.is_deep |= is_deep;
+        let [w, h] = common.size;
+        if [w, h] != [width, height] {
+            let found = format!("{width} × {height} pixels");
+            return Err(Error::input(file, found, format!("{w} × {h}, as the images before it")));
+        }
+        if is_linear != common.is_linear {
+            let of = |is_linear| if is_linear { "linear floats" } else { "display values" };
+            return Err(Error::input(file, of(is_linear), format!("{}, as in the images before it", of(common.is_linear))));
+        }
+    }
+    Ok(common)
+}
+
+/// What `btf.json` says, if it is there.
+fn facts(folder: &Path) -> Result<Option<serde_json::Value>> {
+    let path = folder.join("btf.json");
+    if !path.exists() {
+        return Ok(None);
+    }
+    let wrong = |error: String| Error::input(&path, error, "JSON, or no such file");
+    let bytes = std::fs::read(&path).map_err(|error| wrong(error.to_string()))?;
+    serde_json::from_slice(&bytes).map(Some).map_err(|error| wrong(error.to_string()))
+}
+
+fn exposure(folder: &Path, facts: Option<&serde_json::Value>) -> Result<f64> {
+    let Some(exposure) = facts.and_then(|facts| facts.pointer("/simulated/exposure")) else {
+        return Ok(1.0);
+    };
+    // Ten stops more than any camera has.
+    let number = exposure.as_f64().filter(|number| (1e-6..=1e6).contains(number));
+    number.ok_or_else(|| Error::input(&folder.join("btf.json"), "an exposure that is none", "a number, 1e-6 to 1e6"))
 }
 
 #[cfg(test)]

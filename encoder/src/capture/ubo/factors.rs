@@ -1,6 +1,6 @@
 //! The factors of the matrix: where they lie, and products of their rows.
 
-use super::bytes::Bytes;
+use crate::capture::bytes::Bytes;
 use super::colour::Colour;
 use super::header::{Header, Kind};
 use crate::error::Result;
