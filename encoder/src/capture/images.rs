@@ -1,4 +1,4 @@
-//! All images of a BTF in memory: bytes, or half floats of what bytes do not hold.
+//! All images of a BTF in memory: display values in 8 or 16 bits, or half floats of linear ones.
 
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
@@ -9,10 +9,10 @@ use subsurf_decoder::btf::ColourEncoding;
 
 use crate::capture::source::Source;
 use crate::error::{Error, Result};
-use crate::memory::expect;
+use crate::memory;
 use crate::progress::Progress;
 
-/// The images of one material: three bytes a pixel, or three half floats where they are linear or deeper than bytes.
+/// The images of one material: three numbers of 8 or 16 bits a pixel, or three half floats where they are linear.
 #[derive(Debug)]
 pub struct Images {
     label: String,
@@ -21,125 +21,141 @@ pub struct Images {
     size: [u32; 2],
     tone: ColourEncoding,
     raw_bytes: Option<u64>,
-    warnings: Vec<String>,
     /// `[light][view][pixel][rgb]`.
     pixels: Store,
 }
 
 #[derive(Debug)]
 enum Store {
-    Bytes(Vec<u8>),
-    Halves(Vec<f16>),
+    Display(Vec<u8>),
+    Deep(Vec<u16>),
+    Linear(Vec<f16>),
 }
 
 /// The toe of [`ColourEncoding::LogLuv`], in mean luminances.
 const TOE_OF_MEAN: f32 = 0.05;
 
-/// Reads images of a source, and brings their values into the range that images have.
-struct Reader<'a> {
-    source: &'a dyn Source,
-    views: usize,
-    /// The largest value: 1 of display values, that of half floats otherwise.
-    largest: f32,
-    /// Values that were out of range.
-    clamped: AtomicU64,
-    progress: &'a dyn Progress,
+/// Largest linear value that is kept: that of half floats.
+const BRIGHTEST: f32 = 65_504.0;
+
+/// All display values of images of `image` values each, rounded.
+fn display<T: Copy + Default + Send + Sync>(
+    values: usize,
+    image: usize,
+    read: impl Fn(usize) -> Result<Vec<[f32; 3]>> + Sync,
+    round: impl Fn(f32) -> T + Sync,
+) -> Result<Vec<T>> {
+    let mut all = vec![T::default(); values];
+    all.par_chunks_mut(image).enumerate().try_for_each(|(pair, image)| -> Result<()> {
+        for (rounded, value) in image.iter_mut().zip(read(pair)?.as_flattened()) {
+            *rounded = round(value.clamp(0.0, 1.0));
+        }
+        Ok(())
+    })?;
+    Ok(all)
 }
 
-impl<'a> Reader<'a> {
-    fn new(source: &'a dyn Source, views: usize, progress: &'a dyn Progress) -> Self {
-        let largest = if source.white().is_some() { 1.0 } else { f16::MAX.to_f32() };
-        Self { source, views, largest, clamped: AtomicU64::new(0), progress }
-    }
+/// Pixels that are not kept as they are.
+fn outside(pixels: &[[f32; 3]]) -> u64 {
+    pixels.iter().filter(|rgb| rgb.iter().any(|value| !(0.0..=BRIGHTEST).contains(value))).count() as u64
+}
 
-    fn read(&self, pair: usize) -> Result<Vec<[f32; 3]>> {
-        let mut pixels = self.source.read(pair / self.views, pair % self.views)?;
-        let range = 0.0..=self.largest;
-        let mut clamped = 0;
-        for value in pixels.as_flattened_mut().iter_mut().filter(|value| !range.contains(*value)) {
-            *value = if value.is_nan() { 0.0 } else { value.clamp(0.0, self.largest) };
-            clamped += 1;
-        }
-        self.clamped.fetch_add(clamped, Ordering::Relaxed);
-        self.progress.advance(1);
-        Ok(pixels)
-    }
-
-    /// What is to be said of the source once all is read.
-    fn warnings(self) -> Vec<String> {
-        let mut warnings = self.source.warnings();
-        let (clamped, largest) = (self.clamped.into_inner(), self.largest);
-        if clamped > 0 {
-            let label = self.source.label();
-            warnings.push(format!("{label}: {clamped} values are not from 0 to {largest}; they are moved there"));
-        }
-        warnings
+/// Says what was left out of a source, and what is changed in it.
+fn warn(source: &dyn Source, outside: u64, pixels: usize, progress: &dyn Progress) {
+    source.warnings().iter().for_each(|warning| progress.warn(warning));
+    if outside > 0 {
+        let label = source.label();
+        progress.warn(&format!(
+            "{label}: {outside} of {pixels} pixels have values that are not 0 to {BRIGHTEST}; they are clamped, NaN to 0"
+        ));
     }
 }
 
-/// Reads every image of a source, and keeps none of them: says what [`Images::load`] would, in as little memory as there
-/// is.
+/// Reads every image of a source, one at a time, and keeps none: says what [`Images::load`] would.
 ///
 /// # Errors
 /// The first image that cannot be read.
-pub fn check_images(source: &dyn Source, progress: &dyn Progress) -> Result<Vec<String>> {
+pub fn check_images(source: &dyn Source, progress: &dyn Progress) -> Result<()> {
     let (lights, views) = (source.lights().len(), source.views().len());
     progress.begin("reading images", (lights * views) as u64);
-    let reader = Reader::new(source, views, progress);
-    (0..lights * views).into_par_iter().try_for_each(|pair| reader.read(pair).map(drop))?;
-    Ok(reader.warnings())
+    let of_pair = |pair: usize| -> Result<[u64; 2]> {
+        let pixels = source.read(pair / views, pair % views)?;
+        progress.advance(1);
+        Ok([outside(&pixels), pixels.len() as u64])
+    };
+    let sum = |a: [u64; 2], b: [u64; 2]| Ok([a[0] + b[0], a[1] + b[1]]);
+    let [outside, pixels] = (0..lights * views).into_par_iter().map(of_pair).try_reduce(|| [0; 2], sum)?;
+    warn(source, outside, usize::try_from(pixels).unwrap_or(usize::MAX), progress);
+    Ok(())
 }
 
 impl Images {
     /// All images of a source.
     ///
     /// # Errors
-    /// The first that cannot be read; [`Error::Request`] if they do not fit into memory.
+    /// The first that cannot be read; [`Error::Request`] if they take more memory than there is.
     pub fn load(source: &dyn Source, progress: &dyn Progress) -> Result<Self> {
         let (lights, views, size) = (source.lights(), source.views(), source.size());
         let pairs = lights.len() * views.len();
-        let sides = size.map(|side| side as usize);
-        let image = sides[0].checked_mul(sides[1]).and_then(|texels| texels.checked_mul(3));
+        let [width, height] = size.map(|side| side as usize);
+        let image = width.checked_mul(height).and_then(|texels| texels.checked_mul(3));
         let values = image.and_then(|image| image.checked_mul(pairs)).filter(|values| *values < isize::MAX as usize / 2);
         let Some((image, values)) = image.zip(values) else {
             return Err(Error::Request(format!("{}: too many pixels", source.label())));
         };
-        let value_bytes = if source.has_bytes() { 1 } else { 2 };
-        expect(values as u64 * value_bytes, || format!("{}: all images", source.label()))?;
+        let bytes = if source.white().is_some() && !source.is_deep() { 1 } else { 2 };
+        memory::expect(values as u64 * bytes, || format!("{}: {pairs} images", source.label()))?;
         progress.begin("reading images", pairs as u64);
-        let reader = Reader::new(source, views.len(), progress);
-        let (pixels, tone) = match source.white() {
-            Some(white) if source.has_bytes() => {
-                let mut bytes = vec![0_u8; values];
-                bytes.par_chunks_mut(image).enumerate().try_for_each(|(pair, image)| -> Result<()> {
-                    for (byte, value) in image.iter_mut().zip(reader.read(pair)?.as_flattened()) {
-                        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
-                        let rounded = (value * 255.0).round() as u8;
-                        *byte = rounded;
-                    }
-                    Ok(())
-                })?;
-                (Store::Bytes(bytes), ColourEncoding::Display { white })
-            }
-            white => {
-                let (halves, log_luv) = halves(&reader, values, image)?;
-                (Store::Halves(halves), white.map_or(log_luv, |white| ColourEncoding::Display { white }))
-            }
+        let clamped = AtomicU64::new(0);
+        let read = |pair: usize| {
+            let pixels = source.read(pair / views.len(), pair % views.len())?;
+            clamped.fetch_add(outside(&pixels), Ordering::Relaxed);
+            progress.advance(1);
+            Ok(pixels)
         };
-        let (label, raw_bytes, warnings) = (source.label(), source.raw_bytes(), reader.warnings());
-        Ok(Self { label, lights, views, size, tone, raw_bytes, warnings, pixels })
+        let (pixels, tone) = if let Some(white) = source.white() {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+            let store = if source.is_deep() {
+                Store::Deep(display(values, image, &read, |value| (value * 65_535.0).round() as u16)?)
+            } else {
+                Store::Display(display(values, image, &read, |value| (value * 255.0).round() as u8)?)
+            };
+            (store, ColourEncoding::Display { white })
+        } else {
+            let mut halves = vec![f16::ZERO; values];
+            let peak = AtomicU32::new(0);
+            let sums: Vec<f32> = halves
+                .par_chunks_mut(image)
+                .enumerate()
+                .map(|(pair, image)| -> Result<f32> {
+                    let mut sum = 0.0;
+                    let pixels = read(pair)?;
+                    for (halves, rgb) in image.as_chunks_mut::<3>().0.iter_mut().zip(&pixels) {
+                        // NaN and -0 become 0.
+                        let kept = |value: f32| if value > 0.0 { value.min(BRIGHTEST) } else { 0.0 };
+                        *halves = rgb.map(|value| f16::from_f32(kept(value)));
+                        let [r, g, b] = halves.map(f16::to_f32);
+                        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+                        sum += luminance;
+                        // Floats that are not negative order as integers.
+                        peak.fetch_max(luminance.to_bits(), Ordering::Relaxed);
+                    }
+                    Ok(sum / pixels.len() as f32)
+                })
+                .collect::<Result<_>>()?;
+            let mean = sums.iter().sum::<f32>() / pairs as f32;
+            let toe = (TOE_OF_MEAN * mean).clamp(1e-6, 1e5);
+            let peak = f32::from_bits(peak.into_inner()).clamp(2.0 * toe, 1e6);
+            (Store::Linear(halves), ColourEncoding::LogLuv { toe, peak })
+        };
+        warn(source, clamped.into_inner(), values / 3, progress);
+        Ok(Self { label: source.label(), lights, views, size, tone, raw_bytes: source.raw_bytes(), pixels })
     }
 
     /// Name in errors.
     #[must_use]
     pub fn label(&self) -> &str {
         &self.label
-    }
-
-    /// What was changed or left out of the source, a line each.
-    #[must_use]
-    pub fn warnings(&self) -> &[String] {
-        &self.warnings
     }
 
     /// Unit vectors towards the lights.
@@ -192,8 +208,9 @@ impl Images {
             return bytes;
         }
         match &self.pixels {
-            Store::Bytes(bytes) => bytes.len() as u64,
-            Store::Halves(halves) => 2 * halves.len() as u64,
+            Store::Display(bytes) => bytes.len() as u64,
+            Store::Deep(words) => 2 * words.len() as u64,
+            Store::Linear(halves) => 2 * halves.len() as u64,
         }
     }
 
@@ -210,43 +227,21 @@ impl Images {
         let image = 3 * self.texels();
         let range = pair * image..(pair + 1) * image;
         match &self.pixels {
-            Store::Bytes(bytes) => {
+            Store::Display(bytes) => {
                 for (texel, rgb) in bytes[range].as_chunks().0.iter().enumerate() {
                     with(texel, rgb.map(|byte| f32::from(byte) * (1.0 / 255.0)));
                 }
             }
-            Store::Halves(halves) => {
+            Store::Deep(words) => {
+                for (texel, rgb) in words[range].as_chunks().0.iter().enumerate() {
+                    with(texel, rgb.map(|word| f32::from(word) * (1.0 / 65_535.0)));
+                }
+            }
+            Store::Linear(halves) => {
                 for (texel, rgb) in halves[range].as_chunks().0.iter().enumerate() {
                     with(texel, rgb.map(f16::to_f32));
                 }
             }
         }
     }
-}
-
-/// All pixels as half floats, and the encoding of linear ones by their luminances.
-fn halves(reader: &Reader<'_>, values: usize, image: usize) -> Result<(Vec<f16>, ColourEncoding)> {
-    let mut halves = vec![f16::ZERO; values];
-    let peak = AtomicU32::new(0);
-    let sums: Vec<f32> = halves
-        .par_chunks_mut(image)
-        .enumerate()
-        .map(|(pair, image)| -> Result<f32> {
-            let mut sum = 0.0;
-            let pixels = reader.read(pair)?;
-            for (halves, rgb) in image.as_chunks_mut::<3>().0.iter_mut().zip(&pixels) {
-                *halves = rgb.map(f16::from_f32);
-                let [r, g, b] = halves.map(f16::to_f32);
-                let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-                sum += luminance;
-                // Floats that are not negative order as integers.
-                peak.fetch_max(luminance.to_bits(), Ordering::Relaxed);
-            }
-            Ok(sum / pixels.len() as f32)
-        })
-        .collect::<Result<_>>()?;
-    let mean = sums.iter().sum::<f32>() / sums.len() as f32;
-    let toe = (TOE_OF_MEAN * mean).clamp(1e-6, 1e5);
-    let peak = f32::from_bits(peak.into_inner()).clamp(2.0 * toe, 1e6);
-    Ok((halves, ColourEncoding::LogLuv { toe, peak }))
 }

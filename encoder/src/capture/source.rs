@@ -16,17 +16,16 @@ pub trait Source: Sync {
     fn size(&self) -> [u32; 2];
     /// The linear value of display white, where pixels are display values; `None` where they are linear.
     fn white(&self) -> Option<f32>;
+    /// Whether display values have 16 bits rather than 8.
+    fn is_deep(&self) -> bool {
+        false
+    }
     /// One image, row by row: π times the radiance under light of unit irradiance on a plane that faces it, as display
     /// values or linear.
     ///
     /// # Errors
     /// If it cannot be read.
     fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>>;
-
-    /// Whether a byte holds each display value; half floats hold them otherwise.
-    fn has_bytes(&self) -> bool {
-        self.white().is_some()
-    }
 
     /// What was changed or left out when the source was opened, a line each.
     fn warnings(&self) -> Vec<String> {

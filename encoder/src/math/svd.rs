@@ -189,7 +189,7 @@ mod tests {
                 let found = Columns { rows, columns, group: 1, fill }.decompose(128, 1, &());
                 let back = found.texels.transpose() * found.basis.transpose();
                 let error = (&back - &a).norm();
-                assert!(error <= 1e-4 * a.norm(), "{rows} × {columns}: {error} of {}, rank {}", a.norm(), found.rank());
+                assert!(error <= 1e-3 * a.norm(), "{rows} × {columns}: {error} of {}, rank {}", a.norm(), found.rank());
             }
         }
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::listing::Listing;
 use crate::capture::directions::{Direction, image_name};
 use crate::error::{Error, Result};
-use crate::picture::{Header, Picture};
+use crate::picture::{self, Picture};
 
 /// A folder with an image for every pair of a light and a view.
 #[derive(Debug)]
@@ -14,8 +14,8 @@ pub struct Folder {
     path: PathBuf,
     lights: Vec<Direction>,
     views: Vec<Direction>,
-    /// What all images have in common.
-    header: Header,
+    /// What the headers of all images say.
+    header: picture::Header,
     /// Files by light and view.
     images: BTreeMap<[Direction; 2], PathBuf>,
     facts: Option<serde_json::Value>,
@@ -89,16 +89,16 @@ impl Folder {
         self.header.is_deep
     }
 
-    /// Bytes of all images in memory, three channels of one byte, of two or of four.
+    /// Bytes of all images, three channels of one byte, two or four.
     #[must_use]
     pub fn raw_bytes(&self) -> u64 {
-        let value_bytes = match self.header {
-            Header { is_linear: true, .. } => 4,
-            Header { is_deep: true, .. } => 2,
-            _ => 1,
+        let [width, height] = self.header.size.map(u64::from);
+        let bytes = match (self.is_linear(), self.is_deep()) {
+            (true, _) => 4,
+            (false, true) => 2,
+            (false, false) => 1,
         };
-        let pixels = u64::from(self.header.size[0]) * u64::from(self.header.size[1]);
-        3 * value_bytes * pixels * self.images.len() as u64
+        width * height * self.images.len() as u64 * 3 * bytes
     }
 
     /// Where the images come from, as `btf.json` beside them says; `None` if there is none.
@@ -128,30 +128,38 @@ impl Folder {
             let found = format!("no image \"{}\"", image_name(light, view));
             return Err(Error::input(&self.path, found, "directions that the folder has"));
         };
-        Ok(Picture::open(file)?.pixels().to_vec())
+        let picture = Picture::open(file)?;
+        if picture.size() != self.size() {
+            return Err(Error::input(
+                file,
+                "another size than before",
+                "images that stay as they are while they are read",
+            ));
+        }
+        Ok(picture.pixels().to_vec())
     }
 }
 
-/// The header that all images have, as far as it matters here.
-fn common_header<'a>(mut files: impl Iterator<Item = &'a PathBuf>) -> Result<Header> {
-    let Some(first) = files.next() else {
-        return Err(Error::Request("no image".to_owned()));
-    };
-    let mut common = Header::open(first)?;
+/// What the headers of all images say alike.
+fn common_header<'a>(files: impl Iterator<Item = &'a PathBuf>) -> Result<picture::Header> {
+    let mut common = None;
     for file in files {
-        let Header { size: [width, height], is_linear, is_deep } = Header::open(file)?;
-        common.is_deep |= is_deep;
-        let [w, h] = common.size;
-        if [w, h] != [width, height] {
-            let found = format!("{width} × {height} pixels");
-            return Err(Error::input(file, found, format!("{w} × {h}, as the images before it")));
-        }
-        if is_linear != common.is_linear {
-            let of = |is_linear| if is_linear { "linear floats" } else { "display values" };
-            return Err(Error::input(file, of(is_linear), format!("{}, as in the images before it", of(common.is_linear))));
+        let header = picture::Header::open(file)?;
+        let first = *common.get_or_insert(header);
+        if header != first {
+            let told = |header: picture::Header| {
+                let [width, height] = header.size;
+                let values = match (header.is_linear, header.is_deep) {
+                    (true, _) => "linear floats",
+                    (false, true) => "16 bits",
+                    (false, false) => "8 bits",
+                };
+                format!("{width} × {height} pixels of {values}")
+            };
+            return Err(Error::input(file, told(header), format!("{}, as the images before it", told(first))));
         }
     }
-    Ok(common)
+    Ok(common.expect("a folder has an image"))
 }
 
 /// What `btf.json` says, if it is there.
@@ -229,7 +237,7 @@ mod tests {
         let larger = open("larger", &|folder| {
             image::RgbImage::new(3, 2).save(image(folder, 1, 1)).unwrap();
         });
-        assert!(larger.contains("tl075 pl090 tv030 pv000.png: 3 × 2 pixels; expected 2 × 2"), "{larger}");
+        assert!(larger.contains("tl075 pl090 tv030 pv000.png: 3 × 2 pixels of 8 bits; expected 2 × 2"), "{larger}");
         let broken = open("broken", &|folder| std::fs::write(image(folder, 0, 1), "no image").unwrap());
         assert!(broken.contains("tl000 pl000 tv030 pv000.png"), "{broken}");
         let mixed = open("mixed", &|folder| {

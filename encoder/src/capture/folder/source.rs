@@ -29,8 +29,8 @@ impl Source for Folder {
         (!self.is_linear()).then_some(white)
     }
 
-    fn has_bytes(&self) -> bool {
-        !self.is_linear() && !self.is_deep()
+    fn is_deep(&self) -> bool {
+        self.is_deep()
     }
 
     fn warnings(&self) -> Vec<String> {

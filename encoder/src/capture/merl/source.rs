@@ -41,6 +41,11 @@ impl Source for Merl {
         Ok(vec![self.eval(light, view).map(|value| PI * value * light.z)])
     }
 
+    fn warnings(&self) -> Vec<String> {
+        let nothing = || format!("{}: no sample was measured, all are below 0 or no numbers; it is black", self.label());
+        self.is_empty().then(nothing).into_iter().collect()
+    }
+
     fn raw_bytes(&self) -> Option<u64> {
         Some(FILE_BYTES as u64)
     }
