@@ -116,9 +116,9 @@ impl Images {
         let (pixels, tone) = if let Some(white) = source.white() {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
             let store = if source.is_deep() {
-                Store::Deep(display(values, image, &read, |value| (value * 65_535.0).round() as u16)?)
+                Store::Deep(display(values, image, read, |value| (value * 65_535.0).round() as u16)?)
             } else {
-                Store::Display(display(values, image, &read, |value| (value * 255.0).round() as u8)?)
+                Store::Display(display(values, image, read, |value| (value * 255.0).round() as u8)?)
             };
             (store, ColourEncoding::Display { white })
         } else {

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
+use super::jpeg;
 use super::radiance::{self, Layout};
 use super::{Header, Picture};
 use crate::error::{Error, Result};
@@ -30,6 +31,7 @@ pub(super) struct Decoder {
 
 enum Source {
     Radiance(BufReader<File>, Layout),
+    Jpeg(Box<dyn ImageDecoder>),
     Other(Box<dyn ImageDecoder>),
 }
 
@@ -45,14 +47,15 @@ impl Decoder {
             let layout = radiance::read_header(&mut file).map_err(wrong)?;
             (Source::Radiance(file, layout), layout.scanlines, true, false, layout.orientation)
         } else {
-            let mut decoder = other(path, file)?;
+            let (mut decoder, format) = other(path, file)?;
             let colour = decoder.color_type();
             let (bytes, channels) = (colour.bytes_per_pixel(), colour.channel_count());
             let [is_linear, is_deep] = [4, 2].map(|wide| bytes == wide * channels);
             let (width, height) = decoder.dimensions();
             // What cannot be read of EXIF is not there.
             let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
-            (Source::Other(decoder), [width, height], is_linear, is_deep, orientation)
+            let source = if format == ImageFormat::Jpeg { Source::Jpeg(decoder) } else { Source::Other(decoder) };
+            (source, [width, height], is_linear, is_deep, orientation)
         };
         let pixels = u64::from(width) * u64::from(height);
         if pixels == 0 || pixels / PIXELS_OF_BYTE > file_bytes {
@@ -73,11 +76,17 @@ impl Decoder {
         let what = || format!("{}: a picture of {width} × {height} pixels", path.display());
         memory::expect(pixels.saturating_mul(BYTES_OF_PIXEL), what)?;
         let wrong = |error: String| Error::input(&path, error, EXPECTED);
+        if matches!(source, Source::Jpeg(_)) {
+            let file = std::fs::read(&path).map_err(|error| wrong(error.to_string()))?;
+            if !jpeg::is_whole(&file) {
+                return Err(wrong(format!("the file is cut after {} bytes", file.len())));
+            }
+        }
         let mut image = match source {
             Source::Radiance(mut file, layout) => {
                 radiance::read_scanlines(&mut file, layout.scanlines).map_err(wrong)?.into()
             }
-            Source::Other(decoder) => DynamicImage::from_decoder(decoder).map_err(|error| wrong(one_line(error)))?,
+            Source::Jpeg(decoder) | Source::Other(decoder) => DynamicImage::from_decoder(decoder).map_err(|error| wrong(one_line(error)))?,
         };
         image.apply_orientation(orientation);
         let mut transparent = 0;
@@ -91,21 +100,22 @@ impl Decoder {
 }
 
 /// Decoder of a format that the library reads.
-fn other(path: &Path, file: BufReader<File>) -> Result<Box<dyn ImageDecoder>> {
+fn other(path: &Path, file: BufReader<File>) -> Result<(Box<dyn ImageDecoder>, ImageFormat)> {
     let wrong = |error: String| Error::input(path, error, EXPECTED);
     let mut reader = ImageReader::new(file).with_guessed_format().map_err(|error| wrong(error.to_string()))?;
-    if reader.format().is_none() {
-        // TGA has no signature.
-        match path.extension().and_then(ImageFormat::from_extension) {
-            Some(ImageFormat::Tga) => reader.set_format(ImageFormat::Tga),
-            _ => return Err(wrong("not of a known format".to_owned())),
-        }
-    }
+    let by_name = path.extension().and_then(ImageFormat::from_extension);
+    // TGA has no signature.
+    let format = reader.format().or_else(|| by_name.filter(|format| *format == ImageFormat::Tga));
+    let Some(format) = format else {
+        return Err(wrong("not of a known format".to_owned()));
+    };
+    reader.set_format(format);
     // What the pixels take is checked before they are read.
     let mut limits = Limits::no_limits();
     limits.max_alloc = memory::available();
     reader.limits(limits);
-    Ok(Box::new(reader.into_decoder().map_err(|error| wrong(one_line(error)))?))
+    let decoder = reader.into_decoder().map_err(|error| wrong(one_line(error)))?;
+    Ok((Box::new(decoder), format))
 }
 
 fn is_on_its_side(orientation: Orientation) -> bool {

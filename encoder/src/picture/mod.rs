@@ -1,6 +1,7 @@
 //! Pictures that others made, read in one way: maps, environments, images of BTFs.
 
 mod decode;
+mod jpeg;
 mod radiance;
 
 use std::path::Path;

@@ -17,7 +17,7 @@ pub(super) struct Listing {
     /// Files by light and view.
     pub(super) images: BTreeMap<[Direction; 2], PathBuf>,
     /// What was left out, a line for each reason.
-    pub(super) warnings: Vec<String>,
+    pub(super) left_out: Vec<String>,
 }
 
 impl Listing {
@@ -54,14 +54,14 @@ impl Listing {
                 }
             }
         }
-        let warnings = left_out.warnings(folder);
+        let left_out = left_out.lines();
         if images.is_empty() {
-            let found = warnings.first().cloned().unwrap_or_else(|| "no image that is named by its directions".to_owned());
+            let found = left_out.first().cloned().unwrap_or_else(|| "no image that is named by its directions".to_owned());
             return Err(Error::input(folder, found, EXPECTED));
         }
         let images: BTreeMap<_, _> = images.into_iter().map(|(pair, candidate)| (pair, candidate.file)).collect();
         one_format(images.values())?;
-        Ok(Self { images, warnings })
+        Ok(Self { images, left_out })
     }
 }
 
@@ -135,9 +135,9 @@ impl LeftOut {
         self.0.entry(reason).or_insert_with(|| (name(), 0)).1 += 1;
     }
 
-    fn warnings(&self, folder: &Path) -> Vec<String> {
+    fn lines(&self) -> Vec<String> {
         let line = |(reason, (first, count)): (&&str, &(String, usize))| {
-            format!("{}: {count} images are left out, as {reason}; \"{first}\" first", folder.display())
+            format!("{count} images are left out, as {reason}; \"{first}\" first")
         };
         self.0.iter().map(line).collect()
     }

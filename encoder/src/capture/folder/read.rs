@@ -31,7 +31,7 @@ impl Folder {
     /// # Errors
     /// [`Error::Input`] with what is missing, twice there, or of another size.
     pub fn open(path: &Path) -> Result<Self> {
-        let Listing { images, warnings } = Listing::new(path)?;
+        let Listing { images, left_out } = Listing::new(path)?;
         let of = |which: usize| images.keys().map(|pair| pair[which]).collect::<BTreeSet<_>>().into_iter().collect();
         let (lights, views): (Vec<Direction>, Vec<Direction>) = (of(0), of(1));
         let pairs = || lights.iter().flat_map(|light| views.iter().map(move |view| [*light, *view]));
@@ -44,12 +44,13 @@ impl Folder {
                 views.len(),
                 image_name(*light, *view)
             );
-            let left_out = warnings.first().map_or_else(String::new, |warning| format!(" ({warning})"));
+            let left_out = left_out.first().map_or_else(String::new, |line| format!(" ({line})"));
             return Err(Error::input(path, format!("{found}{left_out}"), "every light with every view"));
         }
         let header = common_header(images.values())?;
         let facts = facts(path)?;
         let exposure = exposure(path, facts.as_ref())?;
+        let warnings = left_out.iter().map(|line| format!("{}: {line}", path.display())).collect();
         Ok(Self { path: path.to_owned(), lights, views, header, images, facts, exposure, warnings })
     }
 
