@@ -26,13 +26,7 @@ pub(super) fn info(args: &Args) -> anyhow::Result<()> {
     print(args, kind, source.as_ref(), raw_bytes, None)
 }
 
-fn print(
-    args: &Args,
-    kind: &str,
-    source: &dyn Source,
-    raw_bytes: u64,
-    simulated: Option<Value>,
-) -> anyhow::Result<()> {
+fn print(args: &Args, kind: &str, source: &dyn Source, raw_bytes: u64, simulated: Option<Value>) -> anyhow::Result<()> {
     check_images(source, &Bars::new())?;
     let ([width, height], is_linear) = (source.size(), source.white().is_none());
     let (lights, views) = (source.lights(), source.views());
@@ -52,7 +46,9 @@ fn print(
     let (lights, views, raw) = (lights.len(), views.len(), human(raw_bytes));
     let path = args.file.display();
     if args.file.is_dir() {
-        outln!("{path}: {kind}, {lights} lights × {views} views, {width} × {height} pixels, {pixels}, {raw} uncompressed");
+        outln!(
+            "{path}: {kind}, {lights} lights × {views} views, {width} × {height} pixels, {pixels}, {raw} uncompressed"
+        );
     } else {
         outln!("{path}: {kind}, {lights} lights × {views} views, {width} × {height} pixels, {pixels}, {raw}");
     }

@@ -99,7 +99,8 @@ impl Images {
         let pairs = lights.len() * views.len();
         let [width, height] = size.map(|side| side as usize);
         let image = width.checked_mul(height).and_then(|texels| texels.checked_mul(3));
-        let values = image.and_then(|image| image.checked_mul(pairs)).filter(|values| *values < isize::MAX as usize / 2);
+        let values =
+            image.and_then(|image| image.checked_mul(pairs)).filter(|values| *values < isize::MAX as usize / 2);
         let Some((image, values)) = image.zip(values) else {
             return Err(Error::Request(format!("{}: too many pixels", source.label())));
         };

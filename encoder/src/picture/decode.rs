@@ -86,7 +86,9 @@ impl Decoder {
             Source::Radiance(mut file, layout) => {
                 radiance::read_scanlines(&mut file, layout.scanlines).map_err(wrong)?.into()
             }
-            Source::Jpeg(decoder) | Source::Other(decoder) => DynamicImage::from_decoder(decoder).map_err(|error| wrong(one_line(error)))?,
+            Source::Jpeg(decoder) | Source::Other(decoder) => {
+                DynamicImage::from_decoder(decoder).map_err(|error| wrong(one_line(error)))?
+            }
         };
         image.apply_orientation(orientation);
         let mut transparent = 0;

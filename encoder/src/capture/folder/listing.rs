@@ -56,7 +56,8 @@ impl Listing {
         }
         let left_out = left_out.lines();
         if images.is_empty() {
-            let found = left_out.first().cloned().unwrap_or_else(|| "no image that is named by its directions".to_owned());
+            let found =
+                left_out.first().cloned().unwrap_or_else(|| "no image that is named by its directions".to_owned());
             return Err(Error::input(folder, found, EXPECTED));
         }
         let images: BTreeMap<_, _> = images.into_iter().map(|(pair, candidate)| (pair, candidate.file)).collect();
@@ -85,7 +86,8 @@ fn named_files(folder: &Path, depth: usize) -> Result<Vec<Candidate>> {
         let unreadable = |error| Error::input(&folder, error, format!("a folder of {EXPECTED}"));
         for entry in std::fs::read_dir(&folder).map_err(unreadable)? {
             let path = entry.map_err(unreadable)?.path();
-            let lower = |text: Option<&std::ffi::OsStr>| text.unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+            let lower =
+                |text: Option<&std::ffi::OsStr>| text.unwrap_or_default().to_string_lossy().to_ascii_lowercase();
             let (stem, extension) = (lower(path.file_stem()), lower(path.extension()));
             // Hidden files are the system's: archives of macOS have one beside every image.
             if stem.starts_with('.') {

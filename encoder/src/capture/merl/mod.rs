@@ -99,7 +99,8 @@ impl Merl {
 
     /// Whether no sample was measured.
     fn is_empty(&self) -> bool {
-        (0..SAMPLES).all(|at| self.sample([at / (COUNTS[1] * COUNTS[2]), at / COUNTS[2] % COUNTS[1], at % COUNTS[2]]).is_none())
+        (0..SAMPLES)
+            .all(|at| self.sample([at / (COUNTS[1] * COUNTS[2]), at / COUNTS[2] % COUNTS[1], at % COUNTS[2]]).is_none())
     }
 
     /// The one sample whose cell the directions are in, as the database's own reader has it; zero if it was not

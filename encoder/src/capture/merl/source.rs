@@ -42,7 +42,8 @@ impl Source for Merl {
     }
 
     fn warnings(&self) -> Vec<String> {
-        let nothing = || format!("{}: no sample was measured, all are below 0 or no numbers; it is black", self.label());
+        let nothing =
+            || format!("{}: no sample was measured, all are below 0 or no numbers; it is black", self.label());
         self.is_empty().then(nothing).into_iter().collect()
     }
 

@@ -29,10 +29,9 @@ pub(super) fn parse(path: &Path, file: &[u8]) -> Result<Rgl> {
     }
     let ([azimuths, of_density, rows, columns], densities) = tensors.floats("vndf")?;
     let ([of_azimuths, of_rgb, channels, height, width], rgb) = tensors.floats("rgb")?;
-    for (name, shape) in [
-        ("vndf", [azimuths, of_density, 3, rows, columns]),
-        ("rgb", [of_azimuths, of_rgb, channels, height, width]),
-    ] {
+    for (name, shape) in
+        [("vndf", [azimuths, of_density, 3, rows, columns]), ("rgb", [of_azimuths, of_rgb, channels, height, width])]
+    {
         let [azimuths, found, channels, y, x] = shape;
         if (azimuths, found, channels) != (1, slices, 3) || y < 2 || x < 2 {
             let found = format!("\"{name}\" of {azimuths} × {found} slices, {channels} channels, {y} × {x} nodes");

@@ -68,13 +68,18 @@ impl Mixture<'_> {
         let [first, second] = [y, y + 1].map(|y| self.mix(|of| of.along[at(y, columns - 1)]));
         let over = self.mix(|of| of.over[y]) + fy * first + 0.5 * fy * fy * (second - first);
         let total = self.mix(|of| of.over[rows - 1]);
-        let share = |part: f64, whole: f64, else_: f64| if whole > 0.0 { (part / whole).clamp(0.0, 1.0) } else { else_ };
+        let share =
+            |part: f64, whole: f64, else_: f64| if whole > 0.0 { (part / whole).clamp(0.0, 1.0) } else { else_ };
         [share(below, whole, place[0]), share(over, total, place[1])]
     }
 }
 
 /// Node below a coordinate from 0 to 1 of so many nodes, and how far it is to the next, 0 to 1.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "casts saturate; the last but one is the limit")]
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "casts saturate; the last but one is the limit"
+)]
 pub(super) fn node(coordinate: f64, count: usize) -> (usize, f64) {
     let at = coordinate * (count - 1) as f64;
     let below = (at as usize).min(count - 2);

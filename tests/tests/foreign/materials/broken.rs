@@ -31,7 +31,9 @@ fn btf() -> Vec<u8> {
 }
 
 fn png() -> Vec<u8> {
-    let image = RgbImage::from_fn(4, 3, |x, y| image::Rgb([60 * x, 70 * y, 9].map(|value| u8::try_from(value).expect("small"))));
+    let image = RgbImage::from_fn(4, 3, |x, y| {
+        image::Rgb([60 * x, 70 * y, 9].map(|value| u8::try_from(value).expect("small")))
+    });
     let mut bytes = Cursor::new(Vec::new());
     DynamicImage::from(image).write_to(&mut bytes, ImageFormat::Png).expect("memory can be written to");
     bytes.into_inner()

@@ -75,9 +75,10 @@ fn container(arrays: &[Array]) -> Vec<u8> {
 impl Bsdf {
     fn arrays(&self) -> Vec<Array> {
         let table = |name, of: fn(f64) -> f64| floats(name, &[2, 7], (0..14).map(move |k| of((k % 7) as f64 / 6.0)));
-        let density = self.densities.iter().flat_map(|[a, b, c, d]| {
-            nodes(OF_DENSITY).map(move |[x, y]| (a + b * x) * (c + d * y))
-        });
+        let density = self
+            .densities
+            .iter()
+            .flat_map(|[a, b, c, d]| nodes(OF_DENSITY).map(move |[x, y]| (a + b * x) * (c + d * y)));
         let slices = (0..2).flat_map(|slice| (0..3).map(move |channel| (slice, channel)));
         let measured = slices.flat_map(|(slice, channel)| nodes(OF_RGB).map(move |place| rgb(slice, channel, place)));
         vec![
@@ -139,7 +140,8 @@ fn brdfs_are_what_integrals_say() {
         let rgl = Rgl::open(&path).unwrap();
         for k in 0..400_u32 {
             let angle = |n: u32, most: f64| f64::from(k * (2 * n + 1) * 37 % 397) / 397.0 * most;
-            let (light, view) = (direction(2.0 + angle(0, 86.0), angle(1, 360.0)), direction(angle(2, 86.0), angle(3, 360.0)));
+            let (light, view) =
+                (direction(2.0 + angle(0, 86.0), angle(1, 360.0)), direction(angle(2, 86.0), angle(3, 360.0)));
             let (found, expected) = (rgl.eval(light.as_vec3(), view.as_vec3()), bsdf.expected(light, view));
             for c in 0..3 {
                 let error = (f64::from(found[c]) / expected[c] - 1.0).abs();

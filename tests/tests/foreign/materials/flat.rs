@@ -56,7 +56,8 @@ fn psnr(images: &[Images], method: Method, nodes: [u8; 4]) -> Result<f64, String
         _ => Goal::Usual,
     };
     let options = Options { method, nodes: Some(nodes), goal, ..Options::default() };
-    let encoded = encode(images, &["flat".to_owned()], &options, &(), &mut |_| ()).map_err(|error| error.to_string())?;
+    let encoded =
+        encode(images, &["flat".to_owned()], &options, &(), &mut |_| ()).map_err(|error| error.to_string())?;
     Ok(judge(images, &encoded.bytes, &()).expect("files of our own are read").psnr_db)
 }
 
@@ -83,7 +84,8 @@ fn materials_without_variation_are_encoded() {
         let formula = Formula { lights: all.clone(), views: all.clone(), side: 4, white, value };
         let images = [Images::load(&formula, &()).unwrap()];
         for method in METHODS {
-            let found = psnr(&images, method, [5, 5, 3, 4]).unwrap_or_else(|error| panic!("{name}, {method:?}: {error}"));
+            let found =
+                psnr(&images, method, [5, 5, 3, 4]).unwrap_or_else(|error| panic!("{name}, {method:?}: {error}"));
             // The baseline's thresholds allow some errors.
             let least = if method == Method::Havran2010 { 15.0 } else { 25.0 };
             assert!(found > least, "{name}, {method:?}, white {white:?}: {found:.1} dB");
@@ -109,8 +111,12 @@ fn few_directions_are_encoded() {
         let images = [Images::load(&formula, &()).unwrap()];
         for method in METHODS {
             match psnr(&images, method, [5, 5, 3, 4]) {
-                Ok(found) if lights * views > 1 => assert!(found > 15.0, "{lights} × {views}, {method:?}: {found:.1} dB"),
-                Err(error) if lights * views == 1 => assert!(error.contains("formula: 1 image; a BTF has two"), "{error}"),
+                Ok(found) if lights * views > 1 => {
+                    assert!(found > 15.0, "{lights} × {views}, {method:?}: {found:.1} dB")
+                }
+                Err(error) if lights * views == 1 => {
+                    assert!(error.contains("formula: 1 image; a BTF has two"), "{error}")
+                }
                 other => panic!("{lights} × {views}, {method:?}: {other:?}"),
             }
         }
@@ -127,7 +133,8 @@ fn brdfs_without_variation_are_encoded() {
         let warnings = Warnings::default();
         let images = [load_btf(&path, &warnings).unwrap()];
         for method in METHODS {
-            let found = psnr(&images, method, [9, 9, 3, 1]).unwrap_or_else(|error| panic!("{name}, {method:?}: {error}"));
+            let found =
+                psnr(&images, method, [9, 9, 3, 1]).unwrap_or_else(|error| panic!("{name}, {method:?}: {error}"));
             assert!(found > 20.0, "{name}, {method:?}: {found:.1} dB");
         }
         let warnings = warnings.into_lines();

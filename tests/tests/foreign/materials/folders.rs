@@ -14,7 +14,11 @@ const DIRECTIONS: [[u16; 2]; 3] = [[0, 0], [30, 90], [60, 270]];
 fn image(light: usize, view: usize) -> RgbImage {
     RgbImage::from_fn(3, 2, |x, y| {
         let value = |k: u32| u8::try_from(k).expect("small");
-        image::Rgb([value(80 * x + 9), value(90 * y + 7), value(40 * u32::try_from(3 * light + view).expect("small") % 250)])
+        image::Rgb([
+            value(80 * x + 9),
+            value(90 * y + 7),
+            value(40 * u32::try_from(3 * light + view).expect("small") % 250),
+        ])
     })
 }
 
