@@ -21,7 +21,9 @@ pub use directions::{Direction, bonn};
 pub use folder::{Folder, FolderWriter, Pixels};
 pub use images::{Images, check_images};
 pub use merl::Merl;
-pub use npy::{Capture, CaptureWriter, Overrides, Scalar, Sidecar, neighbour, sidecar_path, way_back};
+pub use npy::{
+    Capture, CaptureWriter, Overrides, Scalar, Sidecar, check_capture_target, neighbour, sidecar_path, way_back,
+};
 pub use open::{is_btf, load_btf, open_btf};
 pub use rgl::Rgl;
 pub use source::Source;
