@@ -7,6 +7,11 @@ use subsurf_encoder::capture::{Folder, Images, check_images, load_btf};
 
 use super::Warnings;
 
+/// Path of the image of a light and a view.
+type Layout = fn([u16; 2], [u16; 2]) -> String;
+/// What is done to a folder.
+type Change<'a> = &'a dyn Fn(&Path);
+
 /// θ and φ of lights and views.
 const DIRECTIONS: [[u16; 2]; 3] = [[0, 0], [30, 90], [60, 270]];
 
@@ -57,7 +62,7 @@ fn read(folder: &Path, name: &str) -> Vec<String> {
 #[test]
 fn folders_of_databases_are_read() {
     let place = tempfile::tempdir().unwrap();
-    let layouts: [(&str, fn([u16; 2], [u16; 2]) -> String); 7] = [
+    let layouts: [(&str, Layout); 7] = [
         ("flat", plain),
         ("by view", |l, v| format!("tv{:03}_pv{:03}/00000 {}", v[0], v[1], plain(l, v))),
         ("by material and view", |l, v| format!("WOOL/tv{:03}_pv{:03}/{}", v[0], v[1], plain(l, v))),
@@ -114,7 +119,7 @@ fn what_is_wrong_with_a_folder_is_said_in_a_line() {
         std::fs::remove_dir_all(folder).unwrap();
         write(folder, |l, v| format!("tl{} pl{} tv{} pv{}.png", 91 + l[0], l[1], v[0], v[1]));
     };
-    let cases: [(&str, &dyn Fn(&Path)); 5] = [
+    let cases: [(&str, Change<'_>); 5] = [
         ("the same directions as", &twice),
         ("9 images are left out, as θ is not from 0° to 90°", &all_low),
         ("no image that is named by its directions", &|folder| {
