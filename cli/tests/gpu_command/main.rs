@@ -5,6 +5,7 @@ mod btf;
 mod captures;
 mod common;
 mod inputs_captures;
+mod inputs_materials;
 mod interrupt;
 mod render;
 #[cfg(target_os = "linux")]
