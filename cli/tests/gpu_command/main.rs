@@ -4,6 +4,7 @@ mod bssrdf;
 mod btf;
 mod captures;
 mod common;
+mod inputs_meshes;
 mod interrupt;
 mod render;
 #[cfg(target_os = "linux")]
