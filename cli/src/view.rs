@@ -41,7 +41,7 @@ pub(crate) struct Args {
     /// Begin with ten times the difference to the gather, or of a BTF to its images
     #[arg(long)]
     error: bool,
-    /// Light from all around: an equirectangular picture, .hdr or .png
+    /// Light from all around: an equirectangular picture (.hdr, .exr, .png, .jpg ..)
     #[arg(long, value_name = "FILE")]
     environment: Option<PathBuf>,
     /// Pixels of the window

@@ -10,9 +10,12 @@
 //! | [`metrics`] | the one judge of files: albedo error, PSNR, SSIM, MSSIM |
 //! | [`baseline`] | earlier methods that only comparisons need, named by their papers |
 //! | [`synthetic`] | materials without any meaning, for timing and for tests |
+//! | [`picture`] | the one reader of pictures: maps, environments, images of BTFs |
+//! | [`memory`] | what work may take |
 //!
 //! Files depend on their input and options alone, not on the number of threads. Every file is read back by the decoder
-//! before it is handed out. Long work reports to a [`Progress`], which may also end it early.
+//! before it is handed out. Long work reports to a [`Progress`], which may also end it early and hears of what is left out
+//! of an input or changed in it.
 //!
 //! A file from a capture:
 //!
@@ -45,7 +48,9 @@ pub mod capture;
 mod error;
 mod file;
 mod math;
+pub mod memory;
 pub mod metrics;
+pub mod picture;
 mod progress;
 pub mod rate;
 pub mod simulate;

@@ -9,6 +9,7 @@ use subsurf_decoder::bssrdf::Coding;
 use subsurf_decoder::bssrdf::layout::MAX_BASE_MATERIALS;
 use subsurf_encoder::bssrdf::{Encoded, Method, Options, encode, fit_bytes};
 use subsurf_encoder::capture::{Capture, sidecar_path};
+use subsurf_encoder::memory::available;
 use subsurf_encoder::metrics::bssrdf::judge;
 use subsurf_encoder::rate::Target;
 use subsurf_encoder::rate::bssrdf::{Point, search};
@@ -21,7 +22,6 @@ use crate::options::{ByteCount, CaptureArgs};
 use crate::outln;
 use crate::program::failure::bad_request;
 use crate::program::interrupt::Graceful;
-use crate::program::memory::available;
 use crate::program::progress::Bars;
 
 /// Arguments of a fit to a capture.

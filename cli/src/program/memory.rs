@@ -1,4 +1,4 @@
-//! Memory of this process and of the machine.
+//! Memory of this process.
 
 /// Resident memory in bytes, as far as the system tells.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,12 +18,4 @@ pub fn resident() -> Option<Resident> {
         Some(kib * 1024)
     };
     Some(Resident { peak: field("VmHWM:")?, mapped: field("RssFile:").unwrap_or(0) })
-}
-
-/// Bytes that can still be had, as far as the system tells.
-pub fn available() -> Option<u64> {
-    let memory = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = memory.lines().find(|line| line.starts_with("MemAvailable:"))?;
-    let kib: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
-    Some(kib * 1024)
 }

@@ -5,6 +5,7 @@ pub mod interrupt;
 pub mod memory;
 pub mod output;
 pub mod progress;
+pub mod warnings;
 
 use std::process::ExitCode;
 use std::sync::OnceLock;

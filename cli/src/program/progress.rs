@@ -1,11 +1,11 @@
-//! Progress bars with an estimate of what is left, on stderr, when someone looks.
+//! Progress bars with an estimate of what is left, on stderr, when someone looks; and warnings.
 
 use std::sync::Mutex;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::interrupt;
+use super::{interrupt, warnings};
 
 /// Progress bars on stderr, one after the other, a stage each.
 pub struct Bars(Mutex<ProgressBar>);
@@ -41,6 +41,10 @@ impl subsurf_encoder::Progress for Bars {
 
     fn advance(&self, steps: u64) {
         self.current().inc(steps);
+    }
+
+    fn warn(&self, message: &str) {
+        self.current().suspend(|| warnings::warn(message));
     }
 
     fn stopped(&self) -> bool {

@@ -52,7 +52,7 @@ pub(crate) struct Args {
     /// How light scatters in a translucent material; gather if not given
     #[arg(long, value_enum)]
     technique: Option<TechniqueArg>,
-    /// Light from all around: an equirectangular picture, .hdr or .png; a dim studio if not given
+    /// Light from all around: an equirectangular picture (.hdr, .exr, .png, .jpg ..); a dim studio if not given
     #[arg(long, value_name = "FILE", requires = "mesh")]
     environment: Option<PathBuf>,
     /// How rough the coat of a translucent material is that reflects it, 0 to 1; 0.25 if not given

@@ -5,11 +5,12 @@ use std::str::FromStr;
 
 use glam::Vec3;
 use subsurf_encoder::metrics::bssrdf::Light;
+use subsurf_encoder::picture::Picture;
 use subsurf_scene::{Environment, UpAxis};
-use subsurf_shaders::{Rgb, cpu};
 use subsurf_viewer::{Angles, MappingChoice, Scattering};
 
 use crate::program::failure::bad_request;
+use crate::program::warnings::warn;
 
 /// Technique by which light in a translucent material is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -114,14 +115,17 @@ impl FromStr for AnglesArg {
     }
 }
 
-/// An equirectangular picture; 8-bit ones are taken as sRGB.
+/// An equirectangular picture; those of integers are taken as sRGB. Radiances out of range are clamped, with a warning.
 pub(crate) fn read_environment(path: &Path) -> anyhow::Result<Environment> {
-    let wrong = |reason: String| bad_request(format!("{}: {reason}", path.display()));
-    let picture = image::open(path).map_err(|error| wrong(error.to_string()))?;
-    let is_linear = matches!(picture.color(), image::ColorType::Rgb32F | image::ColorType::Rgba32F);
-    let picture = picture.into_rgb32f();
-    let size = [picture.width(), picture.height()];
-    let decoded = |pixel: Rgb| if is_linear { pixel } else { cpu::linear(pixel) };
-    let pixels: Vec<Rgb> = picture.pixels().map(|pixel| decoded(pixel.0)).collect();
-    Environment::equirectangular(size, &pixels).map_err(|error| wrong(error.to_string()))
+    let mut picture = Picture::open(path)?.into_linear();
+    let brightest = picture.largest().min(Environment::BRIGHTEST);
+    let clamped = picture.clamp(brightest);
+    if clamped > 0 {
+        let (path, pixels) = (path.display(), picture.pixels().len());
+        warn(&format!(
+            "{path}: {clamped} of {pixels} pixels are negative, infinite or NaN; they are clamped to 0 to {brightest}"
+        ));
+    }
+    Environment::equirectangular(picture.size(), picture.pixels())
+        .map_err(|error| bad_request(format!("{}: {error}", path.display())))
 }

@@ -90,13 +90,14 @@ impl ValueEnum for MaterialArg {
 }
 
 pub(super) fn run(args: &SlabArgs) -> anyhow::Result<()> {
+    let bars = Bars::new();
     let size = args.size.0.map(|side| side as usize);
     let (map, source) = match args.material {
         Some(MaterialArg(material)) => {
             (material.map(size, args.addressing.into(), args.seed), json!({ "scene": material.name() }))
         }
         None => {
-            let map = maps::read(&args.maps, args.stretch, size, args.eta)?;
+            let map = maps::read(&args.maps, args.stretch, size, args.eta, &bars)?;
             (map, json!({ "maps": args.maps, "stretch": args.stretch }))
         }
     };
@@ -120,7 +121,7 @@ pub(super) fn run(args: &SlabArgs) -> anyhow::Result<()> {
         return Err(bad_request(format!("{output}: .json is for the facts beside the array; name the array .npy")));
     }
     let start = Instant::now();
-    let Summary { window_share, asymmetry } = request.write(&args.output, &Bars::new())?;
+    let Summary { window_share, asymmetry } = request.write(&args.output, &bars)?;
     let bytes = std::fs::metadata(&args.output).map_or(0, |metadata| metadata.len());
     outln!(
         "{}: synthetic capture, {} × {} pixels, window {}, {} in {:.1} s",

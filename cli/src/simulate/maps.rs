@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use subsurf_encoder::Progress;
 use subsurf_encoder::simulate::diffusion::MediumMap;
 use subsurf_encoder::simulate::diffusion::maps::{MeanFreePath, Weight, albedo, mixture};
 
@@ -14,6 +15,7 @@ Maps, in one of two ways:
                                                   value, a number, or what the others leave of 1
   --maps albedo=colour.jpg --maps mfp=1.5         diffuse albedo of an image, and mean free path in mm: one number,
                                                   three (1.5,1.0,0.6), or an image with its range (mfp.png:0.3:2.0)
+Images: PNG, JPEG, WebP, TIFF, TGA, BMP (sRGB), OpenEXR and Radiance HDR (linear).
 Materials: apple chicken1 chicken2 cream ketchup marble potato skimmilk skin1 skin2 spectralon wholemilk.
 
 Built-in materials are synthetic patterns of the same measured media; blue-wax has an invented pigment beside them. Nothing
@@ -21,7 +23,13 @@ here was measured as a patch.";
 
 /// Media of a patch of `size` pixels from entries NAME=VALUE; `stretch` spreads the values of weights, `eta` is the
 /// refractive index.
-pub(super) fn read(entries: &[String], stretch: bool, size: [usize; 2], eta: f64) -> anyhow::Result<MediumMap> {
+pub(super) fn read(
+    entries: &[String],
+    stretch: bool,
+    size: [usize; 2],
+    eta: f64,
+    progress: &dyn Progress,
+) -> anyhow::Result<MediumMap> {
     let mut weights = Vec::new();
     let mut colours = None;
     let mut mean_free_path = None;
@@ -36,8 +44,8 @@ pub(super) fn read(entries: &[String], stretch: bool, size: [usize; 2], eta: f64
         }
     }
     match (colours, mean_free_path, weights.is_empty()) {
-        (Some(colours), Some(length), true) => Ok(albedo(&colours, &length, size, eta)?),
-        (None, None, false) => Ok(mixture(&weights, size, stretch)?),
+        (Some(colours), Some(length), true) => Ok(albedo(&colours, &length, size, eta, progress)?),
+        (None, None, false) => Ok(mixture(&weights, size, stretch, progress)?),
         (Some(_), None, true) => {
             Err(bad_request("--maps albedo=.. needs --maps mfp=.. too: how far light travels, in mm"))
         }

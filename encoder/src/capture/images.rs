@@ -1,6 +1,6 @@
-//! All images of a BTF in memory: display values, or half floats of linear ones.
+//! All images of a BTF in memory: display values in 8 or 16 bits, or half floats of linear ones.
 
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 use glam::Vec3;
 use half::f16;
@@ -9,9 +9,10 @@ use subsurf_decoder::btf::ColourEncoding;
 
 use crate::capture::source::Source;
 use crate::error::{Error, Result};
+use crate::memory;
 use crate::progress::Progress;
 
-/// The images of one material: three bytes a pixel, or three half floats where they are linear.
+/// The images of one material: three numbers of 8 or 16 bits a pixel, or three half floats where they are linear.
 #[derive(Debug)]
 pub struct Images {
     label: String,
@@ -27,17 +28,38 @@ pub struct Images {
 #[derive(Debug)]
 enum Store {
     Display(Vec<u8>),
+    Deep(Vec<u16>),
     Linear(Vec<f16>),
 }
 
 /// The toe of [`ColourEncoding::LogLuv`], in mean luminances.
 const TOE_OF_MEAN: f32 = 0.05;
 
+/// Largest linear value that is kept: that of half floats.
+const BRIGHTEST: f32 = 65_504.0;
+
+/// All display values of images of `image` values each, rounded.
+fn display<T: Copy + Default + Send + Sync>(
+    values: usize,
+    image: usize,
+    read: impl Fn(usize) -> Result<Vec<[f32; 3]>> + Sync,
+    round: impl Fn(f32) -> T + Sync,
+) -> Result<Vec<T>> {
+    let mut all = vec![T::default(); values];
+    all.par_chunks_mut(image).enumerate().try_for_each(|(pair, image)| -> Result<()> {
+        for (rounded, value) in image.iter_mut().zip(read(pair)?.as_flattened()) {
+            *rounded = round(value.clamp(0.0, 1.0));
+        }
+        Ok(())
+    })?;
+    Ok(all)
+}
+
 impl Images {
     /// All images of a source.
     ///
     /// # Errors
-    /// The first that cannot be read; [`Error::Request`] if they do not fit into memory's address space.
+    /// The first that cannot be read; [`Error::Request`] if they take more memory than there is.
     pub fn load(source: &dyn Source, progress: &dyn Progress) -> Result<Self> {
         let (lights, views, size) = (source.lights(), source.views(), source.size());
         let pairs = lights.len() * views.len();
@@ -46,6 +68,8 @@ impl Images {
         let Some(values) = values else {
             return Err(Error::Request(format!("{}: too many pixels", source.label())));
         };
+        let bytes = if source.white().is_some() && !source.is_deep() { 1 } else { 2 };
+        memory::expect(values as u64 * bytes, || format!("{}: {pairs} images", source.label()))?;
         progress.begin("reading images", pairs as u64);
         let read = |pair: usize| {
             let pixels = source.read(pair / views.len(), pair % views.len())?;
@@ -53,36 +77,47 @@ impl Images {
             Ok(pixels)
         };
         let (pixels, tone) = if let Some(white) = source.white() {
-            let mut bytes = vec![0_u8; values];
-            bytes.par_chunks_mut(image).enumerate().try_for_each(|(pair, image)| -> Result<()> {
-                for (byte, value) in image.iter_mut().zip(read(pair)?.as_flattened()) {
-                    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-                    let rounded = (value.clamp(0.0, 1.0) * 255.0).round() as u8;
-                    *byte = rounded;
-                }
-                Ok(())
-            })?;
-            (Store::Display(bytes), ColourEncoding::Display { white })
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+            let store = if source.is_deep() {
+                Store::Deep(display(values, image, read, |value| (value * 65_535.0).round() as u16)?)
+            } else {
+                Store::Display(display(values, image, read, |value| (value * 255.0).round() as u8)?)
+            };
+            (store, ColourEncoding::Display { white })
         } else {
             let mut halves = vec![f16::ZERO; values];
             let peak = AtomicU32::new(0);
+            let clamped = AtomicU64::new(0);
             let sums: Vec<f32> = halves
                 .par_chunks_mut(image)
                 .enumerate()
                 .map(|(pair, image)| -> Result<f32> {
                     let mut sum = 0.0;
                     let pixels = read(pair)?;
+                    let mut outside = 0;
                     for (halves, rgb) in image.as_chunks_mut::<3>().0.iter_mut().zip(&pixels) {
-                        *halves = rgb.map(|value| f16::from_f32(value.clamp(0.0, 65_504.0)));
+                        outside += u64::from(rgb.iter().any(|value| !(0.0..=BRIGHTEST).contains(value)));
+                        // NaN and -0 become 0.
+                        let kept = |value: f32| if value > 0.0 { value.min(BRIGHTEST) } else { 0.0 };
+                        *halves = rgb.map(|value| f16::from_f32(kept(value)));
                         let [r, g, b] = halves.map(f16::to_f32);
                         let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
                         sum += luminance;
                         // Floats that are not negative order as integers.
                         peak.fetch_max(luminance.to_bits(), Ordering::Relaxed);
                     }
+                    clamped.fetch_add(outside, Ordering::Relaxed);
                     Ok(sum / pixels.len() as f32)
                 })
                 .collect::<Result<_>>()?;
+            match clamped.into_inner() {
+                0 => {}
+                outside => progress.warn(&format!(
+                    "{}: {outside} of {} pixels have values that are not 0 to {BRIGHTEST}; they are clamped, NaN to 0",
+                    source.label(),
+                    values / 3,
+                )),
+            }
             let mean = sums.iter().sum::<f32>() / pairs as f32;
             let toe = (TOE_OF_MEAN * mean).clamp(1e-6, 1e5);
             let peak = f32::from_bits(peak.into_inner()).clamp(2.0 * toe, 1e6);
@@ -148,6 +183,7 @@ impl Images {
         }
         match &self.pixels {
             Store::Display(bytes) => bytes.len() as u64,
+            Store::Deep(words) => 2 * words.len() as u64,
             Store::Linear(halves) => 2 * halves.len() as u64,
         }
     }
@@ -168,6 +204,11 @@ impl Images {
             Store::Display(bytes) => {
                 for (texel, rgb) in bytes[range].as_chunks().0.iter().enumerate() {
                     with(texel, rgb.map(|byte| f32::from(byte) * (1.0 / 255.0)));
+                }
+            }
+            Store::Deep(words) => {
+                for (texel, rgb) in words[range].as_chunks().0.iter().enumerate() {
+                    with(texel, rgb.map(|word| f32::from(word) * (1.0 / 65_535.0)));
                 }
             }
             Store::Linear(halves) => {

@@ -16,6 +16,10 @@ pub trait Source: Sync {
     fn size(&self) -> [u32; 2];
     /// The linear value of display white, where pixels are display values; `None` where they are linear.
     fn white(&self) -> Option<f32>;
+    /// Whether display values have 16 bits rather than 8.
+    fn is_deep(&self) -> bool {
+        false
+    }
     /// One image, row by row: π times the radiance under light of unit irradiance on a plane that faces it, as display
     /// values or linear.
     ///

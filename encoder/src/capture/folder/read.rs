@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::capture::directions::{Direction, directions_of, image_name};
 use crate::error::{Error, Result};
+use crate::picture::{self, Picture};
 
 /// A folder with an image for every pair of a light and a view.
 #[derive(Debug)]
@@ -12,14 +13,10 @@ pub struct Folder {
     path: PathBuf,
     lights: Vec<Direction>,
     views: Vec<Direction>,
-    size: [u32; 2],
-    extension: String,
+    header: picture::Header,
     /// Files by light and view.
     images: BTreeMap<[Direction; 2], PathBuf>,
 }
-
-/// Images that are read, by their extensions; the last two hold linear floats.
-const EXTENSIONS: [&str; 5] = ["png", "jpg", "jpeg", "exr", "hdr"];
 
 impl Folder {
     /// Looks through a folder: every light is there with every view, all images have one format and one size. What is in
@@ -28,8 +25,7 @@ impl Folder {
     /// # Errors
     /// [`Error::Input`] with what is missing, twice there, or of another size.
     pub fn open(path: &Path) -> Result<Self> {
-        let expected =
-            "a folder of images named \"tl000 pl000 tv000 pv000.png\" (.jpg, .exr, .hdr): light and view in degrees";
+        let expected = "a folder of images named \"tl000 pl000 tv000 pv000.png\" (.jpg, .tif, .exr, .hdr ..): light and view in degrees";
         let entries = std::fs::read_dir(path).map_err(|error| Error::input(path, error, expected))?;
         let mut images = BTreeMap::new();
         let mut extension: Option<String> = None;
@@ -38,7 +34,7 @@ impl Folder {
             let lower = |text: &std::ffi::OsStr| text.to_string_lossy().to_ascii_lowercase();
             let kind = file.extension().map(lower).unwrap_or_default();
             let pair = file.file_stem().and_then(|stem| directions_of(&lower(stem)));
-            let Some(pair) = pair.filter(|_| EXTENSIONS.contains(&kind.as_str())) else {
+            let Some(pair) = pair.filter(|_| picture::EXTENSIONS.contains(&kind.as_str())) else {
                 continue;
             };
             if *extension.get_or_insert_with(|| kind.clone()) != kind {
@@ -50,9 +46,9 @@ impl Folder {
                 return Err(Error::input(&file, found, "one image for every pair of directions"));
             }
         }
-        let Some(extension) = extension else {
+        if images.is_empty() {
             return Err(Error::input(path, "no image that is named by its directions", expected));
-        };
+        }
         let of = |which: usize| images.keys().map(|pair| pair[which]).collect::<BTreeSet<_>>().into_iter().collect();
         let (lights, views): (Vec<Direction>, Vec<Direction>) = (of(0), of(1));
         let pairs = || lights.iter().flat_map(|light| views.iter().map(move |view| [*light, *view]));
@@ -67,23 +63,8 @@ impl Folder {
             );
             return Err(Error::input(path, found, "every light with every view"));
         }
-        let mut folder = Self { path: path.to_owned(), lights, views, size: [0; 2], extension, images };
-        folder.size = folder.common_size()?;
-        Ok(folder)
-    }
-
-    fn common_size(&self) -> Result<[u32; 2]> {
-        let mut common = None;
-        for file in self.images.values() {
-            let wrong = |error| Error::input(file, error, "an image");
-            let (width, height) = image::image_dimensions(file).map_err(wrong)?;
-            let [w, h] = *common.get_or_insert([width, height]);
-            if [w, h] != [width, height] {
-                let found = format!("{width} × {height} pixels");
-                return Err(Error::input(file, found, format!("{w} × {h}, as the images before it")));
-            }
-        }
-        Ok(common.unwrap_or_default())
+        let header = common_header(images.values())?;
+        Ok(Self { path: path.to_owned(), lights, views, header, images })
     }
 
     /// The folder.
@@ -107,20 +88,31 @@ impl Folder {
     /// Pixels in x and in y.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
-        self.size
+        self.header.size
     }
 
     /// Whether images hold linear floats; display values otherwise.
     #[must_use]
     pub fn is_linear(&self) -> bool {
-        matches!(self.extension.as_str(), "exr" | "hdr")
+        self.header.is_linear
     }
 
-    /// Bytes of all images in memory, three channels of one byte or four.
+    /// Whether display values have 16 bits rather than 8.
+    #[must_use]
+    pub fn is_deep(&self) -> bool {
+        self.header.is_deep
+    }
+
+    /// Bytes of all images, three channels of one byte, two or four.
     #[must_use]
     pub fn raw_bytes(&self) -> u64 {
-        let pixels = u64::from(self.size[0]) * u64::from(self.size[1]) * self.images.len() as u64;
-        pixels * if self.is_linear() { 12 } else { 3 }
+        let [width, height] = self.header.size.map(u64::from);
+        let bytes = match (self.is_linear(), self.is_deep()) {
+            (true, _) => 4,
+            (false, true) => 2,
+            (false, false) => 1,
+        };
+        width * height * self.images.len() as u64 * 3 * bytes
     }
 
     /// Where the images come from, as `btf.json` beside them says; `None` if there is none.
@@ -139,9 +131,38 @@ impl Folder {
             let found = format!("no image \"{}\"", image_name(light, view));
             return Err(Error::input(&self.path, found, "directions that the folder has"));
         };
-        let image = image::open(file).map_err(|error| Error::input(file, error, "an image"))?.into_rgb32f();
-        Ok(image.pixels().map(|pixel| pixel.0).collect())
+        let picture = Picture::open(file)?;
+        if picture.size() != self.size() {
+            return Err(Error::input(
+                file,
+                "another size than before",
+                "images that stay as they are while they are read",
+            ));
+        }
+        Ok(picture.pixels().to_vec())
     }
+}
+
+/// What the headers of all images say alike.
+fn common_header<'a>(files: impl Iterator<Item = &'a PathBuf>) -> Result<picture::Header> {
+    let mut common = None;
+    for file in files {
+        let header = picture::Header::open(file)?;
+        let first = *common.get_or_insert(header);
+        if header != first {
+            let told = |header: picture::Header| {
+                let [width, height] = header.size;
+                let values = match (header.is_linear, header.is_deep) {
+                    (true, _) => "linear floats",
+                    (false, true) => "16 bits",
+                    (false, false) => "8 bits",
+                };
+                format!("{width} × {height} pixels of {values}")
+            };
+            return Err(Error::input(file, told(header), format!("{}, as the images before it", told(first))));
+        }
+    }
+    Ok(common.expect("a folder has an image"))
 }
 
 #[cfg(test)]
@@ -199,7 +220,7 @@ mod tests {
         let larger = open("larger", &|folder| {
             image::RgbImage::new(3, 2).save(image(folder, 1, 1)).unwrap();
         });
-        assert!(larger.contains("tl075 pl090 tv030 pv000.png: 3 × 2 pixels; expected 2 × 2"), "{larger}");
+        assert!(larger.contains("tl075 pl090 tv030 pv000.png: 3 × 2 pixels of 8 bits; expected 2 × 2"), "{larger}");
         let broken = open("broken", &|folder| std::fs::write(image(folder, 0, 1), "no image").unwrap());
         assert!(broken.contains("tl000 pl000 tv030 pv000.png"), "{broken}");
         let mixed = open("mixed", &|folder| {

@@ -30,6 +30,10 @@ impl Source for Folder {
         (!self.is_linear()).then_some(white)
     }
 
+    fn is_deep(&self) -> bool {
+        self.is_deep()
+    }
+
     fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>> {
         self.read(self.lights()[light], self.views()[view])
     }

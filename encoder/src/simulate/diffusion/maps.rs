@@ -2,13 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use image::codecs::hdr::HdrDecoder;
-use image::imageops::{FilterType, resize};
-use image::{DynamicImage, ImageFormat, ImageReader, Rgb32FImage};
-
 use super::medium::{MEASURED, Medium};
 use super::slab::MediumMap;
 use crate::error::{Error, Result};
+use crate::picture::Picture;
+use crate::progress::Progress;
 
 /// How much of a material there is at every pixel.
 #[derive(Clone, Debug)]
@@ -37,10 +35,16 @@ const STRETCH: [f64; 2] = [0.01, 0.99];
 ///
 /// Images are resampled to `size`. Weights that add up to more than 1 are scaled down to 1; so are others, up or down,
 /// unless one of them is [`Weight::Rest`]. With `stretch`, each image's 1st to 99th percentile is spread to 0 .. 1.
+/// Values out of range are clamped, and `progress` hears how many.
 ///
 /// # Errors
 /// For unknown names, unreadable images, and pixels with no material at all.
-pub fn mixture(parts: &[(String, Weight)], size: [usize; 2], stretch: bool) -> Result<MediumMap> {
+pub fn mixture(
+    parts: &[(String, Weight)],
+    size: [usize; 2],
+    stretch: bool,
+    progress: &dyn Progress,
+) -> Result<MediumMap> {
     let mut planes = Vec::new();
     let mut rest = None;
     for (name, weight) in parts {
@@ -49,7 +53,7 @@ pub fn mixture(parts: &[(String, Weight)], size: [usize; 2], stretch: bool) -> R
             Error::Request(format!("no measured material \"{name}\"; there are {}", known.join(", ")))
         })?;
         let plane = match weight {
-            Weight::Image(path) => grey(path, size, stretch)?,
+            Weight::Image(path) => grey(path, size, stretch, progress)?,
             Weight::Constant(value) if !(value.is_finite() && *value >= 0.0) => {
                 return Err(Error::Request(format!(
                     "a weight of {value} for {name}; weights are finite and not negative"
@@ -85,77 +89,76 @@ pub fn mixture(parts: &[(String, Weight)], size: [usize; 2], stretch: bool) -> R
     Ok(MediumMap { size, media })
 }
 
-/// Media with the diffuse albedo of an image (sRGB, or linear where the format is), inverted with [`Medium::from_albedo`].
+/// Media with the diffuse albedo of an image (sRGB, or linear where its values are floats), inverted with
+/// [`Medium::from_albedo`]. Values out of range are clamped, and `progress` hears how many.
 ///
 /// # Errors
 /// For unreadable images and lengths that are not positive.
-pub fn albedo(image: &Path, mean_free_path: &MeanFreePath, size: [usize; 2], eta: f64) -> Result<MediumMap> {
-    let albedo = linear(image, size)?;
+pub fn albedo(
+    image: &Path,
+    mean_free_path: &MeanFreePath,
+    size: [usize; 2],
+    eta: f64,
+    progress: &dyn Progress,
+) -> Result<MediumMap> {
+    let albedo = load(image, size, Meaning::Colour, progress)?;
     let lengths: Vec<[f64; 3]> = match mean_free_path {
         MeanFreePath::Constant(lengths) => vec![*lengths; size[0] * size[1]],
         MeanFreePath::Image(path, [from, to]) => {
-            let stored = load(path, size, Meaning::Data)?;
+            let stored = load(path, size, Meaning::Data, progress)?;
             let length = |value: f32| from + f64::from(value.clamp(0.0, 1.0)) * (to - from);
-            stored.pixels().map(|rgb| rgb.0.map(length)).collect()
+            stored.pixels().iter().map(|rgb| rgb.map(length)).collect()
         }
     };
     if let Some(length) = lengths.iter().flatten().find(|length| !(length.is_finite() && **length > 0.0)) {
         return Err(Error::Request(format!("a mean free path of {length} mm; it must be positive")));
     }
-    let media = albedo.iter().zip(lengths).map(|(albedo, length)| Medium::from_albedo(*albedo, length, eta));
+    let media = albedo.pixels().iter().zip(lengths);
+    let media = media.map(|(albedo, length)| Medium::from_albedo(albedo.map(f64::from), length, eta));
     Ok(MediumMap { size, media: media.collect() })
-}
-
-fn unreadable(path: &Path, error: impl std::fmt::Display) -> Error {
-    Error::input(path, error, "an image (PNG, JPEG or Radiance HDR)")
 }
 
 /// How an image's values are meant.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Meaning {
-    /// Colours: 8- and 16-bit images are sRGB, and become linear Rec. 709.
+    /// Colours, 0 to 1: those of integers are sRGB, and become linear Rec. 709.
     Colour,
-    /// Numbers, as they are stored; 8-bit ones divided by 255.
+    /// Numbers as they are stored, 0 to 1.
     Data,
+    /// Numbers of any range that are not negative.
+    Unscaled,
 }
 
 /// An image resampled to `size`; colours are averaged as light is, after they are made linear.
-fn load(path: &Path, size: [usize; 2], meaning: Meaning) -> Result<Rgb32FImage> {
-    let reader = ImageReader::open(path).map_err(|error| unreadable(path, error))?;
-    let reader = reader.with_guessed_format().map_err(|error| unreadable(path, error))?;
-    let is_linear = reader.format() == Some(ImageFormat::Hdr);
-    let image = if is_linear {
-        // Many programs sign their files "#?RGBE" instead of "#?RADIANCE".
-        HdrDecoder::new_nonstrict(reader.into_inner()).and_then(DynamicImage::from_decoder)
-    } else {
-        reader.decode()
-    };
-    let mut image = image.map_err(|error| unreadable(path, error))?.into_rgb32f();
-    if meaning == Meaning::Colour && !is_linear {
-        for rgb in image.pixels_mut() {
-            rgb.0 = rgb.0.map(from_srgb);
-        }
+fn load(path: &Path, size: [usize; 2], meaning: Meaning, progress: &dyn Progress) -> Result<Picture> {
+    let mut picture = Picture::open(path)?;
+    let pixels = picture.pixels().len();
+    if meaning == Meaning::Colour {
+        picture = picture.into_linear();
     }
-    let [width, height] = size.map(|n| u32::try_from(n).expect("a side is below 65,536"));
-    // A triangle as wide as a target pixel: averages when it shrinks, interpolates when it enlarges.
-    Ok(resize(&image, width, height, FilterType::Triangle))
-}
-
-/// Linear value of an sRGB one (IEC 61966-2-1), 0 to 1.
-fn from_srgb(encoded: f32) -> f32 {
-    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
-}
-
-/// Linear Rec. 709 values.
-fn linear(path: &Path, size: [usize; 2]) -> Result<Vec<[f64; 3]>> {
-    Ok(load(path, size, Meaning::Colour)?.pixels().map(|rgb| rgb.0.map(f64::from)).collect())
+    let (largest, range) = match meaning {
+        Meaning::Colour | Meaning::Data => (1.0, "0 to 1"),
+        Meaning::Unscaled => (picture.largest(), "finite and not negative"),
+    };
+    let clamped = picture.clamp(largest);
+    if clamped > 0 {
+        let path = path.display();
+        progress
+            .warn(&format!("{path}: {clamped} of {pixels} pixels have values that are not {range}; they are clamped"));
+    }
+    if picture.transparent() > 0 {
+        let (path, transparent) = (path.display(), picture.transparent());
+        progress.warn(&format!("{path}: {transparent} of {pixels} pixels are transparent, which is left out"));
+    }
+    Ok(picture.resized(size.map(|n| u32::try_from(n).expect("a side is below 65,536"))))
 }
 
 /// Mean of the three channels as they are stored.
-fn grey(path: &Path, size: [usize; 2], stretch: bool) -> Result<Vec<f64>> {
-    let stored = load(path, size, Meaning::Data)?;
+fn grey(path: &Path, size: [usize; 2], stretch: bool, progress: &dyn Progress) -> Result<Vec<f64>> {
+    let meaning = if stretch { Meaning::Unscaled } else { Meaning::Data };
+    let stored = load(path, size, meaning, progress)?;
     let mut values: Vec<f64> =
-        stored.pixels().map(|rgb| rgb.0.iter().map(|&v| f64::from(v)).sum::<f64>() / 3.0).collect();
+        stored.pixels().iter().map(|rgb| rgb.iter().map(|&v| f64::from(v)).sum::<f64>() / 3.0).collect();
     if stretch {
         let mut sorted = values.clone();
         sorted.sort_by(f64::total_cmp);

@@ -16,9 +16,6 @@ use reflections::{level_size, reflect};
 
 pub use reflections::{REFLECTION_LEVELS, REFLECTION_SIZE};
 
-/// Largest radiance of a picture: sums of it stay finite.
-const BRIGHTEST: f32 = 1e30;
-
 /// Light from all around, far away: irradiance by the normal, and radiance in mirrors by direction and roughness.
 ///
 /// Pictures of it are in equirectangular projection: a direction (x, y, z), y up, is seen at
@@ -30,6 +27,9 @@ pub struct Environment {
 }
 
 impl Environment {
+    /// Largest radiance of a picture: sums of it stay finite.
+    pub const BRIGHTEST: f32 = 1e30;
+
     /// Environment of the same radiance from everywhere, `irradiance` / π; any surface gets `irradiance`, linear Rec. 709.
     #[must_use]
     pub fn uniform(irradiance: [f32; 3]) -> Self {
@@ -65,10 +65,10 @@ impl Environment {
         if u64::from(width) * u64::from(height) != pixels.len() as u64 {
             return wrong(format!("{width} x {height} pixels, but {} are given", pixels.len()));
         }
-        let in_range = |pixel: &[f32; 3]| pixel.iter().all(|channel| (0.0..=BRIGHTEST).contains(channel));
+        let in_range = |pixel: &[f32; 3]| pixel.iter().all(|channel| (0.0..=Self::BRIGHTEST).contains(channel));
         if let Some(at) = pixels.iter().position(|pixel| !in_range(pixel)) {
             let (x, y) = (at % width as usize, at / width as usize);
-            return wrong(format!("pixel ({x}, {y}) is {:?}, not between 0 and {BRIGHTEST:e}", pixels[at]));
+            return wrong(format!("pixel ({x}, {y}) is {:?}, not between 0 and {:e}", pixels[at], Self::BRIGHTEST));
         }
         let picture = Picture { size, pixels: pixels.iter().copied().map(Vec3::from).collect() };
         Ok(Self { irradiance: project(&picture), reflections: reflect(&picture) })

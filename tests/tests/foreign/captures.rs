@@ -1,1 +1,0 @@
-//! Captures, their sidecars, and the images that a command takes.

@@ -1,0 +1,4 @@
+//! Pictures, arrays and their sidecars as other programs write them.
+
+mod pictures;
+mod pictures_broken;
