@@ -12,7 +12,7 @@ mod text;
 
 use std::path::Path;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, bowl, drapery, knot, relief, sphere, torus};
@@ -42,6 +42,10 @@ fn shape(name: &str) -> Option<Mesh> {
     })
 }
 
+/// How many times its size a mesh may be from its origin before single precision is too coarse: less than a tenth of a
+/// pixel of a large picture.
+const FAR: f64 = 1e3;
+
 /// Endings of the names of mesh files.
 pub const MESH_EXTENSIONS: [&str; 6] = ["obj", "ply", "stl", "off", "glb", "gltf"];
 
@@ -69,24 +73,31 @@ pub fn load_mesh(path: &Path, extent_mm: f32, up: UpAxis) -> Result<LoadedMesh> 
     let mut raw = read(path).map_err(wrong)?;
     raw.check().map_err(wrong)?;
     if up == UpAxis::Z {
-        for v in raw.positions.iter_mut().chain(&mut raw.normals) {
-            *v = Vec3::new(v.x, v.z, -v.y);
-        }
+        raw.positions.iter_mut().for_each(|v| *v = DVec3::new(v.x, v.z, -v.y));
+        raw.normals.iter_mut().for_each(|v| *v = Vec3::new(v.x, v.z, -v.y));
     }
-    let low = raw.positions.iter().copied().fold(Vec3::INFINITY, Vec3::min);
-    let high = raw.positions.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
-    let middle = 0.5 * (low + high);
-    for position in &mut raw.positions {
-        *position -= middle;
-    }
-    let longest = (high - low).max_element();
+    let (positions, longest) = centred(&raw.positions);
     if !(longest.is_finite() && longest > 0.0) {
         return Err(wrong(format!("its longest side is {longest}; expected a size")));
     }
     let scale = extent_mm / longest;
     let uvs = (!raw.uvs.is_empty()).then_some(raw.uvs);
-    let mesh = Mesh::new(raw.positions, raw.normals, uvs, raw.triangles, scale);
+    let mesh = Mesh::new(positions, raw.normals, uvs, raw.triangles, scale);
     Ok(LoadedMesh { mesh: mesh.map_err(|error| wrong(error.to_string()))?, warnings: raw.warnings })
+}
+
+/// Positions around the origin, and the longest side of the box around them.
+fn centred(positions: &[DVec3]) -> (Vec<Vec3>, f32) {
+    let low = positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = positions.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let middle = 0.5 * (low + high);
+    if middle.abs().max_element() > FAR * (high - low).max_element() {
+        let positions = positions.iter().map(|position| (position - middle).as_vec3()).collect();
+        return (positions, (high - low).as_vec3().max_element());
+    }
+    let (low, high) = (low.as_vec3(), high.as_vec3());
+    let middle = 0.5 * (low + high);
+    (positions.iter().map(|position| position.as_vec3() - middle).collect(), (high - low).max_element())
 }
 
 fn read(path: &Path) -> raw::Result<raw::Raw> {

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use glam::{Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use super::corners::Corners;
 use super::polygon::triangulate;
@@ -21,7 +21,7 @@ type Corner = [u32; 3];
 /// What a file has, in its order.
 #[derive(Default)]
 struct Lists {
-    positions: Vec<Vec3>,
+    positions: Vec<DVec3>,
     uvs: Vec<Vec2>,
     normals: Vec<Vec3>,
     corners: Vec<Corner>,
@@ -67,21 +67,21 @@ impl Lists {
                 let rest: Vec<&[u8]> = words.collect();
                 // A fourth number is a weight; three more are a colour.
                 let weight = if rest.len() == 1 { numbers(rest.into_iter())?.map(|[weight]| weight) } else { None };
-                let position = Vec3::from(position);
+                let position = DVec3::from(position);
                 self.positions
                     .push(weight.filter(|weight| *weight != 0.0).map_or(position, |weight| position / weight));
             }
             Some(b"vt") => {
                 let rest: Vec<&[u8]> = words.collect();
                 let uv = match rest.len() {
-                    1 => numbers(rest.into_iter())?.map(|[u]| Vec2::new(u, 0.0)),
-                    _ => numbers(rest.into_iter())?.map(Vec2::from),
+                    1 => numbers(rest.into_iter())?.map(|[u]| DVec2::new(u, 0.0)),
+                    _ => numbers(rest.into_iter())?.map(DVec2::from),
                 };
-                self.uvs.push(uv.ok_or("a texture coordinate without numbers; expected vt U V")?);
+                self.uvs.push(uv.ok_or("a texture coordinate without numbers; expected vt U V")?.as_vec2());
             }
             Some(b"vn") => {
-                let normal = numbers(words)?.map(Vec3::from);
-                self.normals.push(normal.ok_or("a normal of fewer than three numbers; expected vn X Y Z")?);
+                let normal = numbers(words)?.map(DVec3::from);
+                self.normals.push(normal.ok_or("a normal of fewer than three numbers; expected vn X Y Z")?.as_vec3());
             }
             Some(b"f" | b"fo") => {
                 let first = self.corners.len();
@@ -150,7 +150,7 @@ impl Lists {
                     out.normals.push(normal.copied().unwrap_or(Vec3::NAN));
                 })?);
             }
-            let positions: Vec<Vec3> = polygon.iter().map(|&k| out.positions[k as usize]).collect();
+            let positions: Vec<DVec3> = polygon.iter().map(|&k| out.positions[k as usize]).collect();
             triangulate(&positions, |ear| out.triangles.push(ear.map(|k| polygon[k])));
         }
         if !has_uvs {

@@ -1,6 +1,6 @@
 //! Meshes from Object File Format (Geomview), in text.
 
-use glam::{Vec2, Vec3};
+use glam::{DVec2, DVec3};
 
 use super::polygon::triangulate;
 use super::raw::{Raw, Result};
@@ -49,7 +49,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw> {
         let (line, words) = lines.next().ok_or_else(|| format!("ends after face {k} of {faces}"))?;
         let corners = corners(&words, vertices).map_err(|error| format!("line {line}: {error}"))?;
         small += usize::from(corners.len() < 3);
-        let positions: Vec<Vec3> = corners.iter().map(|&k| out.positions[k as usize]).collect();
+        let positions: Vec<DVec3> = corners.iter().map(|&k| out.positions[k as usize]).collect();
         triangulate(&positions, |ear| out.triangles.push(ear.map(|k| corners[k])));
     }
     out.leave_out(small, "faces of fewer than three corners");
@@ -59,18 +59,19 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw> {
 fn add_vertex(flags: &[u8], words: &[&[u8]], out: &mut Raw) -> Result<()> {
     let mut rest = words.iter().copied();
     let few = "a vertex of too few numbers";
-    let position = Vec3::from(numbers(&mut rest)?.ok_or(few)?);
+    let position = DVec3::from(numbers(&mut rest)?.ok_or(few)?);
     let weight = if flags.contains(&b'4') { numbers(&mut rest)?.map(|[weight]| weight).ok_or(few)? } else { 1.0 };
     out.positions.push(if weight == 0.0 { position } else { position / weight });
     if flags.contains(&b'N') {
-        out.normals.push(numbers(&mut rest)?.ok_or(few)?.into());
+        out.normals.push(numbers(&mut rest)?.map(DVec3::from).ok_or(few)?.as_vec3());
     }
     if flags.starts_with(b"ST") {
         // After the colour, which has three numbers or four.
         let [.., u, v] = words else {
             return Err(few.to_owned());
         };
-        out.uvs.push(Vec2::new(number(u).unwrap_or(f32::NAN), number(v).unwrap_or(f32::NAN)));
+        let [u, v] = [u, v].map(|word| number(word).unwrap_or(f64::NAN));
+        out.uvs.push(DVec2::new(u, v).as_vec2());
     }
     Ok(())
 }

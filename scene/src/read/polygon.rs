@@ -1,7 +1,7 @@
 //! Polygons as triangles.
 
 use earcut::Earcut;
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 
 /// A corner turns the wrong way if the sine of its angle is below this: less is the rounding of flat ones.
 const CONCAVE: f64 = -1e-5;
@@ -9,7 +9,7 @@ const CONCAVE: f64 = -1e-5;
 /// Calls `triangle` with the three corners of each triangle of a polygon, as numbers into `corners`, its positions in
 /// order. Convex polygons, and those that cross themselves, are fans around their first corner; concave ones are cut into
 /// ears, in the plane that their area is largest in.
-pub(super) fn triangulate(corners: &[Vec3], mut triangle: impl FnMut([usize; 3])) {
+pub(super) fn triangulate(corners: &[DVec3], mut triangle: impl FnMut([usize; 3])) {
     let fan = (2..corners.len()).map(|k| [0, k - 1, k]);
     match (corners.len() > 3).then(|| ears(corners)).flatten() {
         Some(ears) => ears.as_chunks().0.iter().for_each(|&ear| triangle(ear)),
@@ -18,9 +18,9 @@ pub(super) fn triangulate(corners: &[Vec3], mut triangle: impl FnMut([usize; 3])
 }
 
 /// Three numbers for each ear of a polygon that is concave and does not cross itself.
-fn ears(corners: &[Vec3]) -> Option<Vec<usize>> {
-    let first = corners.first()?.as_dvec3();
-    let points: Vec<DVec3> = corners.iter().map(|corner| corner.as_dvec3() - first).collect();
+fn ears(corners: &[DVec3]) -> Option<Vec<usize>> {
+    let first = *corners.first()?;
+    let points: Vec<DVec3> = corners.iter().map(|corner| corner - first).collect();
     let next = |k: usize| (k + 1) % points.len();
     // Twice the area, along the normal (Newell).
     let area = (0..points.len()).map(|k| points[k].cross(points[next(k)])).sum::<DVec3>();
@@ -54,8 +54,8 @@ fn ears(corners: &[Vec3]) -> Option<Vec<usize>> {
 mod tests {
     use super::*;
 
-    fn area(corners: &[Vec3]) -> (usize, f32, Vec3) {
-        let (mut count, mut sizes, mut sum) = (0, 0.0, Vec3::ZERO);
+    fn area(corners: &[DVec3]) -> (usize, f64, DVec3) {
+        let (mut count, mut sizes, mut sum) = (0, 0.0, DVec3::ZERO);
         triangulate(corners, |ear| {
             let [a, b, c] = ear.map(|k| corners[k]);
             let area = 0.5 * (b - a).cross(c - a);
@@ -68,14 +68,14 @@ mod tests {
 
     #[test]
     fn concave_polygons_keep_their_area_and_side() {
-        let flat = |points: &[[f32; 2]]| points.iter().map(|&[x, y]| Vec3::new(x, y, 3.0)).collect::<Vec<_>>();
+        let flat = |points: &[[f64; 2]]| points.iter().map(|&[x, y]| DVec3::new(x, y, 3.0)).collect::<Vec<_>>();
         let arrow = flat(&[[0.0, 0.0], [2.0, -1.0], [0.0, 3.0], [-2.0, -1.0]]);
         let l = flat(&[[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [1.0, 1.0], [1.0, 4.0], [0.0, 4.0]]);
-        let comb: Vec<[f32; 2]> = (0..40u8)
-            .map(|k| [f32::from(k), if k % 2 == 0 { 1.0 } else { 9.0 }])
+        let comb: Vec<[f64; 2]> = (0..40u8)
+            .map(|k| [f64::from(k), if k % 2 == 0 { 1.0 } else { 9.0 }])
             .chain([[39.0, 0.0], [0.0, 0.0]])
             .collect();
-        let comb: Vec<[f32; 2]> = comb.into_iter().rev().collect();
+        let comb: Vec<[f64; 2]> = comb.into_iter().rev().collect();
         for (corners, size) in [(arrow, 6.0), (l, 7.0), (flat(&comb), 39.0 * 5.0)] {
             for shift in 0..corners.len() {
                 let mut corners = corners.clone();
@@ -92,11 +92,11 @@ mod tests {
 
     #[test]
     fn what_has_no_inside_is_a_fan() {
-        let line = [0.0, 1.0, 2.0, 3.0].map(|x| Vec3::new(x, 0.0, 0.0));
+        let line = [0.0, 1.0, 2.0, 3.0].map(|x| DVec3::new(x, 0.0, 0.0));
         assert_eq!(area(&line).0, 2);
-        let bow = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
+        let bow = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| DVec3::new(x, y, 0.0));
         assert_eq!(area(&bow).0, 2);
-        let broken = [Vec3::NAN, Vec3::X, Vec3::Y, Vec3::Z, Vec3::INFINITY];
+        let broken = [DVec3::NAN, DVec3::X, DVec3::Y, DVec3::Z, DVec3::INFINITY];
         assert_eq!(area(&broken).0, 3);
         assert_eq!(area(&line[..2]).0, 0);
     }

@@ -1,6 +1,6 @@
 //! Meshes as files have them, before they are checked.
 
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 /// Result of a reader; the error says what is wrong with the file, and where.
 pub(super) type Result<T> = std::result::Result<T, String>;
@@ -11,7 +11,8 @@ pub(super) const MAX: usize = 1 << 26;
 /// Vertices and triangles in the file's own unit.
 #[derive(Debug, Default)]
 pub(super) struct Raw {
-    pub(super) positions: Vec<Vec3>,
+    /// Of double precision, since maps and scans may be far from their origin.
+    pub(super) positions: Vec<DVec3>,
     /// One for each vertex, [`Vec3::NAN`] where it has none; or none at all.
     pub(super) normals: Vec<Vec3>,
     /// One for each vertex, v upwards, [`Vec2::NAN`] where it has none; or none at all.
@@ -58,10 +59,13 @@ impl Raw {
         for &index in self.triangles.iter().flatten() {
             is_used[index as usize] = true;
         }
-        let broken =
-            self.positions.iter().zip(&is_used).position(|(position, is_used)| *is_used && !position.is_finite());
+        let broken = self
+            .positions
+            .iter()
+            .zip(&is_used)
+            .position(|(position, is_used)| *is_used && !position.as_vec3().is_finite());
         if let Some(at) = broken {
-            let position = self.positions[at];
+            let position = self.positions[at].as_vec3();
             return Err(format!("vertex {at}, counted from 0, is at {position}; expected finite numbers"));
         }
         if is_used.contains(&false) {

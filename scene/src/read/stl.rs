@@ -1,6 +1,6 @@
 //! Meshes from STL, in text or binary. Corners at the same place are one vertex, so that round things are round.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use super::corners::Corners;
 use super::polygon::triangulate;
@@ -23,10 +23,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw> {
         Err(error) => return Err(error),
         Ok(facets) => {
             let corner = |numbers: &[u8; 12]| {
-                Vec3::from([0, 4, 8].map(|at| f32::from_le_bytes([0, 1, 2, 3].map(|k| numbers[at + k]))))
+                Vec3::from([0, 4, 8].map(|at| f32::from_le_bytes([0, 1, 2, 3].map(|k| numbers[at + k])))).as_dvec3()
             };
             for facet in facets {
-                let corners: Vec<Vec3> = facet[12..48].as_chunks().0.iter().map(corner).collect();
+                let corners: Vec<DVec3> = facet[12..48].as_chunks().0.iter().map(corner).collect();
                 out.add(&corners)?;
             }
         }
@@ -38,17 +38,17 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw> {
 /// Facets so far.
 struct Facets {
     mesh: Raw,
-    vertices: Corners<[u32; 3]>,
+    vertices: Corners<[u64; 3]>,
     small: usize,
 }
 
 impl Facets {
-    fn add(&mut self, facet: &[Vec3]) -> Result<()> {
+    fn add(&mut self, facet: &[DVec3]) -> Result<()> {
         self.small += usize::from(facet.len() < 3);
         let mut corners = Vec::with_capacity(facet.len());
         for &position in facet {
             // Both zeros are one place.
-            let place = (position + 0.0).to_array().map(f32::to_bits);
+            let place = (position + 0.0).to_array().map(f64::to_bits);
             corners.push(self.vertices.number(place, || self.mesh.positions.push(position))?);
         }
         triangulate(facet, |ear| self.mesh.triangles.push(ear.map(|k| corners[k])));
@@ -70,7 +70,7 @@ fn facets(bytes: &[u8]) -> Result<&[[u8; TRIANGLE]]> {
 
 fn in_text(text: &[u8], out: &mut Facets) -> Result<()> {
     // Corners since the last `outer loop`.
-    let mut facet: Option<Vec<Vec3>> = None;
+    let mut facet: Option<Vec<DVec3>> = None;
     for (line, words) in Lines::new(text).map(|(number, line)| (number, words(line))) {
         let mut words = words.peekable();
         // Some write several of these on a line.

@@ -49,15 +49,15 @@ pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
 }
 
 /// A number; what C libraries print for those that are not finite is one as well.
-pub(super) fn number(word: &[u8]) -> Option<f32> {
+pub(super) fn number(word: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(word).ok()?;
     text.parse().ok().or_else(|| {
         let text = text.to_ascii_lowercase();
         if text.contains("#inf") {
-            return Some(f32::INFINITY);
+            return Some(f64::INFINITY);
         }
         (text.contains("#ind") || text.contains("#qnan") || text.contains("#snan") || text.contains("nan("))
-            .then_some(f32::NAN)
+            .then_some(f64::NAN)
     })
 }
 
@@ -67,7 +67,7 @@ pub(super) fn number(word: &[u8]) -> Option<f32> {
 /// The word that is no number, as a message shows it.
 pub(super) fn numbers<'a, const N: usize>(
     mut words: impl Iterator<Item = &'a [u8]>,
-) -> Result<Option<[f32; N]>, String> {
+) -> Result<Option<[f64; N]>, String> {
     let mut out = [0.0; N];
     for slot in &mut out {
         let Some(word) = words.next() else {
@@ -78,12 +78,19 @@ pub(super) fn numbers<'a, const N: usize>(
     Ok(Some(out))
 }
 
-/// A word as a message quotes it: on one line, and short.
+/// A word, or what else a file says, as a message quotes it: on one line, and short.
 pub(super) fn quoted(word: &[u8]) -> String {
-    const LONGEST: usize = 40;
-    let text = String::from_utf8_lossy(&word[..word.len().min(LONGEST)]);
-    let more = if word.len() > LONGEST { "…" } else { "" };
-    format!("\"{}{more}\"", text.escape_debug())
+    format!("\"{}\"", shortened(&String::from_utf8_lossy(word), 60))
+}
+
+/// The first `longest` letters of a text, on one line.
+pub(super) fn shortened(text: &str, longest: usize) -> String {
+    let mut letters = text.chars().map(|letter| if letter.is_control() { char::REPLACEMENT_CHARACTER } else { letter });
+    let mut out: String = letters.by_ref().take(longest).collect();
+    if letters.next().is_some() {
+        out.push('…');
+    }
+    out
 }
 
 #[cfg(test)]
@@ -102,12 +109,12 @@ mod tests {
         let words: Vec<_> = words(b"  v\t1 2  #3 4").collect();
         assert_eq!(words, [&b"v"[..], b"1", b"2"]);
         for (word, value) in
-            [("1e-3", 1e-3), ("+.5", 0.5), ("2.", 2.0), ("-1.#INF", f32::INFINITY), ("inf", f32::INFINITY)]
+            [("1e-3", 1e-3), ("+.5", 0.5), ("2.", 2.0), ("-1.#INF", f64::INFINITY), ("inf", f64::INFINITY)]
         {
             assert_eq!(number(word.as_bytes()), Some(value), "{word}");
         }
         for word in ["nan", "-NaN", "1.#QNAN", "-1.#IND00", "-nan(ind)"] {
-            assert!(number(word.as_bytes()).is_some_and(f32::is_nan), "{word}");
+            assert!(number(word.as_bytes()).is_some_and(f64::is_nan), "{word}");
         }
         assert_eq!([&b"0,5"[..], b"\xe9", b""].map(number), [None; 3], "no numbers");
     }

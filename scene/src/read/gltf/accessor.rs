@@ -3,6 +3,7 @@
 use super::buffers::Buffers;
 use super::document::{Accessor, Document, SparsePart, Whole};
 use crate::read::raw::{Result, count};
+use crate::read::text::quoted;
 
 /// Type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -134,7 +135,7 @@ impl<'a> Accessors<'a> {
             _ => 0,
         };
         if shape != components {
-            return Err(format!("type \"{}\"; expected {components} numbers", accessor.shape.escape_debug()));
+            return Err(format!("type {}; expected {components} numbers", quoted(accessor.shape.as_bytes())));
         }
         let component = Component::parse(accessor.component_type.0)?;
         let size = components * component.size();

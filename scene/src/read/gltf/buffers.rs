@@ -11,6 +11,7 @@ use serde::Deserialize;
 use super::document::{Compressed, Document, Whole};
 use super::meshopt;
 use crate::read::raw::Result;
+use crate::read::text::quoted;
 
 /// Base64, padded or not.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -98,11 +99,11 @@ impl<'a> Buffers<'a> {
             return BASE64.decode(data.trim_ascii()).map_err(|error| format!("a data URI: {error}"));
         }
         if uri.contains("://") {
-            return Err(format!("is at {}; expected a file beside the .gltf", uri.escape_debug()));
+            return Err(format!("is at {}; expected a file beside the .gltf", quoted(uri.as_bytes())));
         }
         let name: Cow<'_, str> = percent_encoding::percent_decode_str(uri).decode_utf8_lossy();
-        let path = self.folder.join(&*name);
-        std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display().to_string().escape_debug()))
+        std::fs::read(self.folder.join(&*name))
+            .map_err(|error| format!("the file {}: {error}", quoted(name.as_bytes())))
     }
 }
 

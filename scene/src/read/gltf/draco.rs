@@ -4,6 +4,7 @@ use draco_core::{DataType, DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
 
 use super::document::Whole;
 use crate::read::raw::{MAX, Result};
+use crate::read::text::shortened;
 
 /// Decoded stream of a primitive.
 pub(super) struct Stream(Mesh);
@@ -14,7 +15,7 @@ impl Stream {
         let limits = DecodeLimits::default().with_max_points(most).with_max_faces(most);
         let mut mesh = Mesh::new();
         let decoded = MeshDecoder::new().decode(&mut DecoderBuffer::new(bytes).with_limits(limits), &mut mesh);
-        decoded.map_err(|error| format!("Draco: {}", error.to_string().escape_debug()))?;
+        decoded.map_err(|error| format!("Draco: {}", shortened(&error.to_string(), 160)))?;
         Ok(Self(mesh))
     }
 

@@ -2,6 +2,7 @@
 
 use super::document::Document;
 use crate::read::raw::Raw;
+use crate::read::text::quoted;
 
 /// Those that are read.
 const READ: [&str; 7] = [
@@ -43,7 +44,7 @@ pub(super) fn warn(document: &Document, out: &mut Raw) {
     for name in &document.extensions_required {
         let is_harmless = NOT_DRAWN.iter().any(|beginning| name.starts_with(beginning));
         if !is_harmless && !READ.contains(&name.as_str()) {
-            let name = name.escape_debug();
+            let name = quoted(name.as_bytes());
             out.warnings.push(format!("requires the extension {name}, which is not read: the mesh may lack something"));
         }
     }

@@ -23,6 +23,7 @@ use self::document::{Document, Versioned};
 use self::nodes::place;
 use self::primitive::Builder;
 use super::raw::{Raw, Result};
+use super::text::{quoted, shortened};
 
 /// Reads the bytes of a .gltf or .glb file that is in `folder`, where the files are that it names.
 pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Raw> {
@@ -33,7 +34,7 @@ pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Raw> {
         // Some leave it out.
         Value::Null => {}
         Value::String(version) if version.starts_with("2.") || version.is_empty() => {}
-        version => return Err(format!("glTF version {version}; expected 2.0")),
+        version => return Err(format!("glTF version {}; expected 2.0", quoted(version.to_string().as_bytes()))),
     }
     let document: Document = parse(&json)?;
     let buffers = Buffers::new(&document, folder, chunk);
@@ -45,5 +46,10 @@ pub(super) fn read(bytes: &[u8], folder: &Path) -> Result<Raw> {
 }
 
 fn parse<'a, T: Deserialize<'a>>(json: &'a str) -> Result<T> {
-    serde_json::from_str(json).map_err(|error| format!("JSON: {error}"))
+    serde_json::from_str(json).map_err(|error| {
+        // A message may quote a value of any length.
+        let message = error.to_string();
+        let what = message.split(" at line ").next().unwrap_or(&message);
+        format!("JSON, line {}, column {}: {}", error.line(), error.column(), shortened(what, 160))
+    })
 }

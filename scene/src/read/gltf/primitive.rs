@@ -226,7 +226,7 @@ impl<'a> Builder<'a> {
         count(self.out.triangles.len() + local.triangles.len())?;
         for (vertex, (position, normal)) in local.positions.iter().zip(&local.normals).enumerate() {
             let Transform { points, normals, .. } = transform(vertex);
-            self.out.positions.push(points.transform_point3(*position));
+            self.out.positions.push(points.transform_point3(*position).as_dvec3());
             self.out.normals.push(normals.transform_vector3(*normal).normalize_or_zero());
         }
         self.out.uvs.extend_from_slice(&local.uvs);

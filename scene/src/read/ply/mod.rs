@@ -3,11 +3,12 @@
 mod header;
 mod values;
 
-use glam::{Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2};
 
 use super::corners::Corners;
 use super::polygon::triangulate;
 use super::raw::{Raw, Result};
+use super::text::{quoted, shortened};
 use header::{Element, Header};
 use values::Values;
 
@@ -44,15 +45,17 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw> {
                 "tristrips" => strips(element, &mut values, &mut out),
                 _ => skip(element, &mut values),
             };
-            one.map_err(|error| format!("{}: {error}, in {} {k} of {}", values.place(), element.name, element.count))?;
+            one.map_err(|error| {
+                format!("{}: {error}, in {} {k} of {}", values.place(), quoted(element.name.as_bytes()), element.count)
+            })?;
             long += usize::from(values.end_line());
         }
     }
     let has = |name: &str| header.elements.iter().any(|element| element.name == name && element.count > 0);
     if !has("vertex") || !(has("face") || has("tristrips")) {
-        let of = |element: &Element| format!("{} {}", element.count, element.name.escape_debug());
+        let of = |element: &Element| format!("{} {}", element.count, element.name);
         let elements: Vec<_> = header.elements.iter().map(of).collect();
-        let elements = if elements.is_empty() { "none".to_owned() } else { elements.join(", ") };
+        let elements = if elements.is_empty() { "none".to_owned() } else { shortened(&elements.join(", "), 160) };
         return Err(format!("has the elements: {elements}; expected vertex, and face or tristrips"));
     }
     out.leave_out(long, "lines longer than the header says, their ends");
@@ -91,16 +94,15 @@ fn vertex(element: &Element, values: &mut Values<'_>, out: &mut Raw) -> Result<(
     let mut numbers = [None; NUMBERS.len()];
     let number = |name: &str, value: f64| {
         if let Some(slot) = NUMBERS.iter().position(|names| names.contains(&name)) {
-            #[allow(clippy::cast_possible_truncation, reason = "positions are drawn in f32")]
-            numbers[slot].get_or_insert(value as f32);
+            numbers[slot].get_or_insert(value);
         }
     };
     properties(element, values, number, |_, _| ())?;
     let [x, y, z, nx, ny, nz, u, v] = numbers;
-    let vector = |x: Option<f32>, y: Option<f32>, z: Option<f32>| Some(Vec3::new(x?, y?, z?));
+    let vector = |x: Option<f64>, y: Option<f64>, z: Option<f64>| Some(DVec3::new(x?, y?, z?));
     out.positions.push(vector(x, y, z).ok_or("a vertex without x, y and z")?);
-    out.normals.extend(vector(nx, ny, nz));
-    out.uvs.extend(u.zip(v).map(|(u, v)| Vec2::new(u, v)));
+    out.normals.extend(vector(nx, ny, nz).map(|normal| normal.as_vec3()));
+    out.uvs.extend(u.zip(v).map(|(u, v)| DVec2::new(u, v).as_vec2()));
     Ok(())
 }
 
@@ -156,8 +158,7 @@ impl Faces {
         }
         self.ends.push(self.corners.len());
         self.has_uvs |= !uvs.is_empty();
-        #[allow(clippy::cast_possible_truncation, reason = "texture coordinates are drawn in f32")]
-        self.uvs.extend(uvs.as_chunks().0.iter().take(named.len()).map(|&[u, v]| Vec2::new(u as f32, v as f32)));
+        self.uvs.extend(uvs.as_chunks().0.iter().take(named.len()).map(|&[u, v]| DVec2::new(u, v).as_vec2()));
         self.uvs.resize(self.corners.len(), Vec2::NAN);
         Ok(())
     }
@@ -176,7 +177,7 @@ impl Faces {
             let corners = &self.corners[first..end];
             first = end;
             small += usize::from(corners.len() < 3);
-            let positions: Vec<Vec3> = corners.iter().map(|&k| out.positions[k as usize]).collect();
+            let positions: Vec<DVec3> = corners.iter().map(|&k| out.positions[k as usize]).collect();
             triangulate(&positions, |ear| out.triangles.push(ear.map(|k| corners[k])));
         }
         out.leave_out(small, "faces of fewer than three corners");

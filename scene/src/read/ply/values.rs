@@ -31,7 +31,7 @@ impl<'a> Values<'a> {
     /// Next value.
     pub(super) fn value(&mut self, kind: Type) -> Result<f64> {
         let little = match self.encoding {
-            Encoding::Text => return self.word(kind),
+            Encoding::Text => return self.word(),
             Encoding::LittleEndian => true,
             Encoding::BigEndian => false,
         };
@@ -80,7 +80,7 @@ impl<'a> Values<'a> {
         Ok(*bytes)
     }
 
-    fn word(&mut self, kind: Type) -> Result<f64> {
+    fn word(&mut self) -> Result<f64> {
         while let Some(byte) = self.bytes.get(self.at).filter(|byte| byte.is_ascii_whitespace()) {
             // Lines end with \n, \r\n or \r.
             let is_pair = *byte == b'\r' && self.bytes.get(self.at + 1) == Some(&b'\n');
@@ -93,22 +93,8 @@ impl<'a> Values<'a> {
             return Err("the file ends".to_owned());
         }
         let word = &rest[..end];
-        let wrong = || format!("{} is not a number", quoted(word));
-        let value = match kind {
-            // What is stored in doubles needs their digits.
-            Type::F64 => std::str::from_utf8(word).ok().and_then(|word| word.parse().ok()),
-            Type::I32 | Type::U32 => {
-                std::str::from_utf8(word).ok().and_then(|word| word.parse::<i64>().ok()).and_then(whole)
-            }
-            _ => None,
-        };
-        let value = value.or_else(|| number(word).map(f64::from)).ok_or_else(wrong)?;
+        let value = number(word).ok_or_else(|| format!("{} is not a number", quoted(word)))?;
         self.at += end;
         Ok(value)
     }
-}
-
-/// A whole number, if a double has it exactly.
-fn whole(value: i64) -> Option<f64> {
-    i32::try_from(value).map(f64::from).or_else(|_| u32::try_from(value).map(f64::from)).ok()
 }

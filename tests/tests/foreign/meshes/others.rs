@@ -65,7 +65,7 @@ fn ply_in_binary() {
         let face: Vec<u8> = [4].into_iter().chain([0, 1, 2, 3].into_iter().flat_map(int)).collect();
         let file = [header(format, FLOATS, FACE).into_bytes(), vertices.clone(), face].concat();
         assert_eq!(square("a.ply", format, &file), [""; 0]);
-        for (cut, place) in [(1, "face 0 of 1"), (17, "face 0 of 1"), (18, "vertex 3 of 4")] {
+        for (cut, place) in [(1, "\"face\" 0 of 1"), (17, "\"face\" 0 of 1"), (18, "\"vertex\" 3 of 4")] {
             let file = file[..file.len() - cut].to_vec();
             assert_refused(format, &[("a.ply", file)], &["byte ", "the file ends", place]);
         }
@@ -113,9 +113,9 @@ fn ply_errors_carry_line_or_offset() {
         ("float x", "float", &["line 4", "property TYPE NAME"]),
         ("ascii", "asci", &["line 2", "\"asci\"", "binary_big_endian"]),
         ("vertex 4", "vertex four", &["line 3", "\"four\""]),
-        ("float z", "float w", &["without x, y and z", "vertex 0 of 4"]),
-        ("1 1 0", "1 one 0", &["line 12", "\"one\" is not a number", "vertex 2 of 4"]),
-        ("4 0 1 2 3", "4 0 1 2", &["the file ends", "face 0 of 1"]),
+        ("float z", "float w", &["without x, y and z", "\"vertex\" 0 of 4"]),
+        ("1 1 0", "1 one 0", &["line 12", "\"one\" is not a number", "\"vertex\" 2 of 4"]),
+        ("4 0 1 2 3", "4 0 1 2", &["the file ends", "\"face\" 0 of 1"]),
         ("4 0 1 2 3", "-4 0 1 2 3", &["line 14", "length -4"]),
         ("4 0 1 2 3", "4 0 1 2 4", &["vertex 4", "there are 4"]),
         ("4 0 1 2 3", "4 0 1 2 -3", &["line 14", "number -3"]),

@@ -132,6 +132,18 @@ fn what_is_left_out_is_counted() {
 }
 
 #[test]
+fn maps_far_from_the_origin_keep_their_digits() {
+    let far = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[x, y]| format!("{}.25 {}.5 0.125\n", 4_000_000 + x, 500_000 + y));
+    let corners = far.concat();
+    let obj: String = far.iter().map(|corner| format!("v {corner}")).collect();
+    square("OBJ", format!("{obj}f 1 2 3 4\n"));
+    let header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n\
+        element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    assert_square("PLY", &[("far.ply", format!("{header}{corners}4 0 1 2 3\n").into_bytes())]);
+    assert_square("OFF", &[("far.off", format!("OFF\n4 1 4\n{corners}4 0 1 2 3\n").into_bytes())]);
+}
+
+#[test]
 fn errors_carry_the_line() {
     for (text, parts) in [
         ("v 0 0\n", &["line 1", "fewer than three numbers", "v X Y Z"][..]),

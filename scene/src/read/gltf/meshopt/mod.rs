@@ -7,6 +7,7 @@ mod indices;
 
 use super::document::Compressed;
 use crate::read::raw::{Result, count};
+use crate::read::text::quoted;
 
 /// Bytes that a compressed view stands for.
 pub(super) fn expand(bytes: &[u8], view: &Compressed) -> Result<Vec<u8>> {
@@ -14,7 +15,7 @@ pub(super) fn expand(bytes: &[u8], view: &Compressed) -> Result<Vec<u8>> {
     count(elements)?;
     let filter = view.filter.as_deref().unwrap_or("NONE");
     let wrong = || {
-        let (mode, filter) = (view.mode.escape_debug(), filter.escape_debug());
+        let [mode, filter] = [&view.mode, filter].map(|name| quoted(name.as_bytes()));
         format!(
             "meshopt: mode {mode}, filter {filter}, {elements} elements of {stride} bytes, which do not fit together"
         )
