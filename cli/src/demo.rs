@@ -20,7 +20,7 @@ use subsurf_viewer::{MappingChoice, RenderRequest, Scattering, human};
 use crate::compare::{self, db};
 use crate::devices;
 use crate::outln;
-use crate::picture::{montage, triptych, write_png};
+use crate::picture::{montage, triptych, write_picture};
 use crate::program::failure::bad_request;
 use crate::program::progress::Bars;
 use crate::render::{draw_mesh, draw_patch, patch_irradiance};
@@ -80,7 +80,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let material = Bssrdf::parse(&files[1])?;
     compare::print(&judgements[1]);
     let rows: Vec<_> = judgements[1].comparison.lit.iter().map(|relit| triptych(relit, SIZE)).collect();
-    write_png(&path("comparison.png"), &montage(&rows))?;
+    write_picture(&path("comparison.png"), &montage(&rows))?;
 
     outln!("3. Drawing it ..");
     let drawn = draw(dir, &material)?;
@@ -138,7 +138,7 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
     }
     let gpu = gpus.first();
     let (patch, _) = draw_patch(gpu, material, Scattering::Gather, Light::Disc, [512, 512], None)?;
-    write_png(&dir.join("patch.png"), &patch)?;
+    write_picture(&dir.join("patch.png"), &patch)?;
     let (mesh, _) = draw_mesh(
         gpu,
         material,
@@ -147,7 +147,7 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
         Scattering::Gather,
         &RenderRequest::usual([800, 600]),
     )?;
-    write_png(&dir.join("mesh.png"), &mesh)?;
+    write_picture(&dir.join("mesh.png"), &mesh)?;
     Ok(Drawn { devices, agreement })
 }
 

@@ -1,5 +1,6 @@
 //! `subsurf devices`: what there is to draw with.
 
+use subsurf_encoder::memory;
 use subsurf_runtime::{Backend, Gpu, devices};
 
 use crate::outln;
@@ -49,6 +50,20 @@ impl BackendArg {
             Self::Cpu => Ok(None),
         }
     }
+
+    /// A device, opened, for what the CPU does not draw; `why` says so.
+    pub(crate) fn open_device(self, why: &str) -> anyhow::Result<Gpu> {
+        match self {
+            Self::Cpu => Err(bad_request(format!("{why}: choose another --backend"))),
+            Self::Gl => Ok(Gpu::open(Backend::Gl)?),
+            Self::Vulkan => Ok(Gpu::open(Backend::Vulkan)?),
+            Self::Auto => {
+                let [first, second] = Backend::ALL.map(Gpu::open);
+                let opened = first.or(second);
+                opened.map_err(|error| anyhow::Error::new(error).context(format!("{why}, and there is no device")))
+            }
+        }
+    }
 }
 
 /// Name of a device for people.
@@ -59,13 +74,17 @@ pub fn name(gpu: Option<&Gpu>) -> String {
     )
 }
 
-/// Picture sizes that no device takes, refused before anything is allocated.
+/// Bytes of memory for a pixel of a picture, which is drawn four times as large: colour, depth and what is read back.
+const BYTES_OF_PIXEL: u64 = 4 * 8;
+
+/// Picture sizes that no device takes, or that do not fit into memory, refused before anything is allocated.
 pub(crate) fn check_picture(size: [u32; 2]) -> anyhow::Result<()> {
     const LARGEST: u32 = 16_384;
     if size.iter().any(|side| *side > LARGEST) {
         return Err(bad_request(format!("a picture of {} × {} pixels; the limit is {LARGEST}", size[0], size[1])));
     }
-    Ok(())
+    let [width, height] = size.map(u64::from);
+    Ok(memory::expect(width * height * BYTES_OF_PIXEL, || format!("a picture of {width} × {height} pixels"))?)
 }
 
 /// What drivers read from the environment, unless somebody set it.

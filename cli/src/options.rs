@@ -1,10 +1,13 @@
 //! Options: values that several commands take.
 
+use std::path::Path;
 use std::str::FromStr;
 
 use clap::ValueEnum;
 use subsurf_decoder::bssrdf::Addressing;
-use subsurf_encoder::capture::Overrides;
+use subsurf_encoder::capture::{Capture, Overrides};
+
+use crate::program::warnings::warn;
 
 /// What lies beyond the border of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -42,9 +45,15 @@ pub struct CaptureArgs {
 }
 
 impl CaptureArgs {
-    /// Facts that win over those of the sidecar.
-    pub fn overrides(&self) -> Overrides {
-        Overrides { pitch_mm: self.pitch, addressing: self.addressing.map(Into::into), eta: self.eta }
+    /// Opens a capture, of which these facts win over those of the sidecar; warns of what is left out.
+    ///
+    /// # Errors
+    /// As [`Capture::open`].
+    pub fn open(&self, path: &Path) -> subsurf_encoder::Result<Capture> {
+        let facts = Overrides { pitch_mm: self.pitch, addressing: self.addressing.map(Into::into), eta: self.eta };
+        let capture = Capture::open(path, &facts)?;
+        capture.warnings().iter().for_each(|warning| warn(warning));
+        Ok(capture)
     }
 }
 

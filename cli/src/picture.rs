@@ -1,11 +1,14 @@
-//! PNG files, and pictures side by side.
+//! Picture files, and pictures side by side.
 
 use std::io::Cursor;
 use std::path::Path;
 
+use image::codecs::jpeg::JpegEncoder;
 use image::{ImageFormat, Rgb, RgbImage};
 use subsurf_encoder::metrics::bssrdf::Relit;
-use subsurf_encoder::write_bytes;
+use subsurf_encoder::{check_target, write_bytes};
+
+use crate::program::failure::bad_request;
 
 /// Display values, row by row, as an image.
 pub fn image(pixels: &[[u8; 3]], width: u32) -> RgbImage {
@@ -13,10 +16,43 @@ pub fn image(pixels: &[[u8; 3]], width: u32) -> RgbImage {
     RgbImage::from_fn(width, height, |x, y| Rgb(pixels[(y * width + x) as usize]))
 }
 
-/// Writes a PNG, whole or not at all.
-pub fn write_png(path: &Path, image: &RgbImage) -> anyhow::Result<()> {
+/// Quality of JPEG files, 1 to 100.
+const JPEG_QUALITY: u8 = 95;
+
+/// The format that a picture is written in, by the extension of its name; PNG if there is none.
+fn format_of(path: &Path) -> anyhow::Result<ImageFormat> {
+    use ImageFormat::{Bmp, Jpeg, Png, Tga, Tiff, WebP};
+    let Some(extension) = path.extension() else {
+        return Ok(Png);
+    };
+    match ImageFormat::from_extension(extension) {
+        Some(format @ (Bmp | Jpeg | Png | Tga | Tiff | WebP)) => Ok(format),
+        _ => Err(bad_request(format!(
+            "{}: pictures are written as .png, .jpg, .tif, .webp, .bmp or .tga",
+            path.display()
+        ))),
+    }
+}
+
+/// Whether a picture can be written to `path`.
+///
+/// # Errors
+/// As [`check_target`], and if its extension is that of no format that is written.
+pub fn check_picture_target(path: &Path) -> anyhow::Result<()> {
+    format_of(path)?;
+    Ok(check_target(path)?)
+}
+
+/// Writes a picture, whole or not at all, in the format of its extension: PNG, JPEG, TIFF, WebP, BMP or TGA.
+///
+/// # Errors
+/// As [`check_picture_target`], and if it cannot be written.
+pub fn write_picture(path: &Path, image: &RgbImage) -> anyhow::Result<()> {
     let mut bytes = Cursor::new(Vec::new());
-    image.write_to(&mut bytes, ImageFormat::Png)?;
+    match format_of(path)? {
+        ImageFormat::Jpeg => image.write_with_encoder(JpegEncoder::new_with_quality(&mut bytes, JPEG_QUALITY))?,
+        format => image.write_to(&mut bytes, format)?,
+    }
     Ok(write_bytes(path, &bytes.into_inner())?)
 }
 

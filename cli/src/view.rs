@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use subsurf_encoder::check_target;
 use subsurf_runtime::{Backend, RuntimeOptions};
 use subsurf_scene::Environment;
 use subsurf_viewer::{BtfImageSet, Config, Error, Host, KEYS, LoadImages, Picture, Viewer, event_loop};
@@ -12,7 +11,7 @@ use crate::devices::check_picture;
 use crate::images::FolderImages;
 use crate::options::{ByteCount, Size};
 use crate::outln;
-use crate::picture::{image, write_png};
+use crate::picture::{check_picture_target, image, write_picture};
 use crate::program::failure::{NoDisplay, line};
 use crate::render::{BtfArgs, Copies, MappingArg, TechniqueArg, UpArg, read_environment};
 
@@ -53,7 +52,7 @@ pub(crate) struct Args {
     /// What draws
     #[arg(long, value_enum, default_value = "auto")]
     backend: Api,
-    /// Write what the window shows to this PNG, panel included, and end
+    /// Write what the window shows to this picture (.png, .jpg ..), panel included, and end
     #[arg(long, value_name = "FILE")]
     screenshot: Option<PathBuf>,
     #[command(flatten)]
@@ -88,7 +87,7 @@ Exit codes: 3 if there is no display or no device that draws to it.";
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     check_picture(args.size.0)?;
     if let Some(path) = &args.screenshot {
-        check_target(path)?;
+        check_picture_target(path)?;
     }
     args.btf.check()?;
     let viewer = Viewer::open(args.config()?)?;
@@ -153,7 +152,7 @@ impl Host for Files<'_> {
     fn save(&mut self, stem: &str, picture: &Picture) -> Result<String, String> {
         let mut names = (1..).map(|number: u32| PathBuf::from(format!("{stem}-{number}.png")));
         let path = names.find(|name| !name.exists()).unwrap_or_default();
-        write_png(&path, &image(&picture.pixels, picture.size[0])).map_err(|error| line(&error))?;
+        write_picture(&path, &image(&picture.pixels, picture.size[0])).map_err(|error| line(&error))?;
         outln!("{}", path.display());
         Ok(path.display().to_string())
     }
@@ -163,7 +162,7 @@ impl Host for Files<'_> {
             return Ok(());
         };
         let [width, height] = picture.size;
-        write_png(path, &image(&picture.pixels, width))?;
+        write_picture(path, &image(&picture.pixels, width))?;
         outln!("{}: {width} x {height} pixels, drawn by {device}", path.display());
         Ok(())
     }

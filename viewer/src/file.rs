@@ -1,7 +1,10 @@
 //! Material files: reading and parsing those that can be drawn.
 
+use std::fs::File as Disk;
+use std::io::Read;
 use std::path::Path;
 
+use subsurf_decoder::container::MAGIC;
 use subsurf_decoder::{Bssrdf, Family, File, NestedBtf, ReadError};
 
 use crate::error::{Error, Result};
@@ -16,12 +19,20 @@ pub enum Content<'a> {
     Btf(NestedBtf<'a>),
 }
 
-/// Bytes of a material file.
+/// Bytes of a material file. No more than its beginning is read of anything else, however long it is.
 ///
 /// # Errors
-/// [`Error::Open`] if the system refuses.
+/// [`Error::Open`] if the system refuses, [`Error::File`] if the file does not begin as one.
 pub fn read(path: &Path) -> Result<Vec<u8>> {
-    std::fs::read(path).map_err(|source| Error::Open { path: path.to_owned(), source })
+    let open = |source| Error::Open { path: path.to_owned(), source };
+    let mut file = Disk::open(path).map_err(open)?;
+    let mut bytes = Vec::new();
+    file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut bytes).map_err(open)?;
+    if bytes.len() == MAGIC.len() && bytes != MAGIC {
+        return Err(Error::File { path: path.to_owned(), kind: "material", source: ReadError::NotSubsurf });
+    }
+    file.read_to_end(&mut bytes).map_err(open)?;
+    Ok(bytes)
 }
 
 /// Parses a material file with all checks, CRC-32 included; `path` is for messages only.

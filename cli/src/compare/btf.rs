@@ -11,7 +11,7 @@ use subsurf_viewer::{human, material_number, read};
 use super::Args;
 use crate::info::{Parts, read_error};
 use crate::outln;
-use crate::picture::{display, montage, write_png};
+use crate::picture::{display, montage, write_picture};
 use crate::program::failure::bad_request;
 use crate::program::progress::Bars;
 
@@ -122,5 +122,5 @@ fn pictures(folder: &Path, images: &Images, file: &(dyn Evaluate + Sync), materi
             display(&difference, width, exposure),
         ]);
     }
-    write_png(&folder.join("comparison.png"), &montage(&rows))
+    write_picture(&folder.join("comparison.png"), &montage(&rows))
 }

@@ -5,7 +5,7 @@ mod btf;
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
-use subsurf_encoder::capture::{Capture, is_btf};
+use subsurf_encoder::capture::is_btf;
 use subsurf_encoder::metrics::bssrdf::{Judgement, Light, judge};
 use subsurf_viewer::{human, read};
 
@@ -14,7 +14,7 @@ pub(crate) use btf::{mssim, mssim_json};
 use crate::info::parse;
 use crate::options::CaptureArgs;
 use crate::outln;
-use crate::picture::{montage, triptych, write_png};
+use crate::picture::{montage, triptych, write_picture};
 use crate::program::failure::bad_request;
 use crate::program::progress::Bars;
 
@@ -26,7 +26,7 @@ use crate::program::progress::Bars;
 /// Of a BTF: MSSIM of Y, Cr and Cb and PSNR over its pairs of directions, and the sizes of its codebooks.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The capture, .npy; a folder of BTF images, a .btf file or an isotropic BRDF of MERL (.binary)
+    /// The capture, .npy or .npz; a folder of BTF images, a .btf file or an isotropic BRDF of MERL (.binary)
     capture: PathBuf,
     /// The .subsurf file
     file: PathBuf,
@@ -81,7 +81,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if is_btf(&args.capture) {
         return btf::run(args);
     }
-    let capture = Capture::open(&args.capture, &args.facts.overrides())?;
+    let capture = args.facts.open(&args.capture)?;
     let bytes = read(&args.file)?;
     let material = parse(&args.file, &bytes)?;
     let judgement = judge(&capture, &material, bytes.len() as u64, &Bars::new())?;
@@ -97,10 +97,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let mut rows = Vec::new();
         for (light, relit) in Light::ALL.iter().zip(&judgement.comparison.lit) {
             let row = triptych(relit, capture.width());
-            write_png(&folder.join(format!("{}.png", light.name())), &montage(std::slice::from_ref(&row)))?;
+            write_picture(&folder.join(format!("{}.png", light.name())), &montage(std::slice::from_ref(&row)))?;
             rows.push(row);
         }
-        write_png(&folder.join("comparison.png"), &montage(&rows))?;
+        write_picture(&folder.join("comparison.png"), &montage(&rows))?;
         if !args.json {
             outln!("pictures (original, file, 10 × difference) in {}", folder.display());
         }

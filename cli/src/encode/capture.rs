@@ -16,18 +16,19 @@ use subsurf_encoder::rate::bssrdf::{Point, search};
 use subsurf_encoder::{check_target, write_bytes};
 use subsurf_viewer::human;
 
+use super::curve;
 use super::report::Report;
-use super::{curve, set_threads};
 use crate::options::{ByteCount, CaptureArgs};
 use crate::outln;
 use crate::program::failure::bad_request;
 use crate::program::interrupt::Graceful;
 use crate::program::progress::Bars;
+use crate::program::threads;
 
 /// Arguments of a fit to a capture.
 #[derive(clap::Args)]
 pub(super) struct FitArgs {
-    /// The capture: a .npy array of shape (height, width, D, D, 3) of Rd in mm⁻², and its sidecar .json with the pixel pitch
+    /// The capture: a .npy or .npz array of shape (height, width, D, D, 3) of Rd in mm⁻², and its sidecar .json with the pixel pitch
     #[arg(required = true)]
     capture: Option<PathBuf>,
     /// The .subsurf file to write; NAME.subsurf beside the capture if not given
@@ -62,7 +63,7 @@ pub(super) struct FitArgs {
     seed: u64,
     #[command(flatten)]
     facts: CaptureArgs,
-    /// Threads to use; the file is the same for any number
+    /// Threads to use, at most eight for each core; the file is the same for any number
     #[arg(long)]
     threads: Option<usize>,
     /// Memory that the fit may take besides the mapped capture, 2GB for example; what is free if not given
@@ -142,8 +143,8 @@ pub(super) fn run(args: &FitArgs) -> anyhow::Result<()> {
     let Some(path) = &args.capture else {
         return Err(bad_request("what is to be encoded? Give a capture, or `btf` and its images"));
     };
-    set_threads(args.threads)?;
-    let capture = Capture::open(path, &args.facts.overrides())?;
+    threads::set(args.threads)?;
+    let capture = args.facts.open(path)?;
     let output = args.output.clone().unwrap_or_else(|| path.with_extension("subsurf"));
     check_target(&output)?;
     for input in [path.to_owned(), sidecar_path(path)] {

@@ -5,11 +5,9 @@ mod capture;
 mod curve;
 mod report;
 
-use crate::program::failure::bad_request;
-
 /// Fit a material to a capture and write a .subsurf file; `encode btf` does so with the images of a BTF.
 ///
-/// Ctrl-C ends the fit early and writes the best model so far; once more ends the program.
+/// Ctrl-C ends the fit early and writes the best model so far; once more ends the program, and so does SIGTERM.
 #[derive(clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(crate) struct Args {
@@ -29,14 +27,5 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     match &args.other {
         Some(Other::Btf(args)) => btf::run(args),
         None => capture::run(&args.capture),
-    }
-}
-
-/// Makes all work run on so many threads.
-fn set_threads(threads: Option<usize>) -> anyhow::Result<()> {
-    match threads {
-        Some(0) => Err(bad_request("--threads is 0; leave it out to use all of them")),
-        Some(threads) => Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?),
-        None => Ok(()),
     }
 }

@@ -5,6 +5,7 @@ pub mod interrupt;
 pub mod memory;
 pub mod output;
 pub mod progress;
+pub mod threads;
 pub mod warnings;
 
 use std::process::ExitCode;
@@ -24,13 +25,14 @@ fn name() -> &'static str {
 /// Call it first in `main`: it sets environment variables, which no other thread may read meanwhile.
 ///
 /// Exit codes: 0 done, 1 this machine failed, 2 the input or the request is wrong, 3 there is no device that can do it,
-/// 130 interrupted.
+/// 130 interrupted or terminated.
 pub fn run<A: Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::Result<()>) -> ExitCode {
     // Once in a process: there is nothing to replace.
     let _ = NAME.set(name);
     crate::devices::settle_drivers();
     interrupt::watch();
-    match work(A::parse()) {
+    let args = A::parse();
+    match threads::check_environment().and_then(|()| work(args)) {
         Ok(()) if interrupt::came() => ExitCode::from(interrupt::INTERRUPTED),
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => failure::report(&error),

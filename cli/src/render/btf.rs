@@ -12,9 +12,8 @@ use super::btf_args::BtfArgs;
 use super::exposure::{SUPERSAMPLING, average_down};
 use crate::images::FolderImages;
 use crate::picture::montage;
-use crate::program::failure::bad_request;
 
-/// Draws a mesh made of a BTF; where there are images, they come second.
+/// Draws a mesh made of a BTF; where there are images, which need a device, they come second.
 pub(crate) fn draw_btf(
     gpu: Option<&Gpu>,
     btf: &NestedBtf<'_>,
@@ -35,9 +34,6 @@ pub(crate) fn draw_btf(
     facts.insert("repeat".to_owned(), json!(copies));
     facts.insert("samples".to_owned(), json!(options.btf.samples));
     let Some(gpu) = gpu else {
-        if args.images.is_some() {
-            return Err(bad_request("--images are drawn by devices only; leave them out, or --backend cpu"));
-        }
         let surface =
             cpu::BtfSurface { btf, material: number, filtering: options.btf.filtering, samples: options.btf.samples };
         let (picture, exposure) = on_cpu(&surface, mesh, copies, &scene, request.exposure, large)?;

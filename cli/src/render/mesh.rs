@@ -11,9 +11,8 @@ use subsurf_shaders::{Rgb, cpu};
 use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scattering, choose_mapping, points};
 
 use super::exposure::{BRIGHT, SUPERSAMPLING, average_down, exposure_for};
-use crate::program::failure::bad_request;
 
-/// Draws a mesh made of the material.
+/// Draws a mesh made of the material; without a device, by the reference technique only.
 pub(crate) fn draw_mesh(
     gpu: Option<&Gpu>,
     material: &Bssrdf<'_>,
@@ -41,12 +40,8 @@ pub(crate) fn draw_mesh(
             };
             session.picture(gpu, &scene)?
         }
-        None if technique != Scattering::Gather => {
-            return Err(bad_request(
-                "the CPU draws meshes by --technique gather only; the other techniques need a device",
-            ));
-        }
         None => {
+            assert_eq!(technique, Scattering::Gather, "the CPU draws meshes by the reference only");
             let (fine, surface) = points(mesh, mapping, material, &scene)?;
             let placement = Placement::new(mesh, mapping, material.header());
             let mut block = uniform::Scene::new(&scene, &placement, large, request.options.light_texels);

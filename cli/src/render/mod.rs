@@ -13,7 +13,6 @@ use std::time::Instant;
 use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
-use subsurf_encoder::check_target;
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_runtime::{RuntimeOptions, TargetFormat};
 use subsurf_scene::{Environment, Mesh, load_mesh};
@@ -22,7 +21,7 @@ use subsurf_viewer::{Content, DEFAULT_LIGHT, ROUGHNESS, RenderRequest, Scatterin
 use crate::devices::{self, BackendArg, check_picture};
 use crate::options::Size;
 use crate::outln;
-use crate::picture::write_png;
+use crate::picture::{check_picture_target, write_picture};
 use crate::program::failure::bad_request;
 use crate::program::warnings::warn;
 use btf::draw_btf;
@@ -39,7 +38,7 @@ pub(crate) use patch::{draw_patch, patch_irradiance};
 pub(crate) struct Args {
     /// The .subsurf file
     file: PathBuf,
-    /// The PNG to write
+    /// The picture to write (.png, .jpg, .tif, .webp, .bmp, .tga)
     #[arg(long, short)]
     output: PathBuf,
     /// Draw it on this mesh: a file (.obj, .ply, .stl, .off, .glb, .gltf), or one of knot, bowl, drapery, relief, sphere,
@@ -95,7 +94,7 @@ Examples:
   subsurf render leather.subsurf -o both.png --images leather/        the file and the images, side by side";
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    check_target(&args.output)?;
+    check_picture_target(&args.output)?;
     check_picture(args.size.0)?;
     args.btf.check()?;
     if let Some(exposure) = args.exposure
@@ -112,14 +111,17 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Content::Bssrdf(material) => draw_bssrdf(args, &material)?,
         Content::Btf(btf) => {
             args.refuse_scattering()?;
-            let gpu = args.backend.open()?;
+            let gpu = match args.btf.images {
+                Some(_) => Some(args.backend.open_device("--images are drawn by devices only")?),
+                None => args.backend.open()?,
+            };
             let shape = args.mesh.as_deref().unwrap_or(Path::new(BTF_SHAPE));
             let mesh = args.load_mesh(shape)?;
             let (picture, facts) = draw_btf(gpu.as_ref(), &btf, &mesh, &args.btf, &args.request()?)?;
             (picture, facts, devices::name(gpu.as_ref()))
         }
     };
-    write_png(&args.output, &picture)?;
+    write_picture(&args.output, &picture)?;
     let seconds = start.elapsed().as_secs_f64();
     if args.json {
         let mut value = json!({ "file": args.output, "device": device, "seconds": seconds });
@@ -146,7 +148,11 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, 
     args.btf.expect_none()?;
     let technique = Scattering::from(args.technique.unwrap_or(TechniqueArg::Gather));
     let is_separable = matches!(technique, Scattering::Separable | Scattering::Homogeneous);
-    let mut gpu = args.backend.open()?;
+    let mut gpu = if args.mesh.is_some() && technique != Scattering::Gather {
+        Some(args.backend.open_device("the CPU draws meshes by --technique gather only")?)
+    } else {
+        args.backend.open()?
+    };
     let is_short_of_halves = gpu.as_ref().is_some_and(|gpu| gpu.target_format() == TargetFormat::Packed);
     if is_short_of_halves && is_separable && args.mesh.is_none() && args.backend == BackendArg::Auto {
         // The CPU does what the device cannot.

@@ -5,15 +5,13 @@ use std::time::Instant;
 
 use clap::ValueEnum;
 use serde_json::json;
-use subsurf_encoder::capture::Scalar;
-use subsurf_encoder::check_target;
-use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Request, Sensor, Summary};
+use subsurf_encoder::capture::{Scalar, check_capture_target};
+use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Request, Sensor, Summary, check_patch};
 use subsurf_viewer::human;
 
 use super::maps;
 use crate::options::{AddressingArg, Size};
 use crate::outln;
-use crate::program::failure::bad_request;
 use crate::program::progress::Bars;
 
 /// Arguments of a simulated capture.
@@ -92,6 +90,8 @@ impl ValueEnum for MaterialArg {
 pub(super) fn run(args: &SlabArgs) -> anyhow::Result<()> {
     let bars = Bars::new();
     let size = args.size.0.map(|side| side as usize);
+    check_patch(size, args.window, &args.output)?;
+    check_capture_target(&args.output)?;
     let (map, source) = match args.material {
         Some(MaterialArg(material)) => {
             (material.map(size, args.addressing.into(), args.seed), json!({ "scene": material.name() }))
@@ -115,11 +115,6 @@ pub(super) fn run(args: &SlabArgs) -> anyhow::Result<()> {
         scalar: if args.half { Scalar::F16 } else { Scalar::F32 },
     };
     request.check()?;
-    check_target(&args.output)?;
-    if args.output.extension().is_some_and(|extension| extension == "json") {
-        let output = args.output.display();
-        return Err(bad_request(format!("{output}: .json is for the facts beside the array; name the array .npy")));
-    }
     let start = Instant::now();
     let Summary { window_share, asymmetry } = request.write(&args.output, &bars)?;
     let bytes = std::fs::metadata(&args.output).map_or(0, |metadata| metadata.len());

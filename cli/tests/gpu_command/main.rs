@@ -4,6 +4,7 @@ mod bssrdf;
 mod btf;
 mod captures;
 mod common;
+mod inputs_captures;
 mod inputs_meshes;
 mod interrupt;
 mod render;

@@ -18,7 +18,9 @@ pub use directions::{Direction, bonn};
 pub use folder::{Folder, FolderWriter, Pixels};
 pub use images::Images;
 pub use merl::Merl;
-pub use npy::{Capture, CaptureWriter, Overrides, Scalar, Sidecar, neighbour, sidecar_path, way_back};
+pub use npy::{
+    Capture, CaptureWriter, Overrides, Scalar, Sidecar, check_capture_target, neighbour, sidecar_path, way_back,
+};
 pub use open::{is_btf, load_btf};
 pub use source::Source;
 pub use ubo::Ubo;

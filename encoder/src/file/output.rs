@@ -2,16 +2,20 @@
 
 use std::collections::BTreeSet;
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use tempfile::NamedTempFile;
+use tempfile::{Builder, NamedTempFile};
 
 use crate::error::{Error, Result};
 
 /// Files that are being written and have not got their names yet.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+/// Symbolic links behind each other that are followed.
+const MAX_LINKS: usize = 40;
+/// What names of unfinished files begin with.
+pub(crate) const PREFIX: &str = ".subsurf-";
 
 fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
@@ -29,26 +33,78 @@ pub fn remove_unfinished() {
     }
 }
 
-/// Whether `path` can be written: its folder is there, and it is nothing but perhaps a file.
+/// Whether `path` can be written: its folder is there and lets files be made in it, and it is nothing but perhaps a file
+/// that is not write-protected. Symbolic links are followed, as by any program that opens a file to write to it.
 ///
 /// # Errors
 /// [`Error::Request`] if not.
 pub fn check_target(path: &Path) -> Result<()> {
-    let folder = folder_of(path);
+    let target = behind_links(path)?;
+    check_folder(path, folder_of(&target))?;
+    let refuse = |what: &str| Err(Error::Request(format!("{}: {what}", path.display())));
+    match std::fs::metadata(&target) {
+        Ok(found) if !found.is_file() => refuse("is there and is not a file"),
+        Ok(found) if found.permissions().readonly() => refuse("is there and is write-protected"),
+        _ => Ok(()),
+    }
+}
+
+/// Whether `path` can be made as a new folder.
+///
+/// # Errors
+/// [`Error::Request`] if not.
+pub(crate) fn check_new_folder(path: &Path) -> Result<()> {
+    if path.symlink_metadata().is_ok() {
+        let path = path.display();
+        return Err(Error::Request(format!("{path}: is there already; remove it, or name another folder")));
+    }
+    check_folder(path, folder_of(path))
+}
+
+/// Whether files can be made in the folder of `path`.
+fn check_folder(path: &Path, folder: &Path) -> Result<()> {
     if !folder.is_dir() {
         return Err(Error::Request(format!("{}: there is no folder {}", path.display(), folder.display())));
     }
-    if path.exists() && !path.is_file() {
-        return Err(Error::Request(format!("{}: is there and is not a file", path.display())));
+    match tempfile::tempfile_in(folder) {
+        Err(error) if matches!(error.kind(), ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem) => {
+            let (path, folder) = (path.display(), folder.display());
+            Err(Error::Request(format!("{path}: nothing can be written to the folder {folder} ({})", error.kind())))
+        }
+        // Whatever else may be wrong, writing will tell.
+        _ => Ok(()),
     }
-    Ok(())
 }
 
-fn folder_of(path: &Path) -> &Path {
+pub(crate) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     }
+}
+
+/// The file that `path` stands for, which need not be there yet.
+fn behind_links(path: &Path) -> Result<PathBuf> {
+    let mut target = path.to_owned();
+    for _ in 0..MAX_LINKS {
+        match std::fs::read_link(&target) {
+            Ok(to) => target = folder_of(&target).join(to),
+            Err(_) => return Ok(target),
+        }
+    }
+    Err(Error::Request(format!("{}: too many symbolic links behind each other", path.display())))
+}
+
+/// Bytes that can still be written beside `path`, as far as the system tells.
+#[cfg(unix)]
+pub(crate) fn free_bytes(path: &Path) -> Option<u64> {
+    let disk = rustix::fs::statvfs(folder_of(path)).ok()?;
+    disk.f_bavail.checked_mul(disk.f_frsize)
+}
+
+#[cfg(not(unix))]
+pub(crate) fn free_bytes(_: &Path) -> Option<u64> {
+    None
 }
 
 /// Keeps a file or folder in the list of what goes away when the program is interrupted.
@@ -69,7 +125,8 @@ impl Drop for Unfinished {
     }
 }
 
-/// Writes `path` through `write`: into a file beside it, which takes its name once everything is on disk.
+/// Writes `path` through `write`: into a file beside it, which takes its name once everything is on disk. Where `path` is
+/// a symbolic link, what it leads to is written; a file that was there keeps its permissions.
 ///
 /// # Errors
 /// As [`check_target`], and [`Error::Output`] if anything on the way fails; a file that was there before is then still there.
@@ -78,15 +135,18 @@ pub fn write_atomically(
     write: impl FnOnce(&mut BufWriter<&mut File>) -> std::io::Result<()>,
 ) -> Result<()> {
     check_target(path)?;
+    let target = behind_links(path)?;
     let output = |source| Error::output(path, source);
-    let mut file = NamedTempFile::with_prefix_in(".subsurf-", folder_of(path)).map_err(output)?;
+    let mut file = new_file(folder_of(&target)).map_err(output)?;
     let _listed = Unfinished::new(file.path());
     let mut buffered = BufWriter::new(file.as_file_mut());
     write(&mut buffered).and_then(|()| buffered.flush()).map_err(output)?;
     drop(buffered);
-    make_readable(file.as_file()).map_err(output)?;
+    if let Ok(found) = std::fs::metadata(&target) {
+        file.as_file().set_permissions(found.permissions()).map_err(output)?;
+    }
     file.as_file().sync_data().map_err(output)?;
-    file.persist(path).map_err(|failed| output(failed.error))?;
+    file.persist(&target).map_err(|failed| output(failed.error))?;
     Ok(())
 }
 
@@ -98,14 +158,14 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
     write_atomically(path, |file| file.write_all(bytes))
 }
 
-/// Temporary files are private to their owner; results are not.
-#[cfg(unix)]
-fn make_readable(file: &File) -> std::io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    file.set_permissions(std::fs::Permissions::from_mode(0o644))
-}
-
-#[cfg(not(unix))]
-fn make_readable(_: &File) -> std::io::Result<()> {
-    Ok(())
+/// A file with a name of its own. Temporary files are private to their owner; results are what the user's mask says.
+fn new_file(folder: &Path) -> std::io::Result<NamedTempFile> {
+    let mut builder = Builder::new();
+    builder.prefix(PREFIX);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
 }

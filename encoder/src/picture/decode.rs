@@ -6,10 +6,11 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use image::metadata::Orientation;
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, Rgb32FImage};
 
+use super::grey::Grey;
 use super::radiance::{self, Layout};
-use super::{Header, Picture};
+use super::{EXTENSIONS, Header, Picture};
 use crate::error::{Error, Result};
 use crate::memory;
 
@@ -24,58 +25,77 @@ const BYTES_OF_PIXEL: u64 = 44;
 pub(super) struct Decoder {
     path: PathBuf,
     source: Source,
-    header: Header,
+    /// Pixels in x and in y as they are stored.
+    stored: [u32; 2],
     orientation: Orientation,
+    is_linear: bool,
+    is_deep: bool,
 }
 
+/// What reads the pixels.
 enum Source {
     Radiance(BufReader<File>, Layout),
+    Grey(Grey),
     Other(Box<dyn ImageDecoder>),
 }
 
 impl Decoder {
     pub(super) fn open(path: &Path) -> Result<Self> {
         let wrong = |error: String| Error::input(path, error, EXPECTED);
-        let file = File::open(path).map_err(|error| wrong(error.to_string()))?;
-        let file_bytes = file.metadata().map_or(0, |metadata| metadata.len());
-        let mut file = BufReader::new(file);
-        // Many programs sign their files "#?RGBE" instead of "#?RADIANCE".
-        let is_radiance = file.fill_buf().map_err(|error| wrong(error.to_string()))?.starts_with(b"#?");
-        let (source, [width, height], is_linear, is_deep, orientation) = if is_radiance {
-            let layout = radiance::read_header(&mut file).map_err(wrong)?;
-            (Source::Radiance(file, layout), layout.scanlines, true, false, layout.orientation)
-        } else {
-            let mut decoder = other(path, file)?;
-            let colour = decoder.color_type();
-            let (bytes, channels) = (colour.bytes_per_pixel(), colour.channel_count());
-            let [is_linear, is_deep] = [4, 2].map(|wide| bytes == wide * channels);
-            let (width, height) = decoder.dimensions();
-            // What cannot be read of EXIF is not there.
-            let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
-            (Source::Other(decoder), [width, height], is_linear, is_deep, orientation)
-        };
-        let pixels = u64::from(width) * u64::from(height);
-        if pixels == 0 || pixels / PIXELS_OF_BYTE > file_bytes {
-            return Err(wrong(format!("{width} × {height} pixels in a file of {file_bytes} bytes")));
+        // Readers go back and forth, which pipes and devices do not do.
+        let found = std::fs::metadata(path).map_err(|error| wrong(error.to_string()))?;
+        if !found.is_file() {
+            return Err(wrong("not a file".to_owned()));
         }
-        let size = if is_on_its_side(orientation) { [height, width] } else { [width, height] };
-        Ok(Self { path: path.to_owned(), source, header: Header { size, is_linear, is_deep }, orientation })
+        let file_bytes = found.len();
+        let file = File::open(path).map_err(|error| wrong(error.to_string()))?;
+        let mut source = source(path, BufReader::new(file)).map_err(wrong)?;
+        let stored = match &source {
+            Source::Radiance(_, layout) => layout.scanlines,
+            Source::Grey(grey) => grey.size(),
+            Source::Other(decoder) => decoder.dimensions().into(),
+        };
+        let pixels = stored.map(u64::from).iter().product::<u64>();
+        if pixels == 0 || pixels / PIXELS_OF_BYTE > file_bytes {
+            return Err(wrong(format!("{} × {} pixels in a file of {file_bytes} bytes", stored[0], stored[1])));
+        }
+        let orientation = match &mut source {
+            Source::Radiance(_, layout) => layout.orientation,
+            Source::Grey(grey) => grey.orientation(),
+            // What cannot be read of EXIF is not there.
+            Source::Other(decoder) => decoder.orientation().unwrap_or(Orientation::NoTransforms),
+        };
+        let [is_linear, is_deep] = match &source {
+            Source::Radiance(..) | Source::Grey(_) => [true, false],
+            Source::Other(decoder) => {
+                let colour = decoder.color_type();
+                [4, 2].map(|wide| colour.bytes_per_pixel() == wide * colour.channel_count())
+            }
+        };
+        Ok(Self { path: path.to_owned(), source, stored, orientation, is_linear, is_deep })
     }
 
     pub(super) fn header(&self) -> Header {
-        self.header
+        let [width, height] = self.stored;
+        let size = if is_on_its_side(self.orientation) { [height, width] } else { self.stored };
+        Header { size, is_linear: self.is_linear, is_deep: self.is_deep }
     }
 
     pub(super) fn decode(self) -> Result<Picture> {
-        let Self { path, source, header, orientation } = self;
-        let [width, height] = header.size;
-        let pixels = u64::from(width) * u64::from(height);
-        let what = || format!("{}: a picture of {width} × {height} pixels", path.display());
-        memory::expect(pixels.saturating_mul(BYTES_OF_PIXEL), what)?;
+        let header = self.header();
+        let Self { path, source, stored: [width, height], orientation, .. } = self;
+        let need = u64::from(width).saturating_mul(u64::from(height)).saturating_mul(BYTES_OF_PIXEL);
+        memory::expect(need, || format!("{}: a picture of {width} × {height} pixels", path.display()))?;
         let wrong = |error: String| Error::input(&path, error, EXPECTED);
         let mut image = match source {
             Source::Radiance(mut file, layout) => {
                 radiance::read_scanlines(&mut file, layout.scanlines).map_err(wrong)?.into()
+            }
+            Source::Grey(grey) => {
+                let values = grey.decode().map_err(|error| wrong(one_line(error)))?;
+                let values = values.into_iter().flat_map(|value| [value; 3]).collect();
+                let image = Rgb32FImage::from_raw(width, height, values);
+                image.ok_or_else(|| wrong("fewer values than pixels".to_owned()))?.into()
             }
             Source::Other(decoder) => DynamicImage::from_decoder(decoder).map_err(|error| wrong(one_line(error)))?,
         };
@@ -90,22 +110,32 @@ impl Decoder {
     }
 }
 
-/// Decoder of a format that the library reads.
-fn other(path: &Path, file: BufReader<File>) -> Result<Box<dyn ImageDecoder>> {
-    let wrong = |error: String| Error::input(path, error, EXPECTED);
-    let mut reader = ImageReader::new(file).with_guessed_format().map_err(|error| wrong(error.to_string()))?;
-    if reader.format().is_none() {
-        // TGA has no signature.
-        match path.extension().and_then(ImageFormat::from_extension) {
-            Some(ImageFormat::Tga) => reader.set_format(ImageFormat::Tga),
-            _ => return Err(wrong("not of a known format".to_owned())),
-        }
+/// What reads a file, or what is wrong with it.
+fn source(path: &Path, mut file: BufReader<File>) -> std::result::Result<Source, String> {
+    // Many programs sign their files "#?RGBE" instead of "#?RADIANCE".
+    if file.fill_buf().map_err(|error| error.to_string())?.starts_with(b"#?") {
+        let layout = radiance::read_header(&mut file)?;
+        return Ok(Source::Radiance(file, layout));
     }
+    let mut reader = ImageReader::new(file).with_guessed_format().map_err(|error| error.to_string())?;
+    // TGA has no signature, and that of large TIFF files is not known.
+    let named = path.extension().and_then(|extension| {
+        let is_read = EXTENSIONS.contains(&extension.to_str()?.to_ascii_lowercase().as_str());
+        ImageFormat::from_extension(extension).filter(|_| is_read)
+    });
+    let format = reader.format().or(named).ok_or("not of a known format")?;
+    reader.set_format(format);
     // What the pixels take is checked before they are read.
     let mut limits = Limits::no_limits();
     limits.max_alloc = memory::available();
     reader.limits(limits);
-    Ok(Box::new(reader.into_decoder().map_err(|error| wrong(one_line(error)))?))
+    match reader.into_decoder() {
+        Ok(decoder) => Ok(Source::Other(Box::new(decoder))),
+        Err(error) => {
+            let again = File::open(path).map_err(|error| error.to_string())?;
+            Grey::open(format, BufReader::new(again)).map(Source::Grey).ok_or_else(|| one_line(error))
+        }
+    }
 }
 
 fn is_on_its_side(orientation: Orientation) -> bool {

@@ -1,6 +1,7 @@
 //! Pictures that others made, read in one way: maps, environments, images of BTFs.
 
 mod decode;
+mod grey;
 mod radiance;
 
 use std::path::Path;
@@ -11,8 +12,8 @@ use image::imageops::{FilterType, resize};
 use crate::error::Result;
 use decode::Decoder;
 
-/// Extensions of files that [`Picture::open`] reads, in lower case. What a file is, its content says; only TGA is told by
-/// its name.
+/// Extensions of files that [`Picture::open`] reads, in lower case. What a file is, its content says, or its name where
+/// the content has no signature.
 pub const EXTENSIONS: [&str; 10] = ["png", "jpg", "jpeg", "exr", "hdr", "tif", "tiff", "tga", "webp", "bmp"];
 
 /// Facts that the header of a picture states.

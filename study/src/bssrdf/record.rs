@@ -17,7 +17,7 @@ use subsurf_encoder::write_bytes;
 use super::plan::Fit;
 use crate::cache;
 use crate::page::colour::{error_map, grey_map};
-use subsurf_cli::picture::{linear, write_png};
+use subsurf_cli::picture::{linear, write_picture};
 use subsurf_cli::program::progress::Bars;
 
 /// Record: what came of one fit. Judged by the capture without noise, whatever it was fitted to.
@@ -116,15 +116,15 @@ impl FitCase<'_> {
         let picture = |what: &str| picture_path(self.folder, &self.name(), label, what);
         for (light, relit) in Light::ALL.iter().zip(&judgement.comparison.lit) {
             if let Some(relit) = relit.normalised() {
-                write_png(&picture(light.name()), &linear(&relit.image, width, 1))?;
+                write_picture(&picture(light.name()), &linear(&relit.image, width, 1))?;
                 let original = picture_path(self.folder, &self.name(), "original", light.name());
-                write_png(&original, &linear(&relit.reference, width, 1))?;
+                write_picture(&original, &linear(&relit.reference, width, 1))?;
             }
         }
-        write_png(&picture("error"), &error_map(&judgement.comparison.albedo.relative_errors(), width))?;
+        write_picture(&picture("error"), &error_map(&judgement.comparison.albedo.relative_errors(), width))?;
         let ranks = sorted_ratios(material);
         for (rank, map) in ranks.iter().enumerate().filter(|_| ranks.len() > 2) {
-            write_png(&picture(&format!("ratio{}", rank + 1)), &grey_map(map, width))?;
+            write_picture(&picture(&format!("ratio{}", rank + 1)), &grey_map(map, width))?;
         }
         #[allow(clippy::cast_precision_loss, reason = "pixels fit in 2⁵³")]
         let mean = |map: &Vec<f32>| map.iter().map(|&t| f64::from(t)).sum::<f64>() / map.len() as f64;

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 use subsurf_cli::info::Parts;
-use subsurf_cli::picture::{display, write_png};
+use subsurf_cli::picture::{display, write_picture};
 use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::btf::Evaluate;
 use subsurf_encoder::btf::TruncatedSvd;
@@ -143,9 +143,12 @@ impl CodecCase<'_> {
                 Made::Baseline(baseline) => baseline.image(pair),
             };
             let width = images.size()[0];
-            write_png(&picture_path(self.folder, self.name, codec.label(), number), &display(&decoded, width, None))?;
+            write_picture(
+                &picture_path(self.folder, self.name, codec.label(), number),
+                &display(&decoded, width, None),
+            )?;
             let original = display(&images.image(pair), width, None);
-            write_png(&picture_path(self.folder, self.name, "original", number), &original)?;
+            write_picture(&picture_path(self.folder, self.name, "original", number), &original)?;
         }
         Ok(())
     }

@@ -13,12 +13,12 @@ use subsurf_encoder::metrics::btf::judge;
 use subsurf_encoder::rate::Target;
 use subsurf_encoder::{Error, check_target, write_bytes};
 
-use super::set_threads;
 use crate::options::ByteCount;
 use crate::outln;
 use crate::program::failure::bad_request;
 use crate::program::interrupt::Graceful;
 use crate::program::progress::Bars;
+use crate::program::threads;
 use report::{Report, line};
 
 /// How a file is made.
@@ -85,7 +85,7 @@ pub(crate) struct Args {
     /// Seed of the first codewords
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Threads to use; the file is the same for any number
+    /// Threads to use, at most eight for each core; the file is the same for any number
     #[arg(long)]
     threads: Option<usize>,
     /// Report as JSON
@@ -94,7 +94,7 @@ pub(crate) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> anyhow::Result<()> {
-    set_threads(args.threads)?;
+    threads::set(args.threads)?;
     let first = &args.inputs[0];
     let output = args.output.clone().unwrap_or_else(|| first.with_extension("subsurf"));
     check_target(&output)?;

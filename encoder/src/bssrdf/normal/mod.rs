@@ -61,6 +61,7 @@ impl Normal {
         let mut exchange = vec![[0.0; 3]; geometry.pixels()];
         let mut y2 = 0.0;
         let mut entries = [0; 2];
+        let mut faint = 0;
         let mut measured: Vec<Option<Vec<u8>>> = Vec::new();
 
         progress.begin("reading the capture", geometry.pixels() as u64);
@@ -73,15 +74,19 @@ impl Normal {
                 y2 += block.y2;
                 entries[0] += block.entries[0];
                 entries[1] += block.entries[1];
+                faint += block.faint;
                 measured.push(block.measured);
             }
         }
         if entries[1] == 0 {
-            return Err(Error::input(
-                capture.path(),
-                "nothing measured: no entry inside the material is finite and positive",
-                "at least one such entry",
-            ));
+            let mut found = "nothing measured: no entry inside the material is finite and positive".to_owned();
+            if faint > 0 {
+                found = format!("{found}; {faint} are below {:e}", f32::MIN_POSITIVE);
+            }
+            return Err(Error::input(capture.path(), found, "at least one such entry"));
+        }
+        if faint > 0 {
+            progress.warn(&capture.faint_warning(faint));
         }
         let counts = counts::counts(&geometry, &rings, &measured);
         drop(measured);

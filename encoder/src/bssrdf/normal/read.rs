@@ -27,6 +27,8 @@ pub(super) struct Block {
     pub(super) measured: Option<Vec<u8>>,
     /// Entries inside the material, and those of them that were measured.
     pub(super) entries: [u64; 2],
+    /// Values of all windows that are too small for a measurement.
+    pub(super) faint: u64,
 }
 
 impl Block {
@@ -52,11 +54,12 @@ impl Block {
             y2: 0.0,
             measured: None,
             entries: [0; 2],
+            faint: 0,
         };
         for row in 0..rows {
             for x in 0..width {
                 let pixel = (first + row) * width + x;
-                capture.read_window(pixel, &mut window);
+                block.faint += capture.read_window(pixel, &mut window);
                 let here = block.start(geometry, row, [x, 0], [0, 0]);
                 for ring in rings {
                     let phi = f64::from(ring.phi);

@@ -4,10 +4,11 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageFormat, Rgb32FImage, RgbImage};
+use tempfile::TempDir;
 
 use crate::capture::directions::{Direction, image_name};
 use crate::error::{Error, Result};
-use crate::file::output::{Unfinished, write_bytes};
+use crate::file::output::{PREFIX, Unfinished, check_new_folder, folder_of, write_bytes};
 
 /// How values become pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +34,7 @@ impl Pixels {
 /// Writes a folder that is there whole or not at all.
 pub struct FolderWriter {
     folder: PathBuf,
-    unfinished: PathBuf,
+    unfinished: TempDir,
     _listed: Unfinished,
     side: u32,
     pixels: Pixels,
@@ -43,18 +44,13 @@ impl FolderWriter {
     /// Begins a folder of square images of `side` pixels.
     ///
     /// # Errors
-    /// [`Error::Request`] if something of that name is there already; [`Error::Output`] if it cannot be written.
+    /// [`Error::Request`] if something of that name is there already, or nothing can be made beside it; [`Error::Output`]
+    /// if it cannot be written.
     pub fn new(folder: &Path, side: u32, pixels: Pixels) -> Result<Self> {
-        if folder.exists() {
-            return Err(Error::Request(format!(
-                "{}: is there already; remove it, or name another folder",
-                folder.display()
-            )));
-        }
-        let name = folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        let unfinished = folder.with_file_name(format!(".{name}.unfinished"));
-        let listed = Unfinished::new(&unfinished);
-        std::fs::create_dir(&unfinished).map_err(|source| Error::output(folder, source))?;
+        check_new_folder(folder)?;
+        let unfinished = tempfile::Builder::new().prefix(PREFIX).tempdir_in(folder_of(folder));
+        let unfinished = unfinished.map_err(|source| Error::output(folder, source))?;
+        let listed = Unfinished::new(unfinished.path());
         Ok(Self { folder: folder.to_owned(), unfinished, _listed: listed, side, pixels })
     }
 
@@ -67,7 +63,7 @@ impl FolderWriter {
     /// If there are not as many values as pixels.
     pub fn write(&self, light: Direction, view: Direction, values: &[[f32; 3]]) -> Result<()> {
         let side = self.side;
-        let path = self.unfinished.join(format!("{}.{}", image_name(light, view), self.pixels.extension()));
+        let path = self.unfinished.path().join(format!("{}.{}", image_name(light, view), self.pixels.extension()));
         let (image, format) = match self.pixels {
             Pixels::Display { exposure } => {
                 let bytes = values.iter().flatten().map(|value| display(value * exposure)).collect();
@@ -91,15 +87,12 @@ impl FolderWriter {
     /// # Errors
     /// [`Error::Output`].
     pub fn finish(self, facts: &serde_json::Value) -> Result<()> {
-        write_bytes(&self.unfinished.join("btf.json"), format!("{facts:#}\n").as_bytes())?;
-        std::fs::rename(&self.unfinished, &self.folder).map_err(|source| Error::output(&self.folder, source))
-    }
-}
-
-impl Drop for FolderWriter {
-    fn drop(&mut self) {
-        // Gone already once it is finished.
-        std::fs::remove_dir_all(&self.unfinished).ok();
+        write_bytes(&self.unfinished.path().join("btf.json"), format!("{facts:#}\n").as_bytes())?;
+        let output = |source| Error::output(&self.folder, source);
+        std::fs::rename(self.unfinished.path(), &self.folder).map_err(output)?;
+        // It has another name now: there is nothing to remove.
+        drop(self.unfinished.keep());
+        Ok(())
     }
 }
 

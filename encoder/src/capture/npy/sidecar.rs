@@ -1,8 +1,10 @@
 //! What a capture's array cannot say: `NAME.json` beside `NAME.npy`.
 
+use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use subsurf_decoder::bssrdf::{Addressing, layout};
 
@@ -35,7 +37,7 @@ pub struct Overrides {
     pub eta: Option<f32>,
 }
 
-/// The sidecar as it stands in the file; keys of others are left alone.
+/// The sidecar as it stands in the file, with these keys and perhaps others.
 #[derive(Default, Deserialize, Serialize)]
 struct Fields {
     pitch_mm: Option<f32>,
@@ -46,6 +48,9 @@ struct Fields {
     #[serde(skip_serializing_if = "Option::is_none")]
     simulated: Option<serde_json::Value>,
 }
+
+/// Keys of [`Fields`].
+const KEYS: [&str; 4] = ["pitch_mm", "addressing", "eta", "simulated"];
 
 #[derive(Clone, Copy, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -83,22 +88,59 @@ pub fn sidecar_path(capture: &Path) -> PathBuf {
     capture.with_extension("json")
 }
 
+/// Fields of a sidecar, and its keys that are not known.
+fn parse(bytes: &[u8]) -> std::result::Result<(Fields, Vec<String>), String> {
+    let text = decode(bytes)?;
+    let fields = serde_json::from_str(&text).map_err(|error| error.to_string())?;
+    let all: BTreeMap<String, IgnoredAny> = serde_json::from_str(&text).map_err(|error| error.to_string())?;
+    let unknown = all.into_keys().filter(|key| !KEYS.contains(&key.as_str()));
+    Ok((fields, unknown.map(|key| format!("{key:?}")).collect()))
+}
+
+/// Text in UTF-8 with or without a byte-order mark, or in UTF-16 with one.
+fn decode(bytes: &[u8]) -> std::result::Result<String, String> {
+    let wide = |bytes: &[u8], unit: fn([u8; 2]) -> u16| {
+        let (pairs, rest) = bytes.as_chunks();
+        let text = String::from_utf16(&pairs.iter().copied().map(unit).collect::<Vec<_>>());
+        text.ok().filter(|_| rest.is_empty()).ok_or_else(|| "broken UTF-16".to_owned())
+    };
+    match bytes {
+        [0xff, 0xfe, rest @ ..] => wide(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => wide(rest, u16::from_be_bytes),
+        [0xef, 0xbb, 0xbf, rest @ ..] | rest => {
+            let text = std::str::from_utf8(rest).map_err(|error| format!("not UTF-8: {error}"))?;
+            Ok(text.to_owned())
+        }
+    }
+}
+
+/// Whether a file is the sidecar of a capture, and not something else in JSON.
+pub(super) fn is_sidecar(bytes: &[u8]) -> bool {
+    parse(bytes).is_ok_and(|(fields, _)| fields.pitch_mm.is_some())
+}
+
 impl Sidecar {
-    /// Reads the sidecar of `capture`; `overrides` win, and a given pitch makes a sidecar unnecessary.
-    pub(super) fn load(capture: &Path, overrides: &Overrides) -> Result<Self> {
+    /// Reads the sidecar of `capture`; `overrides` win, and a given pitch makes a sidecar unnecessary. Also returns a
+    /// warning of keys that are not known.
+    pub(super) fn load(capture: &Path, overrides: &Overrides) -> Result<(Self, Option<String>)> {
         let path = sidecar_path(capture);
-        let fields: Fields = match std::fs::read(&path) {
-            Ok(text) => serde_json::from_slice(&text)
-                .map_err(|error| Error::input(&path, format!("unreadable sidecar ({error})"), EXAMPLE))?,
-            Err(error) if error.kind() == ErrorKind::NotFound => Fields::default(),
+        let (fields, unknown) = match std::fs::read(&path) {
+            Ok(bytes) => {
+                parse(&bytes).map_err(|error| Error::input(&path, format!("unreadable sidecar ({error})"), EXAMPLE))?
+            }
+            Err(error) if error.kind() == ErrorKind::NotFound => (Fields::default(), Vec::new()),
             Err(error) => return Err(Error::input(&path, error, EXAMPLE)),
         };
+        let unknown = (!unknown.is_empty()).then(|| {
+            let (path, count, unknown) = (path.display(), unknown.len(), unknown.join(", "));
+            format!("{path}: unknown keys are left out ({count}): {unknown}; known are {}", KEYS.join(", "))
+        });
         let pitch_mm = overrides.pitch_mm.or(fields.pitch_mm).ok_or_else(|| {
-            Error::input(
-                capture,
-                format!("no pixel pitch: neither --pitch nor \"pitch_mm\" in {}", path.display()),
-                EXAMPLE,
-            )
+            let mut found = format!("no pixel pitch: neither --pitch nor \"pitch_mm\" in {}", path.display());
+            if let Some(unknown) = &unknown {
+                found = format!("{found} ({unknown})");
+            }
+            Error::input(capture, found, EXAMPLE)
         })?;
         let sidecar = Self {
             pitch_mm,
@@ -107,7 +149,7 @@ impl Sidecar {
             simulated: fields.simulated,
         };
         sidecar.check(capture)?;
-        Ok(sidecar)
+        Ok((sidecar, unknown))
     }
 
     /// Refuses values that a file could not hold.

@@ -71,39 +71,45 @@ pub fn compare(capture: &Capture, material: &Bssrdf<'_>, progress: &dyn Progress
     let pixels = capture.pixels();
     let new = || Comparison { albedo: Relit::new(pixels), lit: std::array::from_fn(|_| Relit::new(pixels)) };
     let mut total = new();
+    let mut faint = 0;
     progress.begin("comparing", pixels as u64);
     let firsts: Vec<usize> = (0..capture.height()).step_by(BLOCK_ROWS).collect();
     for firsts in firsts.chunks(BLOCKS_AT_ONCE) {
-        let blocks: Vec<Comparison> = firsts
+        let blocks: Vec<(Comparison, u64)> = firsts
             .par_iter()
             .map(|&first| {
                 let mut block = new();
+                let mut faint = 0;
                 let last = (first + BLOCK_ROWS).min(capture.height());
                 for y in first..last {
                     for x in 0..capture.width() {
-                        add_source(capture, material, [x, y], &mut block);
+                        faint += add_source(capture, material, [x, y], &mut block);
                     }
                     progress.advance(capture.width() as u64);
                 }
-                block
+                (block, faint)
             })
             .collect();
-        for block in &blocks {
+        for (block, of_block) in &blocks {
+            faint += of_block;
             total.albedo.add(&block.albedo);
             for (total, block) in total.lit.iter_mut().zip(&block.lit) {
                 total.add(block);
             }
         }
     }
+    if faint > 0 {
+        progress.warn(&capture.faint_warning(faint));
+    }
     Ok(total)
 }
 
-/// Adds the light that enters at one pixel to where it leaves.
-fn add_source(capture: &Capture, material: &Bssrdf<'_>, [x, y]: [usize; 2], sums: &mut Comparison) {
+/// Adds the light that enters at one pixel to where it leaves; returns how many values are too small for a measurement.
+fn add_source(capture: &Capture, material: &Bssrdf<'_>, [x, y]: [usize; 2], sums: &mut Comparison) -> u64 {
     let size = [capture.width(), capture.height()];
     let source = y * size[0] + x;
     let mut window = vec![0.0; capture.window_len()];
-    capture.read_window(source, &mut window);
+    let faint = capture.read_window(source, &mut window);
     let irradiance = Light::ALL.map(|light| f64::from(light.irradiance([x, y], size)));
     let area = f64::from(capture.pitch_mm()).powi(2);
     let radius = i32::try_from(capture.radius()).expect("a window radius is below 1,024");
@@ -132,4 +138,5 @@ fn add_source(capture: &Capture, material: &Bssrdf<'_>, [x, y]: [usize; 2], sums
             }
         }
     }
+    faint
 }

@@ -2,7 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use subsurf_decoder::bssrdf::layout::LENGTHS_MM;
+
 use super::medium::{MEASURED, Medium};
+use super::request::check_eta;
 use super::slab::MediumMap;
 use crate::error::{Error, Result};
 use crate::picture::Picture;
@@ -101,6 +104,7 @@ pub fn albedo(
     eta: f64,
     progress: &dyn Progress,
 ) -> Result<MediumMap> {
+    check_eta(eta)?;
     let albedo = load(image, size, Meaning::Colour, progress)?;
     let lengths: Vec<[f64; 3]> = match mean_free_path {
         MeanFreePath::Constant(lengths) => vec![*lengths; size[0] * size[1]],
@@ -110,8 +114,11 @@ pub fn albedo(
             stored.pixels().iter().map(|rgb| rgb.map(length)).collect()
         }
     };
-    if let Some(length) = lengths.iter().flatten().find(|length| !(length.is_finite() && **length > 0.0)) {
-        return Err(Error::Request(format!("a mean free path of {length} mm; it must be positive")));
+    let [shortest, longest] = LENGTHS_MM.map(f64::from);
+    if let Some(length) = lengths.iter().flatten().find(|length| !(shortest..=longest).contains(*length)) {
+        return Err(Error::Request(format!(
+            "a mean free path of {length} mm; it must be positive, from {shortest} to {longest} mm"
+        )));
     }
     let media = albedo.pixels().iter().zip(lengths);
     let media = media.map(|(albedo, length)| Medium::from_albedo(albedo.map(f64::from), length, eta));

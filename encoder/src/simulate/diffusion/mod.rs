@@ -18,7 +18,7 @@ mod solver;
 
 pub use material::BuiltinMaterial;
 pub use medium::Medium;
-pub use request::Request;
+pub use request::{Request, check_patch};
 pub use run::{Finish, Summary, expose, simulate};
 pub use sensor::Sensor;
 pub use slab::{MediumMap, Slab};

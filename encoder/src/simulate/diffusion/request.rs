@@ -7,10 +7,13 @@ use serde_json::{Value, json};
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_decoder::bssrdf::layout::LENGTHS_MM;
 
+use super::medium::Medium;
 use super::run::{Finish, Summary, simulate};
 use super::slab::{MediumMap, Slab};
 use crate::capture::{CaptureWriter, Scalar, Sidecar};
 use crate::error::{Error, Result};
+use crate::file::output::free_bytes;
+use crate::memory;
 use crate::progress::Progress;
 
 /// How much finer or coarser than usual voxels may be.
@@ -21,8 +24,55 @@ const ETA: RangeInclusive<f64> = 1.0..=4.0;
 const MAX_WINDOW: u32 = 2_047;
 /// Pixels to a side of a patch, at most.
 const MAX_SIDE: usize = 65_535;
-/// Voxels around a pixel, at most: each takes some 200 bytes on every core.
+/// Thickness of a slab in mm, at most: light gets nowhere near that deep.
+const MAX_THICKNESS_MM: f64 = 10_000.0;
+/// Voxels around a pixel, at most.
 const MAX_VOXELS: usize = 8_000_000;
+/// Bytes of memory for a voxel, on every core.
+const BYTES_OF_VOXEL: usize = 200;
+
+/// Refuses refractive indices that cannot be simulated.
+pub(super) fn check_eta(eta: f64) -> Result<()> {
+    match ETA.contains(&eta) {
+        true => Ok(()),
+        false => Err(Error::Request(format!("--eta is {eta}; refractive indices are 1 to 4"))),
+    }
+}
+
+fn check_sides(size: [usize; 2], window: u32) -> Result<()> {
+    if window.is_multiple_of(2) || window > MAX_WINDOW {
+        return Err(Error::Request(format!("--window is {window}; it must be odd and at most {MAX_WINDOW}")));
+    }
+    match size.iter().any(|side| *side > MAX_SIDE) {
+        true => Err(Error::Request(format!("--size is {}x{}; the limit is {MAX_SIDE} pixels", size[0], size[1]))),
+        false => Ok(()),
+    }
+}
+
+/// Whether a patch of this size, in pixels, and with this window fits into memory while it is simulated, and its array
+/// beside `output`. It needs no media.
+///
+/// # Errors
+/// [`Error::Request`] with what it would take.
+pub fn check_patch(size: [usize; 2], window: u32, output: &Path) -> Result<()> {
+    check_sides(size, window)?;
+    let [width, height] = size.map(|side| side as u64);
+    let row = width * u64::from(window).pow(2) * 3 * size_of::<f32>() as u64;
+    // Rows that are simulated together, one that is finished, and the medium of every pixel.
+    let rows = 2 * rayon::current_num_threads() as u64 + 1;
+    let media = width * height * size_of::<Medium>() as u64;
+    let what = || format!("--size {width}x{height} with --window {window}");
+    memory::expect(media.saturating_add(row.saturating_mul(rows)), what)?;
+    // What is solved, in single precision, and the array.
+    let need = row.saturating_mul(2 * height);
+    match free_bytes(output) {
+        Some(free) if need > free => {
+            let [need, free] = [need, free].map(memory::gigabytes);
+            Err(Error::Request(format!("{} takes {need} of disk while it is made, and there is {free}", what())))
+        }
+        _ => Ok(()),
+    }
+}
 
 /// A capture to be simulated and written.
 #[derive(Clone, Debug)]
@@ -64,6 +114,10 @@ impl Request<'_> {
                 return refuse(format!("--{what} is {value}; it must be positive"));
             }
         }
+        if self.thickness_mm > MAX_THICKNESS_MM {
+            let thickness = self.thickness_mm;
+            return refuse(format!("--thickness is {thickness} mm; at most {MAX_THICKNESS_MM} mm can be simulated"));
+        }
         let [shortest, longest] = LENGTHS_MM.map(f64::from);
         if !(shortest..=longest).contains(&self.pitch_mm) {
             return refuse(format!("--pitch is {} mm; from {shortest} to {longest} will do", self.pitch_mm));
@@ -72,15 +126,8 @@ impl Request<'_> {
             let (least, most) = (REFINE.start(), REFINE.end());
             return refuse(format!("--refine is {}; it may be {least} to {most}", self.refine));
         }
-        if !ETA.contains(&self.eta) {
-            return refuse(format!("--eta is {}; refractive indices are 1 to 4", self.eta));
-        }
-        if self.window.is_multiple_of(2) || self.window > MAX_WINDOW {
-            return refuse(format!("--window is {}; it must be odd and at most {MAX_WINDOW}", self.window));
-        }
-        if self.map.size.iter().any(|side| *side > MAX_SIDE) {
-            return refuse(format!("--size is {:?}; the limit is {MAX_SIDE} pixels", self.map.size));
-        }
+        check_eta(self.eta)?;
+        check_sides(self.map.size, self.window)?;
         let voxels = self.slab().voxels();
         if voxels > MAX_VOXELS {
             return refuse(format!(
@@ -88,7 +135,8 @@ impl Request<'_> {
                  takes fewer, and so does a --pitch nearer to the mean free path of light"
             ));
         }
-        Ok(())
+        let bytes = (voxels * BYTES_OF_VOXEL) as u64 * rayon::current_num_threads() as u64;
+        memory::expect(bytes, || format!("a simulation of {voxels} voxels on each of all threads"))
     }
 
     fn slab(&self) -> Slab<'_> {
@@ -106,9 +154,10 @@ impl Request<'_> {
     /// Simulates, and writes array and sidecar.
     ///
     /// # Errors
-    /// As [`Self::check`] and [`simulate`].
+    /// As [`Self::check`], [`check_patch`] and [`simulate`].
     pub fn write(&self, path: &Path, progress: &dyn Progress) -> Result<Summary> {
         self.check()?;
+        check_patch(self.map.size, self.window, path)?;
         let slab = self.slab();
         let radius = slab.radius;
         let sidecar = self.sidecar();

@@ -8,7 +8,7 @@ use image::RgbImage;
 use subsurf_cli::info::parse;
 use subsurf_cli::options::Size;
 use subsurf_cli::outln;
-use subsurf_cli::picture::{image, montage, write_png};
+use subsurf_cli::picture::{image, montage, write_picture};
 use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::{psnr_db, ssim};
@@ -137,7 +137,7 @@ fn compare(
     let pictures: Vec<RgbImage> =
         std::iter::once(small[0].clone()).chain(small[1..].iter().step_by(2).cloned()).collect();
     let errors = std::iter::once(blank).chain(small[1..].iter().skip(1).step_by(2).cloned()).collect();
-    write_png(&args.output.join(&file), &montage(&[pictures, errors]))?;
+    write_picture(&args.output.join(&file), &montage(&[pictures, errors]))?;
     page.pictures.push((format!("{material_name}, {mesh_name}"), file));
     Ok(())
 }

@@ -1,4 +1,7 @@
 //! Pictures, arrays and their sidecars as other programs write them.
 
+mod arrays;
+mod outputs;
 mod pictures;
 mod pictures_broken;
+mod sidecars;

@@ -129,6 +129,49 @@ fn floats_are_linear_in_every_format() {
     }
 }
 
+/// A TIFF file of one float for each pixel; `is_large` for 64-bit offsets.
+pub(super) fn grey_tiff(picture: &Rgb32FImage, is_large: bool) -> Vec<u8> {
+    use tiff::encoder::TiffEncoder;
+    use tiff::encoder::colortype::Gray32Float;
+
+    let values: Vec<f32> = picture.pixels().map(|rgb| rgb.0[0]).collect();
+    let (width, height) = picture.dimensions();
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let written = if is_large {
+        TiffEncoder::new_big(&mut bytes).and_then(|mut file| file.write_image::<Gray32Float>(width, height, &values))
+    } else {
+        TiffEncoder::new(&mut bytes).and_then(|mut file| file.write_image::<Gray32Float>(width, height, &values))
+    };
+    written.expect("memory can be written to");
+    bytes.into_inner()
+}
+
+/// An OpenEXR file of luminance alone.
+pub(super) fn grey_exr(picture: &Rgb32FImage) -> Vec<u8> {
+    use exr::prelude::{Image, SpecificChannels, Vec2, WritableImage};
+
+    let size = [picture.width(), picture.height()].map(|side| side as usize);
+    let value = |at: Vec2<usize>| (picture.as_raw()[3 * (at.y() * size[0] + at.x())],);
+    let channels = SpecificChannels::build().with_channel::<f32>("Y").with_pixel_fn(value);
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let image = Image::from_channels((size[0], size[1]), channels);
+    image.write().to_buffered(&mut bytes).expect("memory can be written to");
+    bytes.into_inner()
+}
+
+#[test]
+fn one_float_for_each_pixel_is_a_picture_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = linear();
+    for (name, bytes) in
+        [("a.tif", grey_tiff(&image, false)), ("large.tif", grey_tiff(&image, true)), ("a.exr", grey_exr(&image))]
+    {
+        let path = write(folder.path(), name, &bytes);
+        assert!(Header::open(&path).unwrap().is_linear, "{name}");
+        assert_eq!(difference(&path, [6, 4], |x, y| [image.get_pixel(x, y).0[0]; 3]), 0.0, "{name}");
+    }
+}
+
 #[test]
 fn scanlines_may_come_in_any_order() {
     let folder = tempfile::tempdir().unwrap();
@@ -194,7 +237,6 @@ fn exif_says_which_way_is_up() {
         let extended = chunk(b"VP8X", &[&[8, 0, 0, 0][..], &sides[0][..3], &sides[1][..3]].concat());
         let body = [b"WEBP".as_slice(), &extended, &webp[12..], &chunk(b"EXIF", &exif(orientation))].concat();
         let webp = chunk(b"RIFF", &body);
-        // TIFF has a tag of its own; an unused one of the encoder's makes room for it.
         for (name, bytes) in [("a.jpg", jpeg), ("a.webp", webp)] {
             let path = write(folder.path(), name, &bytes);
             let expected = |x, y| upright.get_pixel(x, y).0.map(|value| f32::from(value) / 255.0);

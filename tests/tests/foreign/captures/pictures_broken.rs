@@ -4,7 +4,7 @@ use image::ImageFormat;
 use subsurf_encoder::picture::Picture;
 use subsurf_tests::mutate::assert_survives;
 
-use super::pictures::{blocks, encoded, linear, radiance};
+use super::pictures::{blocks, encoded, grey_exr, grey_tiff, linear, radiance};
 
 #[test]
 fn no_mutation_of_a_picture_panics() {
@@ -22,12 +22,17 @@ fn no_mutation_of_a_picture_panics() {
         ("a.webp", vec![integers(ImageFormat::WebP)]),
         (
             "a.tif",
-            vec![integers(ImageFormat::Tiff), encoded(deep, ImageFormat::Tiff), encoded(linear(), ImageFormat::Tiff)],
+            vec![
+                integers(ImageFormat::Tiff),
+                encoded(deep, ImageFormat::Tiff),
+                encoded(linear(), ImageFormat::Tiff),
+                grey_tiff(&linear(), false),
+            ],
         ),
-        ("a.exr", vec![encoded(linear(), ImageFormat::OpenExr)]),
+        ("a.exr", vec![encoded(linear(), ImageFormat::OpenExr), grey_exr(&linear())]),
         ("a.hdr", vec![radiance(&linear(), "+Y 4 +X 6", row_by_row, [4, 6]), coded.concat()]),
     ] {
-        let tally = assert_survives(name, &files, |path| Picture::open(path));
+        let tally = assert_survives(name, &files, Picture::open);
         println!("{name}: {tally:?}");
     }
 }
