@@ -40,6 +40,16 @@ impl Program {
         assert_eq!(run.code, 0, "{args}: {}{}", run.out, run.err);
         run
     }
+
+    /// Runs it, and takes JSON on stdout for granted.
+    ///
+    /// # Panics
+    /// If it fails, or prints anything else.
+    #[must_use]
+    pub fn json(&self, folder: &Path, args: &str) -> serde_json::Value {
+        let run = self.succeed(folder, args);
+        serde_json::from_str(&run.out).unwrap_or_else(|error| panic!("{args}: {error} in {}", run.out))
+    }
 }
 
 /// Runs a command to its end.

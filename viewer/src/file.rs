@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 /// Material of a file that can be drawn.
 #[derive(Clone, Copy)]
 #[allow(clippy::large_enum_variant, reason = "one at a time")]
-pub enum Content<'a> {
+pub enum DrawnMaterial<'a> {
     /// A translucent material.
     Bssrdf(Bssrdf<'a>),
     /// Bidirectional texture functions in nested codebooks.
@@ -39,12 +39,12 @@ pub fn read(path: &Path) -> Result<Vec<u8>> {
 ///
 /// # Errors
 /// [`Error::File`] for broken files, [`Error::Request`] for a factored BTF, which is not drawn.
-pub fn parse<'a>(path: &Path, bytes: &'a [u8]) -> Result<Content<'a>> {
+pub fn parse<'a>(path: &Path, bytes: &'a [u8]) -> Result<DrawnMaterial<'a>> {
     let file = File::parse(bytes);
     let file = file.map_err(|source| Error::File { path: path.to_owned(), kind: "material", source })?;
     match file.content() {
-        subsurf_decoder::Content::Bssrdf(material) => Ok(Content::Bssrdf(material)),
-        subsurf_decoder::Content::NestedBtf(btf) => Ok(Content::Btf(btf)),
+        subsurf_decoder::Content::Bssrdf(material) => Ok(DrawnMaterial::Bssrdf(material)),
+        subsurf_decoder::Content::NestedBtf(btf) => Ok(DrawnMaterial::Btf(btf)),
         other => Err(not_drawn(path, other.family())),
     }
 }

@@ -15,7 +15,7 @@ pub use asset::{
     exposure_of, factors, light_of, points, repeats, upload_images,
 };
 pub use error::{Error, Result, one_line};
-pub use file::{Content, material_number, parse, parse_btf, read, stem};
+pub use file::{DrawnMaterial, material_number, parse, parse_btf, read, stem};
 pub use request::{Angles, DEFAULT_LIGHT, ROUGHNESS, RenderRequest};
 pub use units::human;
 pub use window::{Config, Event, Host, KEYS, LoadImages, Picture, Viewer, event_loop, options};

@@ -16,7 +16,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_runtime::{RuntimeOptions, TargetFormat};
 use subsurf_scene::{Environment, Mesh, load_mesh};
-use subsurf_viewer::{Content, DEFAULT_LIGHT, ROUGHNESS, RenderRequest, Scattering, human, parse, read};
+use subsurf_viewer::{DEFAULT_LIGHT, DrawnMaterial, ROUGHNESS, RenderRequest, Scattering, human, parse, read};
 
 use crate::devices::{self, BackendArg, check_picture};
 use crate::options::Size;
@@ -108,8 +108,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let bytes = read(&args.file)?;
     let start = Instant::now();
     let (picture, facts, device) = match parse(&args.file, &bytes)? {
-        Content::Bssrdf(material) => draw_bssrdf(args, &material)?,
-        Content::Btf(btf) => {
+        DrawnMaterial::Bssrdf(material) => draw_bssrdf(args, &material)?,
+        DrawnMaterial::Btf(btf) => {
             args.refuse_scattering()?;
             let gpu = match args.btf.images {
                 Some(_) => Some(args.backend.open_device("--images are drawn by devices only")?),

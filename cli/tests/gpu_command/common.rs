@@ -27,8 +27,7 @@ pub(crate) fn succeed(folder: &Path, args: &str) -> Run {
 
 /// Runs, and takes JSON on stdout for granted.
 pub(crate) fn json(folder: &Path, args: &str) -> Value {
-    let run = succeed(folder, args);
-    serde_json::from_str(&run.out).unwrap_or_else(|error| panic!("subsurf {args}: {error} in {}", run.out))
+    SUBSURF.json(folder, args)
 }
 
 /// A tiny simulated capture, `NAME.npy`.

@@ -69,32 +69,39 @@ pub fn encode(
     found: &mut dyn FnMut(&rate::btf::Point<Size>),
 ) -> Result<Encoded> {
     let setup = Setup::new(materials, names, options)?;
-    if options.method == Method::Havran2010 {
-        let raw_bytes = materials.iter().map(Images::bytes).sum();
-        let encode = |size: &Size| match size {
-            Size::Havran2010 { looseness } => setup.havran2010(materials, *looseness, progress),
-            other => Err(mismatch(options.method, other)),
-        };
-        return choose(materials, options, raw_bytes, progress, encode, found);
+    let svd = || TruncatedSvd::new(materials, presets::ranks(materials.len()), options.seed, progress);
+    match options.method {
+        Method::Havran2010 => {
+            let raw_bytes = materials.iter().map(Images::bytes).sum();
+            let encode = |size: &Size| match size {
+                Size::Havran2010 { looseness } => setup.havran2010(materials, *looseness, progress),
+                other => Err(mismatch(options.method, other)),
+            };
+            choose(materials, options, raw_bytes, progress, encode, found)
+        }
+        Method::Factored => {
+            let svd = svd()?;
+            let prepared = setup.factored(materials, &svd)?;
+            let encode = |size: &Size| match size {
+                Size::Factored { most_bytes } => {
+                    let (bytes, _) =
+                        prepared.encode_to(usize::try_from(*most_bytes).unwrap_or(usize::MAX), progress)?;
+                    reread(bytes)
+                }
+                other => Err(mismatch(options.method, other)),
+            };
+            choose(materials, options, svd.raw_bytes, progress, encode, found)
+        }
+        Method::Nested => {
+            let svd = svd()?;
+            let prepared = setup.nested(materials, &svd);
+            let encode = |size: &Size| match size {
+                Size::Nested(extent) => reread(prepared.encode(&extent.sizes(), progress)?.to_bytes()),
+                other => Err(mismatch(options.method, other)),
+            };
+            choose(materials, options, svd.raw_bytes, progress, encode, found)
+        }
     }
-    let svd = TruncatedSvd::new(materials, presets::ranks(materials.len()), options.seed, progress)?;
-    if options.method == Method::Factored {
-        let prepared = setup.factored(materials, &svd)?;
-        let encode = |size: &Size| match size {
-            Size::Factored { most_bytes } => {
-                let (bytes, _) = prepared.encode_to(usize::try_from(*most_bytes).unwrap_or(usize::MAX), progress)?;
-                reread(bytes)
-            }
-            other => Err(mismatch(options.method, other)),
-        };
-        return choose(materials, options, svd.raw_bytes, progress, encode, found);
-    }
-    let prepared = setup.nested(materials, &svd);
-    let encode = |size: &Size| match size {
-        Size::Nested(extent) => reread(prepared.encode(&extent.sizes(), progress)?.to_bytes()),
-        other => Err(mismatch(options.method, other)),
-    };
-    choose(materials, options, svd.raw_bytes, progress, encode, found)
 }
 
 fn mismatch(method: Method, size: &Size) -> Error {

@@ -55,7 +55,7 @@ impl Candidate for Size {
                 let looseness = low * (high / low).powf(part as f32);
                 ((low / high).ln().abs() > SAME_LOOSENESS).then_some(Self::Havran2010 { looseness })
             }
-            _ => None,
+            (Self::Nested(_) | Self::Factored { .. } | Self::Havran2010 { .. }, _) => None,
         }
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use subsurf_scene::{LoadedMesh, MESH_EXTENSIONS, Mesh, SHAPES, UpAxis, load_mesh};
 
 use crate::error::{Error, Result};
-use crate::file::{Content, material_number, parse, read, stem};
+use crate::file::{DrawnMaterial, material_number, parse, read, stem};
 
 /// Material of a file that was found to be in order.
 pub(super) struct MaterialFile {
@@ -26,8 +26,8 @@ impl MaterialFile {
             Arc::new(Self { path: path.to_owned(), bytes: bytes.clone(), name, number, is_btf })
         };
         match parse(path, &bytes)? {
-            Content::Bssrdf(_) => Ok(vec![one(stem(path), 0, false)]),
-            Content::Btf(btf) => {
+            DrawnMaterial::Bssrdf(_) => Ok(vec![one(stem(path), 0, false)]),
+            DrawnMaterial::Btf(btf) => {
                 let names: Vec<String> = btf.materials().map(|material| material.name().to_owned()).collect();
                 let of = |number: usize| match &names[..] {
                     [_] => one(stem(path), number, true),
@@ -57,7 +57,7 @@ impl MaterialFile {
         self.is_btf
     }
 
-    pub(super) fn read(&self) -> Result<Content<'_>> {
+    pub(super) fn read(&self) -> Result<DrawnMaterial<'_>> {
         parse(&self.path, &self.bytes)
     }
 }

@@ -12,7 +12,7 @@ use crate::asset::{
     Asset, BtfImageSet, GpuAsset, MappingChoice, Scattering, choose_mapping, expect_uvs, repeats, upload_images,
 };
 use crate::error::{Error, Result};
-use crate::file::Content;
+use crate::file::DrawnMaterial;
 
 /// Way in which a material is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,8 +65,8 @@ impl Computed {
     /// Brings everything to a device.
     pub(super) fn upload(&self, gpu: &Gpu, file: &MaterialFile, mesh: &Mesh) -> Result<GpuAsset> {
         match (self, file.read()?) {
-            (Self::Scattering(asset), Content::Bssrdf(material)) => asset.upload(gpu, &material, mesh),
-            (Self::Btf { repeats }, Content::Btf(btf)) => {
+            (Self::Scattering(asset), DrawnMaterial::Bssrdf(material)) => asset.upload(gpu, &material, mesh),
+            (Self::Btf { repeats }, DrawnMaterial::Btf(btf)) => {
                 GpuAsset::btf(gpu, mesh, *repeats, BtfMaterial::upload(gpu, &btf)?, file.number())
             }
             (Self::Images { repeats, images }, _) => {
@@ -88,12 +88,12 @@ impl Computed {
 impl Job {
     fn compute(&self, sky: Option<Arc<Vec<AmbientTransfer>>>) -> Result<Computed> {
         match (self.material.read()?, self.key.mode) {
-            (Content::Bssrdf(material), RenderMode::Scattering(technique)) => {
+            (DrawnMaterial::Bssrdf(material), RenderMode::Scattering(technique)) => {
                 let mapping = choose_mapping(&self.mesh, self.mapping, &material)?;
                 let asset = Asset::compute(&material, &self.mesh, mapping, &self.scene, technique, sky)?;
                 Ok(Computed::Scattering(Box::new(asset)))
             }
-            (Content::Btf(btf), mode) => {
+            (DrawnMaterial::Btf(btf), mode) => {
                 expect_uvs(&self.mesh)?;
                 let size = btf.materials().nth(self.material.number()).map_or([1; 2], |material| material.size(0));
                 let repeats = self.repeats.unwrap_or_else(|| repeats(&self.mesh, size));
@@ -102,7 +102,7 @@ impl Job {
                     _ => Ok(Computed::Btf { repeats }),
                 }
             }
-            (Content::Bssrdf(_), RenderMode::Btf | RenderMode::Images) => {
+            (DrawnMaterial::Bssrdf(_), RenderMode::Btf | RenderMode::Images) => {
                 Err(Error::Request(format!("{} is no BTF", self.material.name())))
             }
         }
