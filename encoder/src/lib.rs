@@ -2,7 +2,7 @@
 //!
 //! | module | what is in it |
 //! |---|---|
-//! | [`capture`] | readers of measured data: NumPy arrays, folders of BTF images, UBO2014, MERL |
+//! | [`capture`] | readers of measured data: NumPy arrays, folders of BTF images, UBO2014, MERL, RGL |
 //! | [`simulate`] | captures where nothing was measured: diffusion in a slab, rays on a relief |
 //! | [`bssrdf`] | fits of K-BMPP to captures of subsurface scattering |
 //! | [`btf`] | nested codebooks and factors of BTFs, and the presets of both |

@@ -26,7 +26,8 @@ use crate::program::progress::Bars;
 /// Of a BTF: MSSIM of Y, Cr and Cb and PSNR over its pairs of directions, and the sizes of its codebooks.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The capture, .npy or .npz; a folder of BTF images, a .btf file or an isotropic BRDF of MERL (.binary)
+    /// The capture, .npy or .npz; a folder of BTF images, a .btf file, or an isotropic BRDF of MERL (.binary) or RGL
+    /// (.bsdf)
     capture: PathBuf,
     /// The .subsurf file
     file: PathBuf,

@@ -1,6 +1,7 @@
 //! `subsurf info`: what is in a file.
 
 mod btf;
+mod source;
 
 use std::path::PathBuf;
 
@@ -8,7 +9,7 @@ use anyhow::Context;
 use serde_json::json;
 use subsurf_decoder::bssrdf::{BssrdfModel, Coding, Profiles};
 use subsurf_decoder::{Bssrdf, Content, File};
-use subsurf_encoder::capture::Folder;
+use subsurf_encoder::capture::is_btf;
 use subsurf_viewer::read;
 
 pub use btf::{CodebookSize, FactorSizes, Parts};
@@ -16,47 +17,20 @@ pub use btf::{CodebookSize, FactorSizes, Parts};
 use crate::outln;
 use subsurf_viewer::human;
 
-/// Show what a .subsurf file holds, or a folder of BTF images, and check all of it.
+/// Show what a .subsurf file holds, or a BTF that others made: a folder of images, a .btf, .binary or .bsdf file. All of it
+/// is read and checked.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The file, or the folder
+    /// The file, or the folder of images
     file: PathBuf,
     /// As JSON
     #[arg(long)]
     json: bool,
 }
 
-/// What is known of a BTF from the names and sizes of its images.
-fn folder_info(args: &Args) -> anyhow::Result<()> {
-    let folder = Folder::open(&args.file)?;
-    let [width, height] = folder.size();
-    let facts = folder.facts();
-    let simulated = facts.as_ref().and_then(|facts| facts.get("simulated"));
-    if args.json {
-        let value = json!({
-            "lights": folder.lights().len(), "views": folder.views().len(), "width": width, "height": height,
-            "linear": folder.is_linear(), "raw_bytes": folder.raw_bytes(), "simulated": simulated,
-        });
-        outln!("{value:#}");
-        return Ok(());
-    }
-    let pixels = if folder.is_linear() { "linear floats" } else { "8-bit sRGB" };
-    outln!(
-        "{}: images of a BTF, {} lights × {} views, {width} × {height} pixels, {pixels}, {} uncompressed",
-        args.file.display(),
-        folder.lights().len(),
-        folder.views().len(),
-        human(folder.raw_bytes()),
-    );
-    if let Some(facts) = simulated {
-        outln!("  synthetic: {facts}");
-    }
-    Ok(())
-}
-
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    if args.file.is_dir() {
-        return folder_info(args);
+    if is_btf(&args.file) {
+        return source::info(args);
     }
     let bytes = read(&args.file)?;
     let file = File::parse(&bytes).map_err(|error| read_error(&args.file, error)).context("not a usable material")?;

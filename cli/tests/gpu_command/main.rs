@@ -5,6 +5,7 @@ mod btf;
 mod captures;
 mod common;
 mod inputs_captures;
+mod inputs_materials;
 mod inputs_meshes;
 mod interrupt;
 mod render;

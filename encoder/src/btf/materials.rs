@@ -9,11 +9,15 @@ use crate::error::{Error, Result};
 /// Tone that fits all materials.
 ///
 /// # Errors
-/// [`Error::Request`] if there is none, or if directions or kinds of values differ.
+/// [`Error::Request`] if there is none, if it has one pair of directions only, or if directions or kinds of values differ.
 pub(crate) fn common_tone(materials: &[Images]) -> Result<ColourEncoding> {
     let Some((first, others)) = materials.split_first() else {
         return Err(Error::Request("no material".to_owned()));
     };
+    if first.pairs() < 2 {
+        let label = first.label();
+        return Err(Error::Request(format!("{label}: {} image; a BTF has two or more directions", first.pairs())));
+    }
     let mut tone = first.tone();
     for other in others {
         tone = match (tone, other.tone()) {

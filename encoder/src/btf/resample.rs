@@ -148,6 +148,11 @@ impl Resampler {
         Self { grid: *grid, views: views.len(), rows, nodes_from_lights, views_from_rows }
     }
 
+    /// Nodes of a table.
+    pub(crate) fn nodes(&self) -> usize {
+        self.grid.light_nodes() * self.grid.view_nodes()
+    }
+
     /// Table `[φ_v][θ_v][α][β]` of values at all pairs, light after light.
     #[must_use]
     #[allow(clippy::cast_possible_truncation, reason = "tables are f32")]
@@ -190,6 +195,7 @@ impl Resampler {
 /// Interpolates tables at measured pairs of directions, as the decoder does.
 pub struct Measured {
     light_nodes: usize,
+    view_nodes: usize,
     /// Nodes of φ_v and θ_v of each view.
     views: Vec<Weights>,
     /// Nodes of α and β of each light, for each view.
@@ -204,6 +210,7 @@ impl Measured {
         let of_lights = |view: &View| lights.iter().map(|light| light_weights(grid, *light, view)).collect();
         Self {
             light_nodes: grid.light_nodes(),
+            view_nodes: grid.view_nodes(),
             views: prepared.iter().map(|view| view_weights(grid, view)).collect(),
             lights: prepared.iter().map(of_lights).collect(),
         }
@@ -236,8 +243,7 @@ impl Measured {
     #[allow(clippy::cast_possible_truncation, reason = "tables are f32")]
     pub fn spread(&self, weights: &[f32]) -> Vec<f32> {
         let count = self.views.len();
-        let nodes = self.views.iter().flatten().map(|(node, _)| node + 1).max().unwrap_or(0);
-        let mut table = vec![0.0; nodes * self.light_nodes];
+        let mut table = vec![0.0; self.view_nodes * self.light_nodes];
         for (view, (view_nodes, lights)) in self.views.iter().zip(&self.lights).enumerate() {
             for (light, light_nodes) in lights.iter().enumerate() {
                 let weight = weights[light * count + view];

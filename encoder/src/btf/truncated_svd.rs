@@ -158,6 +158,8 @@ impl TruncatedSvd {
             channels.each(pair, |texel, [y, ..]| out[texel] = weights[pair] * y);
         };
         let luma = Columns { rows: texels, columns: pairs, group: 1, fill }.decompose(detail.luma, seed, progress);
+        // Codebooks and factors of black have luma too.
+        let luma = if luma.rank() == 0 { LowRank::zero(texels, pairs) } else { luma };
         progress.begin("components of chroma", PASSES * 2 * pairs as u64);
         let fill = |pair: usize, out: &mut [f32]| {
             let (first, second) = out.split_at_mut(texels);

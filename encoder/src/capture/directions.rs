@@ -35,18 +35,53 @@ pub(crate) fn image_name(light: Direction, view: Direction) -> String {
     format!("tl{:03} pl{:03} tv{:03} pv{:03}", light.theta_deg, light.phi_deg, view.theta_deg, view.phi_deg)
 }
 
-/// Light and view that the name of an image tells: numbers behind `tl`, `pl`, `tv` and `pv`, whatever stands between.
-pub(crate) fn directions_of(name: &str) -> Option<[Direction; 2]> {
-    let number = |tag: &str| {
-        let (_, rest) = name.split_once(tag)?;
-        let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
-        rest[..digits].parse::<u16>().ok()
+/// Light and view that a name tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Named {
+    pub(crate) directions: [Direction; 2],
+    /// Whether an azimuth is not from 0 to 359, and was brought there: 360 is 0, and −90 is 270.
+    pub(crate) is_wrapped: bool,
+}
+
+/// Light and view that names tell: numbers behind `tl`, `pl`, `tv` and `pv`, whatever stands between. Each is looked for in
+/// the first name, then in the next: that of an image, and those of the folders that it is in.
+///
+/// `None` if one of them is nowhere; an error says why the numbers are no directions above the sample.
+pub(crate) fn directions_of(names: &[&str]) -> Option<Result<Named, &'static str>> {
+    let number = |tag: &str| names.iter().find_map(|name| number_behind(tag, name));
+    let numbers = [number("tl")?, number("pl")?, number("tv")?, number("pv")?];
+    Some(named(numbers))
+}
+
+fn named(numbers: [Option<i32>; 4]) -> Result<Named, &'static str> {
+    let [Some(theta_l), Some(phi_l), Some(theta_v), Some(phi_v)] = numbers else {
+        return Err("their angles are not whole degrees");
     };
-    let direction = |theta: &str, phi: &str| {
-        let direction = Direction { theta_deg: number(theta)?, phi_deg: number(phi)? };
-        (direction.theta_deg <= 90 && direction.phi_deg < 360).then_some(direction)
+    let direction = |theta: i32, phi: i32| {
+        let theta_deg = u16::try_from(theta).ok().filter(|theta| *theta <= 90)?;
+        Some(Direction { theta_deg, phi_deg: u16::try_from(phi.rem_euclid(360)).ok()? })
     };
-    Some([direction("tl", "pl")?, direction("tv", "pv")?])
+    let (light, view) = direction(theta_l, phi_l).zip(direction(theta_v, phi_v)).ok_or("θ is not from 0° to 90°")?;
+    let is_wrapped = [phi_l, phi_v].iter().any(|phi| !(0..360).contains(phi));
+    Ok(Named { directions: [light, view], is_wrapped })
+}
+
+/// The number behind a tag, which may have a sign; a `None` inside if it is not a whole one.
+fn number_behind(tag: &str, name: &str) -> Option<Option<i32>> {
+    let of = |(at, _): (usize, &str)| {
+        let rest = &name[at + tag.len()..];
+        let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+        let sign = usize::from(rest.starts_with('-'));
+        let end = sign + digits(&rest[sign..]);
+        if end == sign {
+            return None;
+        }
+        // Nothing but zeros behind a point.
+        let part = rest[end..].strip_prefix('.').map_or("", |part| &part[..digits(part)]);
+        let is_whole = part.bytes().all(|digit| digit == b'0');
+        Some(rest[..end].parse().ok().filter(|_| is_whole))
+    };
+    name.match_indices(tag).find_map(of)
 }
 
 #[cfg(test)]
@@ -67,14 +102,33 @@ mod tests {
     #[test]
     fn names_tell_directions() {
         let [light, view] = [Direction { theta_deg: 60, phi_deg: 345 }, Direction { theta_deg: 15, phi_deg: 0 }];
-        for name in
-            [image_name(light, view), "00815 tl060 pl345 tv015 pv000".to_owned(), "tl60_pl345_tv15_pv0.exr".to_owned()]
-        {
-            assert_eq!(directions_of(&name), Some([light, view]), "{name}");
+        let told = |is_wrapped| Some(Ok(Named { directions: [light, view], is_wrapped }));
+        for names in [
+            &[&*image_name(light, view)][..],
+            &["00815 tl060 pl345 tv015 pv000"],
+            &["tl60_pl345_tv15_pv0.exr"],
+            &["tl60.0_pl345_tv15.00_pv0"],
+            &["00000 tl060 pl345", "tv015_pv000"],
+            // The image's own name counts.
+            &["tl060 pl345 tv015 pv000", "tv030_pv090"],
+            &["bottle tl060 pl345 tv015 pv000 title"],
+        ] {
+            assert_eq!(directions_of(names), told(false), "{names:?}");
         }
-        for name in ["tl000 pl000 tv000", "tl095 pl000 tv000 pv000", "tl000 pl360 tv000 pv000", "tl pl tv pv", "readme"]
-        {
-            assert_eq!(directions_of(name), None, "{name}");
+        for name in ["tl060 pl345 tv015 pv360", "tl060 pl-15 tv015 pv000", "tl60 pl705 tv15 pv-720"] {
+            assert_eq!(directions_of(&[name]), told(true), "{name}");
+        }
+        for name in ["tl000 pl000 tv000", "tl pl tv pv", "readme", "tl- pl000 tv000 pv000"] {
+            assert_eq!(directions_of(&[name]), None, "{name}");
+        }
+        for (name, reason) in [
+            ("tl095 pl000 tv000 pv000", "θ is not"),
+            ("tl000 pl000 tv-15 pv000", "θ is not"),
+            ("tl000 pl000 tv000 pv12.5", "whole degrees"),
+            ("tl000 pl99999999999 tv000 pv000", "whole degrees"),
+        ] {
+            let found = directions_of(&[name]).and_then(Result::err).unwrap_or_default();
+            assert!(found.contains(reason), "{name}: {found}");
         }
     }
 }

@@ -55,6 +55,40 @@ fn display<T: Copy + Default + Send + Sync>(
     Ok(all)
 }
 
+/// Pixels that are not kept as they are.
+fn outside(pixels: &[[f32; 3]]) -> u64 {
+    pixels.iter().filter(|rgb| rgb.iter().any(|value| !(0.0..=BRIGHTEST).contains(value))).count() as u64
+}
+
+/// Says what was left out of a source, and what is changed in it.
+fn warn(source: &dyn Source, outside: u64, pixels: usize, progress: &dyn Progress) {
+    source.warnings().iter().for_each(|warning| progress.warn(warning));
+    if outside > 0 {
+        let label = source.label();
+        progress.warn(&format!(
+            "{label}: {outside} of {pixels} pixels have values that are not 0 to {BRIGHTEST}; they are clamped, NaN to 0"
+        ));
+    }
+}
+
+/// Reads every image of a source, one at a time, and keeps none: says what [`Images::load`] would.
+///
+/// # Errors
+/// The first image that cannot be read.
+pub fn check_images(source: &dyn Source, progress: &dyn Progress) -> Result<()> {
+    let (lights, views) = (source.lights().len(), source.views().len());
+    progress.begin("reading images", (lights * views) as u64);
+    let of_pair = |pair: usize| -> Result<[u64; 2]> {
+        let pixels = source.read(pair / views, pair % views)?;
+        progress.advance(1);
+        Ok([outside(&pixels), pixels.len() as u64])
+    };
+    let sum = |a: [u64; 2], b: [u64; 2]| Ok([a[0] + b[0], a[1] + b[1]]);
+    let [outside, pixels] = (0..lights * views).into_par_iter().map(of_pair).try_reduce(|| [0; 2], sum)?;
+    warn(source, outside, usize::try_from(pixels).unwrap_or(usize::MAX), progress);
+    Ok(())
+}
+
 impl Images {
     /// All images of a source.
     ///
@@ -63,16 +97,20 @@ impl Images {
     pub fn load(source: &dyn Source, progress: &dyn Progress) -> Result<Self> {
         let (lights, views, size) = (source.lights(), source.views(), source.size());
         let pairs = lights.len() * views.len();
-        let image = 3 * size.iter().map(|side| *side as usize).product::<usize>();
-        let values = image.checked_mul(pairs).filter(|values| *values < isize::MAX as usize / 2);
-        let Some(values) = values else {
+        let [width, height] = size.map(|side| side as usize);
+        let image = width.checked_mul(height).and_then(|texels| texels.checked_mul(3));
+        let values =
+            image.and_then(|image| image.checked_mul(pairs)).filter(|values| *values < isize::MAX as usize / 2);
+        let Some((image, values)) = image.zip(values) else {
             return Err(Error::Request(format!("{}: too many pixels", source.label())));
         };
         let bytes = if source.white().is_some() && !source.is_deep() { 1 } else { 2 };
         memory::expect(values as u64 * bytes, || format!("{}: {pairs} images", source.label()))?;
         progress.begin("reading images", pairs as u64);
+        let clamped = AtomicU64::new(0);
         let read = |pair: usize| {
             let pixels = source.read(pair / views.len(), pair % views.len())?;
+            clamped.fetch_add(outside(&pixels), Ordering::Relaxed);
             progress.advance(1);
             Ok(pixels)
         };
@@ -87,16 +125,13 @@ impl Images {
         } else {
             let mut halves = vec![f16::ZERO; values];
             let peak = AtomicU32::new(0);
-            let clamped = AtomicU64::new(0);
             let sums: Vec<f32> = halves
                 .par_chunks_mut(image)
                 .enumerate()
                 .map(|(pair, image)| -> Result<f32> {
                     let mut sum = 0.0;
                     let pixels = read(pair)?;
-                    let mut outside = 0;
                     for (halves, rgb) in image.as_chunks_mut::<3>().0.iter_mut().zip(&pixels) {
-                        outside += u64::from(rgb.iter().any(|value| !(0.0..=BRIGHTEST).contains(value)));
                         // NaN and -0 become 0.
                         let kept = |value: f32| if value > 0.0 { value.min(BRIGHTEST) } else { 0.0 };
                         *halves = rgb.map(|value| f16::from_f32(kept(value)));
@@ -106,23 +141,15 @@ impl Images {
                         // Floats that are not negative order as integers.
                         peak.fetch_max(luminance.to_bits(), Ordering::Relaxed);
                     }
-                    clamped.fetch_add(outside, Ordering::Relaxed);
                     Ok(sum / pixels.len() as f32)
                 })
                 .collect::<Result<_>>()?;
-            match clamped.into_inner() {
-                0 => {}
-                outside => progress.warn(&format!(
-                    "{}: {outside} of {} pixels have values that are not 0 to {BRIGHTEST}; they are clamped, NaN to 0",
-                    source.label(),
-                    values / 3,
-                )),
-            }
             let mean = sums.iter().sum::<f32>() / pairs as f32;
             let toe = (TOE_OF_MEAN * mean).clamp(1e-6, 1e5);
             let peak = f32::from_bits(peak.into_inner()).clamp(2.0 * toe, 1e6);
             (Store::Linear(halves), ColourEncoding::LogLuv { toe, peak })
         };
+        warn(source, clamped.into_inner(), values / 3, progress);
         Ok(Self { label: source.label(), lights, views, size, tone, raw_bytes: source.raw_bytes(), pixels })
     }
 

@@ -27,6 +27,11 @@ pub trait Source: Sync {
     /// If it cannot be read.
     fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>>;
 
+    /// What was changed or left out when the source was opened, a line each.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Bytes of what was measured, if images are not it but are made from it.
     fn raw_bytes(&self) -> Option<u64> {
         None

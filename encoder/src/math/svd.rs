@@ -18,6 +18,19 @@ pub struct LowRank {
     pub basis: DMatrix<f32>,
 }
 
+impl LowRank {
+    /// Components.
+    pub(crate) fn rank(&self) -> usize {
+        self.texels.nrows()
+    }
+
+    /// One component, of zeros.
+    pub(crate) fn zero(texels: usize, columns: usize) -> Self {
+        let basis = DMatrix::from_element(columns, 1, 1.0 / (columns as f32).sqrt());
+        Self { texels: DMatrix::zeros(1, texels), basis }
+    }
+}
+
 /// A matrix by its columns, each of `rows` values.
 pub(crate) struct Columns<F> {
     pub(crate) rows: usize,
@@ -156,5 +169,28 @@ mod tests {
         assert!((gram - DMatrix::identity(found.basis.ncols(), found.basis.ncols())).norm() < 1e-2, "orthonormal");
         let energies: Vec<f32> = found.texels.row_iter().map(|row| row.norm()).collect();
         assert!(energies.is_sorted_by(|a, b| a >= b), "{energies:?}");
+    }
+
+    /// Of fewer components than are asked for, none is lost and none is made up.
+    #[test]
+    fn matrices_without_variation_come_back() {
+        let sizes = [(1, 1), (1, 81), (2, 81), (64, 81), (81, 64), (64, 961), (300, 2)];
+        let values: [fn(usize, usize) -> f32; 5] = [
+            |_, _| 1.0,
+            |x, _| x as f32,
+            |_, d| 1.0 + d as f32,
+            |x, d| if x == d { 3.0 } else { 0.0 },
+            |x, d| (x as f32).sin() * (d as f32) + (x as f32).cos() * (d as f32).sqrt(),
+        ];
+        for ((rows, columns), value) in sizes.into_iter().flat_map(|size| values.map(|value| (size, value))) {
+            for scale in [1.0, 1e-6, 6e4] {
+                let a = DMatrix::from_fn(rows, columns, |x, d| scale * value(x, d));
+                let fill = |column: usize, out: &mut [f32]| out.copy_from_slice(a.column(column).as_slice());
+                let found = Columns { rows, columns, group: 1, fill }.decompose(128, 1, &());
+                let back = found.texels.transpose() * found.basis.transpose();
+                let error = (&back - &a).norm();
+                assert!(error <= 1e-3 * a.norm(), "{rows} × {columns}: {error} of {}, rank {}", a.norm(), found.rank());
+            }
+        }
     }
 }

@@ -9,6 +9,7 @@ use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, Rgb32FImage};
 
 use super::grey::Grey;
+use super::jpeg;
 use super::radiance::{self, Layout};
 use super::{EXTENSIONS, Header, Picture};
 use crate::error::{Error, Result};
@@ -87,6 +88,10 @@ impl Decoder {
         let need = u64::from(width).saturating_mul(u64::from(height)).saturating_mul(BYTES_OF_PIXEL);
         memory::expect(need, || format!("{}: a picture of {width} × {height} pixels", path.display()))?;
         let wrong = |error: String| Error::input(&path, error, EXPECTED);
+        let is_whole = jpeg::is_whole(&path).map_err(|error| wrong(error.to_string()))?;
+        if !is_whole {
+            return Err(wrong("the file is cut: its pixels have no end".to_owned()));
+        }
         let mut image = match source {
             Source::Radiance(mut file, layout) => {
                 radiance::read_scanlines(&mut file, layout.scanlines).map_err(wrong)?.into()

@@ -2,6 +2,7 @@
 
 mod decode;
 mod grey;
+mod jpeg;
 mod radiance;
 
 use std::path::Path;

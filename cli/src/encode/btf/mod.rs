@@ -53,8 +53,8 @@ impl From<MethodArg> for Method {
 /// Nested codebooks of the usual size come to some 1:3000 at 128 × 128 texels, factors to 1:1000.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// BTFs: folders of images named "tl030 pl060 tv045 pv120.png" (.jpg, .exr, .hdr), .btf files of UBO2014, or
-    /// isotropic BRDFs of MERL (.binary)
+    /// BTFs: folders of images named "tl030 pl060 tv045 pv120.png" (.jpg, .exr, .hdr), in subfolders as well, .btf files of
+    /// UBO2014, or isotropic BRDFs of MERL (.binary) or RGL (.bsdf)
     #[arg(required = true, value_name = "BTF")]
     inputs: Vec<PathBuf>,
     /// The .subsurf file to write; NAME.subsurf beside the first BTF if not given

@@ -9,8 +9,11 @@ use crate::btf::nested::scales::{self, Fineness};
 use crate::btf::nested::slices::to_bytes;
 use crate::btf::nested::{Chain, Chroma, Item};
 
-/// Bits of scales; those of P2 may have twice as many where images are linear.
+/// Bits of scales.
 const BITS: u8 = 8;
+/// Most bits of scales of P2 where images are linear: with one more, the finest steps reach farther than scales may. The
+/// paper has 16, of steps that it does not tell.
+const LINEAR_BITS: u8 = 11;
 
 /// Scales and codes of gains, in the finest steps that leave the least error: finer ones do not reach small gains.
 pub(super) fn quantised(items: &[Scaled], most_bits: u8) -> (Scales, Vec<Item>) {
@@ -55,7 +58,7 @@ impl Quantised {
             row.iter_mut().zip(bytes).for_each(|(value, byte)| *value = f32::from(*byte) / 255.0);
             codebooks.push_p1(&row);
         }
-        let bits = if matches!(tone, ColourEncoding::LogLuv { .. }) { 2 * BITS } else { BITS };
+        let bits = if matches!(tone, ColourEncoding::LogLuv { .. }) { LINEAR_BITS } else { BITS };
         let (scales2, p2) = quantised(&found.p2, bits);
         let (scales3, p3) = quantised(&found.p3, BITS);
         let (scales4, p4) = quantised(&found.p4, BITS);

@@ -118,7 +118,7 @@ fn fitted(resampler: &Resampler, svd: &TruncatedSvd, basis: &DMatrix<f32>) -> DM
             resampler.fit(&plain)
         })
         .collect();
-    DMatrix::from_vec(columns.first().map_or(0, Vec::len), columns.len(), columns.concat())
+    DMatrix::from_vec(resampler.nodes(), columns.len(), columns.concat())
 }
 
 fn mean_over_views(values: &[f32], light: usize) -> Vec<f32> {

@@ -1,5 +1,6 @@
 //! A BTF as a folder of images, one for each pair of directions.
 
+mod listing;
 mod read;
 mod source;
 mod write;

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use crate::capture::directions::{Direction, directions_of, image_name};
+use super::listing::Listing;
+use crate::capture::directions::{Direction, image_name};
 use crate::error::{Error, Result};
 use crate::picture::{self, Picture};
 
@@ -13,42 +14,24 @@ pub struct Folder {
     path: PathBuf,
     lights: Vec<Direction>,
     views: Vec<Direction>,
+    /// What the headers of all images say.
     header: picture::Header,
     /// Files by light and view.
     images: BTreeMap<[Direction; 2], PathBuf>,
+    facts: Option<serde_json::Value>,
+    /// Factor that brought values into the range that is displayed.
+    exposure: f64,
+    warnings: Vec<String>,
 }
 
 impl Folder {
-    /// Looks through a folder: every light is there with every view, all images have one format and one size. What is in
-    /// them is not read yet.
+    /// Looks through a folder, or those inside of it if it has no images itself: every light is there with every view, all
+    /// images have one format and one size. What is in them is not read yet.
     ///
     /// # Errors
     /// [`Error::Input`] with what is missing, twice there, or of another size.
     pub fn open(path: &Path) -> Result<Self> {
-        let expected = "a folder of images named \"tl000 pl000 tv000 pv000.png\" (.jpg, .tif, .exr, .hdr ..): light and view in degrees";
-        let entries = std::fs::read_dir(path).map_err(|error| Error::input(path, error, expected))?;
-        let mut images = BTreeMap::new();
-        let mut extension: Option<String> = None;
-        for entry in entries {
-            let file = entry.map_err(|error| Error::input(path, error, expected))?.path();
-            let lower = |text: &std::ffi::OsStr| text.to_string_lossy().to_ascii_lowercase();
-            let kind = file.extension().map(lower).unwrap_or_default();
-            let pair = file.file_stem().and_then(|stem| directions_of(&lower(stem)));
-            let Some(pair) = pair.filter(|_| picture::EXTENSIONS.contains(&kind.as_str())) else {
-                continue;
-            };
-            if *extension.get_or_insert_with(|| kind.clone()) != kind {
-                let first = extension.unwrap_or_default();
-                return Err(Error::input(&file, "one image in another format", format!("all of them in .{first}")));
-            }
-            if let Some(other) = images.insert(pair, file.clone()) {
-                let found = format!("the same directions as {}", other.display());
-                return Err(Error::input(&file, found, "one image for every pair of directions"));
-            }
-        }
-        if images.is_empty() {
-            return Err(Error::input(path, "no image that is named by its directions", expected));
-        }
+        let Listing { images, left_out } = Listing::new(path)?;
         let of = |which: usize| images.keys().map(|pair| pair[which]).collect::<BTreeSet<_>>().into_iter().collect();
         let (lights, views): (Vec<Direction>, Vec<Direction>) = (of(0), of(1));
         let pairs = || lights.iter().flat_map(|light| views.iter().map(move |view| [*light, *view]));
@@ -61,10 +44,14 @@ impl Folder {
                 views.len(),
                 image_name(*light, *view)
             );
-            return Err(Error::input(path, found, "every light with every view"));
+            let left_out = left_out.first().map_or_else(String::new, |line| format!(" ({line})"));
+            return Err(Error::input(path, format!("{found}{left_out}"), "every light with every view"));
         }
         let header = common_header(images.values())?;
-        Ok(Self { path: path.to_owned(), lights, views, header, images })
+        let facts = facts(path)?;
+        let exposure = exposure(path, facts.as_ref())?;
+        let warnings = left_out.iter().map(|line| format!("{}: {line}", path.display())).collect();
+        Ok(Self { path: path.to_owned(), lights, views, header, images, facts, exposure, warnings })
     }
 
     /// The folder.
@@ -117,9 +104,20 @@ impl Folder {
 
     /// Where the images come from, as `btf.json` beside them says; `None` if there is none.
     #[must_use]
-    pub fn facts(&self) -> Option<serde_json::Value> {
-        let bytes = std::fs::read(self.path.join("btf.json")).ok()?;
-        serde_json::from_slice(&bytes).ok()
+    pub fn facts(&self) -> Option<&serde_json::Value> {
+        self.facts.as_ref()
+    }
+
+    /// The factor that brought values into the range that is displayed, as `btf.json` says; 1 if it does not.
+    #[must_use]
+    pub fn exposure(&self) -> f64 {
+        self.exposure
+    }
+
+    /// What was left out of the folder, a line each.
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// One image, row by row: display values 0 to 1, or linear ones.
@@ -163,6 +161,26 @@ fn common_header<'a>(files: impl Iterator<Item = &'a PathBuf>) -> Result<picture
         }
     }
     Ok(common.expect("a folder has an image"))
+}
+
+/// What `btf.json` says, if it is there.
+fn facts(folder: &Path) -> Result<Option<serde_json::Value>> {
+    let path = folder.join("btf.json");
+    if !path.exists() {
+        return Ok(None);
+    }
+    let wrong = |error: String| Error::input(&path, error, "JSON, or no such file");
+    let bytes = std::fs::read(&path).map_err(|error| wrong(error.to_string()))?;
+    serde_json::from_slice(&bytes).map(Some).map_err(|error| wrong(error.to_string()))
+}
+
+fn exposure(folder: &Path, facts: Option<&serde_json::Value>) -> Result<f64> {
+    let Some(exposure) = facts.and_then(|facts| facts.pointer("/simulated/exposure")) else {
+        return Ok(1.0);
+    };
+    // Ten stops more than any camera has.
+    let number = exposure.as_f64().filter(|number| (1e-6..=1e6).contains(number));
+    number.ok_or_else(|| Error::input(&folder.join("btf.json"), "an exposure that is none", "a number, 1e-6 to 1e6"))
 }
 
 #[cfg(test)]

@@ -24,14 +24,17 @@ impl Source for Folder {
     }
 
     fn white(&self) -> Option<f32> {
-        let exposure = self.facts().and_then(|facts| facts.pointer("/simulated/exposure")?.as_f64()).unwrap_or(1.0);
         #[allow(clippy::cast_possible_truncation, reason = "an exposure")]
-        let white = (1.0 / exposure) as f32;
+        let white = (1.0 / self.exposure()) as f32;
         (!self.is_linear()).then_some(white)
     }
 
     fn is_deep(&self) -> bool {
         self.is_deep()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.warnings().to_vec()
     }
 
     fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>> {

@@ -97,6 +97,12 @@ impl Merl {
         if total > 0.0 { sum.map(|value| to_f32(value / total)) } else { [0.0; 3] }
     }
 
+    /// Whether no sample was measured.
+    fn is_empty(&self) -> bool {
+        (0..SAMPLES)
+            .all(|at| self.sample([at / (COUNTS[1] * COUNTS[2]), at / COUNTS[2] % COUNTS[1], at % COUNTS[2]]).is_none())
+    }
+
     /// The one sample whose cell the directions are in, as the database's own reader has it; zero if it was not
     /// measured, and below the horizon. In steps, where [`Merl::eval`] is smooth.
     #[must_use]

@@ -1,37 +1,19 @@
 //! Isotropic BRDFs as BTFs of one texel.
 
-use std::f32::consts::{FRAC_PI_2, PI};
+use std::f32::consts::PI;
 use std::sync::LazyLock;
 
 use glam::Vec3;
 
 use super::{FILE_BYTES, Merl};
+use crate::capture::isotropic::Directions;
 use crate::capture::source::Source;
 use crate::error::Result;
 
-/// Views from the normal down, all at azimuth 0.
-const VIEWS: u16 = 18;
-/// Lights along either axis of the grid: twice the nodes that highlights need.
-const LIGHTS: u16 = 91;
 /// Angle from the normal of the lowest lights and views, in degrees.
 const REACH_DEG: f32 = 85.0;
 
-/// Lights of all images: uniform in α and in sin β.
-static ALL_LIGHTS: LazyLock<Vec<Vec3>> = LazyLock::new(|| {
-    let steps = || (0..LIGHTS).map(|k| 2.0 * f32::from(k) / f32::from(LIGHTS - 1) - 1.0);
-    let lowest = REACH_DEG.to_radians().cos();
-    let light = |alpha: f32, sin_beta: f32| {
-        let ((sin, cos), cos_beta) = ((alpha * FRAC_PI_2).sin_cos(), (1.0 - sin_beta * sin_beta).max(0.0).sqrt());
-        Vec3::new(cos_beta * sin, sin_beta, cos_beta * cos)
-    };
-    let all = steps().flat_map(|alpha| steps().map(move |sin_beta| light(alpha, sin_beta)));
-    all.filter(|light| light.z >= lowest).collect()
-});
-
-fn view(number: usize) -> Vec3 {
-    let theta = number as f32 * REACH_DEG.to_radians() / f32::from(VIEWS - 1);
-    Vec3::new(theta.sin(), 0.0, theta.cos())
-}
+static DIRECTIONS: LazyLock<Directions> = LazyLock::new(|| Directions::up_to(REACH_DEG));
 
 impl Source for Merl {
     fn label(&self) -> String {
@@ -39,11 +21,11 @@ impl Source for Merl {
     }
 
     fn lights(&self) -> Vec<Vec3> {
-        ALL_LIGHTS.clone()
+        DIRECTIONS.lights.clone()
     }
 
     fn views(&self) -> Vec<Vec3> {
-        (0..usize::from(VIEWS)).map(view).collect()
+        DIRECTIONS.views.clone()
     }
 
     fn size(&self) -> [u32; 2] {
@@ -54,9 +36,15 @@ impl Source for Merl {
         None
     }
 
-    fn read(&self, light: usize, number: usize) -> Result<Vec<[f32; 3]>> {
-        let light = ALL_LIGHTS[light];
-        Ok(vec![self.eval(light, view(number)).map(|value| PI * value * light.z)])
+    fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>> {
+        let (light, view) = (DIRECTIONS.lights[light], DIRECTIONS.views[view]);
+        Ok(vec![self.eval(light, view).map(|value| PI * value * light.z)])
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let nothing =
+            || format!("{}: no sample was measured, all are below 0 or no numbers; it is black", self.label());
+        self.is_empty().then(nothing).into_iter().collect()
     }
 
     fn raw_bytes(&self) -> Option<u64> {

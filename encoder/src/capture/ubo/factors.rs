@@ -1,8 +1,8 @@
 //! The factors of the matrix: where they lie, and products of their rows.
 
-use super::bytes::Bytes;
 use super::colour::Colour;
 use super::header::{Header, Kind};
+use crate::capture::bytes::Bytes;
 use crate::error::Result;
 
 /// Type of a matrix's elements.

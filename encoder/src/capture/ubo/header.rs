@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_PI_2;
 
 use glam::Vec3;
 
-use super::bytes::Bytes;
+use crate::capture::bytes::Bytes;
 use crate::error::Result;
 
 /// How the matrix is factorised.

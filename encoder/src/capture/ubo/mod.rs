@@ -30,7 +30,6 @@
 //! Row v · lights + l of U is that of a pair, row y · width + x of S V that of a texel, the first row on top; in FMF
 //! three rows of U follow each other, for red, green and blue. U and S V may change places.
 
-mod bytes;
 mod colour;
 mod factors;
 mod header;
@@ -43,8 +42,8 @@ use glam::Vec3;
 use memmap2::Mmap;
 use rayon::prelude::*;
 
+use crate::capture::bytes::Bytes;
 use crate::error::{Error, Result};
-use bytes::Bytes;
 use colour::Colour;
 use factors::Channel;
 use header::Header;

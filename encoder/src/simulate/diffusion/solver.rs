@@ -40,7 +40,7 @@ pub(super) struct System {
     excess: Vec<Rgb>,
     direction: Vec<Rgb>,
     upper: Vec<Rgb>,
-    image: Vec<Rgb>,
+    lower: Vec<Rgb>,
 }
 
 impl System {
@@ -62,7 +62,7 @@ impl System {
             excess: zeros(),
             direction: zeros(),
             upper: zeros(),
-            image: zeros(),
+            lower: zeros(),
         }
     }
 
@@ -85,11 +85,11 @@ impl System {
             let alpha = [0, 1, 2].map(|c| ratio(norm[c], curvature[c]));
             let mut next = [0.0; 3];
             let solution = self.phi.iter_mut().zip(&self.direction);
-            let residual = self.q.iter_mut().zip(&self.image);
-            for ((phi, direction), (residual, image)) in solution.zip(residual) {
+            let residual = self.q.iter_mut().zip(self.lower.iter().zip(&self.upper));
+            for ((phi, direction), (residual, (w, u))) in solution.zip(residual) {
                 for c in 0..3 {
                     phi[c] += alpha[c] * direction[c];
-                    residual[c] -= alpha[c] * image[c];
+                    residual[c] -= alpha[c] * (w[c] + u[c]);
                     next[c] += residual[c] * residual[c];
                 }
             }
@@ -186,8 +186,8 @@ impl System {
         source
     }
 
-    /// image = L⁻¹ (L + Lᵀ + D − 2 I) L⁻ᵀ direction = u + L⁻¹ (direction + (D − 2 I) u) with u = L⁻ᵀ direction.
-    /// Returns direction · image.
+    /// A direction's image, L⁻¹ (L + Lᵀ + D − 2 I) L⁻ᵀ direction = w + u, in its two parts: `upper` = u = L⁻ᵀ direction,
+    /// and `lower` = w = L⁻¹ (direction + (D − 2 I) u). Returns direction · image.
     ///
     /// All the time goes here. It runs column by column in z, with the recurrence along the column in registers.
     fn apply(&mut self) -> Rgb {
@@ -211,9 +211,10 @@ impl System {
                 here[z] = u;
             }
         }
-        // w = L⁻¹ (direction + (D − 2 I) u), from the first cell to the last.
-        for start in columns.clone() {
-            let (before, here) = self.image.split_at_mut(start);
+        // w, from the first cell to the last.
+        let mut curvature = [0.0; 3];
+        for start in columns {
+            let (before, here) = self.lower.split_at_mut(start);
             let here = &mut here[..depth];
             let (wx, wy) = (&before[start - sx..][..depth], &before[start - sy..][..depth]);
             let (gx, gy) = (&gx[start - sx..][..depth], &gy[start - sy..][..depth]);
@@ -226,17 +227,9 @@ impl System {
                     let source = direction[z][c] + excess[z][c] * upper[z][c];
                     let sum = source + gx[z][c] * wx[z][c] + gy[z][c] * wy[z][c];
                     w[c] = sum + gz[z][c] * w[c];
+                    curvature[c] += direction[z][c] * (w[c] + upper[z][c]);
                 }
                 here[z] = w;
-            }
-        }
-        // w becomes the image only now: its neighbours needed it as it was.
-        let mut curvature = [0.0; 3];
-        let image = self.image.iter_mut().zip(&self.upper).zip(&self.direction);
-        for ((image, upper), direction) in image {
-            for c in 0..3 {
-                image[c] += upper[c];
-                curvature[c] += direction[c] * image[c];
             }
         }
         curvature

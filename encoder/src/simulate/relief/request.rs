@@ -70,6 +70,6 @@ impl Request {
     #[must_use]
     pub fn is_there(&self, output: &Path) -> bool {
         Folder::open(output)
-            .is_ok_and(|folder| folder.size() == [self.size; 2] && folder.facts().as_ref() == Some(&self.facts()))
+            .is_ok_and(|folder| folder.size() == [self.size; 2] && folder.facts() == Some(&self.facts()))
     }
 }

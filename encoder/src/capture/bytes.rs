@@ -5,29 +5,29 @@ use std::path::Path;
 use crate::error::{Error, Result};
 
 /// A file and how far it has been read.
-pub(super) struct Bytes<'a> {
+pub(in crate::capture) struct Bytes<'a> {
     path: &'a Path,
     file: &'a [u8],
     at: usize,
 }
 
 impl<'a> Bytes<'a> {
-    pub(super) fn new(path: &'a Path, file: &'a [u8]) -> Self {
+    pub(in crate::capture) fn new(path: &'a Path, file: &'a [u8]) -> Self {
         Self { path, file, at: 0 }
     }
 
     /// Offset of the next byte.
-    pub(super) fn at(&self) -> usize {
+    pub(in crate::capture) fn at(&self) -> usize {
         self.at
     }
 
     /// Bytes that are left.
-    pub(super) fn rest(&self) -> &'a [u8] {
+    pub(in crate::capture) fn rest(&self) -> &'a [u8] {
         &self.file[self.at..]
     }
 
     /// Bytes of something that an error can name.
-    pub(super) fn take(&mut self, bytes: u64, what: &str) -> Result<&'a [u8]> {
+    pub(in crate::capture) fn take(&mut self, bytes: u64, what: &str) -> Result<&'a [u8]> {
         let rest = self.rest();
         match usize::try_from(bytes).ok().and_then(|len| rest.split_at_checked(len)) {
             Some((taken, _)) => {
@@ -47,15 +47,23 @@ impl<'a> Bytes<'a> {
         Ok(field)
     }
 
-    pub(super) fn u8(&mut self, what: &str) -> Result<u8> {
+    pub(in crate::capture) fn u8(&mut self, what: &str) -> Result<u8> {
         self.field::<1>(what).map(|[byte]| byte)
     }
 
-    pub(super) fn u32(&mut self, what: &str) -> Result<u32> {
+    pub(in crate::capture) fn u16(&mut self, what: &str) -> Result<u16> {
+        self.field(what).map(u16::from_le_bytes)
+    }
+
+    pub(in crate::capture) fn u32(&mut self, what: &str) -> Result<u32> {
         self.field(what).map(u32::from_le_bytes)
     }
 
-    pub(super) fn f32s<const N: usize>(&mut self, what: &str) -> Result<[f32; N]> {
+    pub(in crate::capture) fn u64(&mut self, what: &str) -> Result<u64> {
+        self.field(what).map(u64::from_le_bytes)
+    }
+
+    pub(in crate::capture) fn f32s<const N: usize>(&mut self, what: &str) -> Result<[f32; N]> {
         let mut values = [0.0; N];
         for value in &mut values {
             *value = f32::from_le_bytes(self.field(what)?);
@@ -63,7 +71,7 @@ impl<'a> Bytes<'a> {
         Ok(values)
     }
 
-    pub(super) fn wrong(&self, found: impl std::fmt::Display, expected: impl std::fmt::Display) -> Error {
+    pub(in crate::capture) fn wrong(&self, found: impl std::fmt::Display, expected: impl std::fmt::Display) -> Error {
         Error::input(self.path, found, expected)
     }
 }

@@ -1,0 +1,36 @@
+//! Isotropic BRDFs as BTFs of one texel: the directions at which readers of such BRDFs make images.
+
+use std::f32::consts::FRAC_PI_2;
+
+use glam::Vec3;
+
+/// Views from the normal down, all at azimuth 0.
+const VIEWS: u16 = 18;
+/// Lights along either axis of the grid: twice the nodes that highlights need.
+const LIGHTS: u16 = 91;
+
+/// Directions up to an angle from the normal, unit vectors in a frame whose z is the normal.
+pub(super) struct Directions {
+    /// Lights, uniform in α and in sin β.
+    pub(super) lights: Vec<Vec3>,
+    /// Views at azimuth 0, the first along the normal.
+    pub(super) views: Vec<Vec3>,
+}
+
+impl Directions {
+    /// Directions from the normal to `reach_deg`.
+    pub(super) fn up_to(reach_deg: f32) -> Self {
+        let reach = reach_deg.to_radians();
+        let steps = || (0..LIGHTS).map(|k| 2.0 * f32::from(k) / f32::from(LIGHTS - 1) - 1.0);
+        let light = |alpha: f32, sin_beta: f32| {
+            let ((sin, cos), cos_beta) = ((alpha * FRAC_PI_2).sin_cos(), (1.0 - sin_beta * sin_beta).max(0.0).sqrt());
+            Vec3::new(cos_beta * sin, sin_beta, cos_beta * cos)
+        };
+        let all = steps().flat_map(|alpha| steps().map(move |sin_beta| light(alpha, sin_beta)));
+        let view = |number: u16| {
+            let theta = f32::from(number) * reach / f32::from(VIEWS - 1);
+            Vec3::new(theta.sin(), 0.0, theta.cos())
+        };
+        Self { lights: all.filter(|light| light.z >= reach.cos()).collect(), views: (0..VIEWS).map(view).collect() }
+    }
+}

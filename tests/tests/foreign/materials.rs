@@ -1,1 +1,0 @@
-//! BTFs and BRDFs, as folders and as files of others.
