@@ -48,9 +48,23 @@ pub enum Error {
     },
 }
 
+/// Characters of what was found, at most.
+const FOUND_CHARS: usize = 200;
+
+/// Text from a file or about it, in one line that is not too long to read.
+pub(crate) fn one_line(text: &str) -> String {
+    let words: Vec<&str> =
+        text.split(|c: char| c.is_whitespace() || c.is_control()).filter(|word| !word.is_empty()).collect();
+    let line = words.join(" ");
+    match line.char_indices().nth(FOUND_CHARS) {
+        Some((end, _)) => format!("{} ..", &line[..end]),
+        None => line,
+    }
+}
+
 impl Error {
     pub(crate) fn input(path: &Path, found: impl Display, expected: impl Display) -> Self {
-        Self::Input { path: path.to_owned(), found: found.to_string(), expected: expected.to_string() }
+        Self::Input { path: path.to_owned(), found: one_line(&found.to_string()), expected: expected.to_string() }
     }
 
     pub(crate) fn output(path: &Path, source: io::Error) -> Self {

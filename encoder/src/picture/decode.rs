@@ -1,6 +1,5 @@
 //! From a file to a picture.
 
-use std::fmt::Display;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -97,12 +96,12 @@ impl Decoder {
                 radiance::read_scanlines(&mut file, layout.scanlines).map_err(wrong)?.into()
             }
             Source::Grey(grey) => {
-                let values = grey.decode().map_err(|error| wrong(one_line(error)))?;
+                let values = grey.decode().map_err(|error| wrong(error.to_string()))?;
                 let values = values.into_iter().flat_map(|value| [value; 3]).collect();
                 let image = Rgb32FImage::from_raw(width, height, values);
                 image.ok_or_else(|| wrong("fewer values than pixels".to_owned()))?.into()
             }
-            Source::Other(decoder) => DynamicImage::from_decoder(decoder).map_err(|error| wrong(one_line(error)))?,
+            Source::Other(decoder) => DynamicImage::from_decoder(decoder).map_err(|error| wrong(error.to_string()))?,
         };
         image.apply_orientation(orientation);
         let mut transparent = 0;
@@ -138,7 +137,7 @@ fn source(path: &Path, mut file: BufReader<File>) -> std::result::Result<Source,
         Ok(decoder) => Ok(Source::Other(Box::new(decoder))),
         Err(error) => {
             let again = File::open(path).map_err(|error| error.to_string())?;
-            Grey::open(format, BufReader::new(again)).map(Source::Grey).ok_or_else(|| one_line(error))
+            Grey::open(format, BufReader::new(again)).map(Source::Grey).ok_or_else(|| error.to_string())
         }
     }
 }
@@ -146,8 +145,4 @@ fn source(path: &Path, mut file: BufReader<File>) -> std::result::Result<Source,
 fn is_on_its_side(orientation: Orientation) -> bool {
     use Orientation::{Rotate90, Rotate90FlipH, Rotate270, Rotate270FlipH};
     matches!(orientation, Rotate90 | Rotate90FlipH | Rotate270 | Rotate270FlipH)
-}
-
-fn one_line(error: impl Display) -> String {
-    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }

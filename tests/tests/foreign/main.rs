@@ -3,3 +3,4 @@
 mod captures;
 mod materials;
 mod meshes;
+mod warnings;

@@ -8,7 +8,7 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use subsurf_decoder::bssrdf::{Addressing, layout};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, one_line};
 
 /// Refractive index where nobody says otherwise: that of most stones, waxes and plastics.
 pub(crate) const DEFAULT_ETA: f32 = 1.5;
@@ -131,17 +131,16 @@ impl Sidecar {
             Err(error) if error.kind() == ErrorKind::NotFound => (Fields::default(), Vec::new()),
             Err(error) => return Err(Error::input(&path, error, EXAMPLE)),
         };
-        let unknown = (!unknown.is_empty()).then(|| {
-            let (path, count, unknown) = (path.display(), unknown.len(), unknown.join(", "));
-            format!("{path}: unknown keys are left out ({count}): {unknown}; known are {}", KEYS.join(", "))
-        });
+        let (count, names) = (unknown.len(), one_line(&unknown.join(", ")));
         let pitch_mm = overrides.pitch_mm.or(fields.pitch_mm).ok_or_else(|| {
-            let mut found = format!("no pixel pitch: neither --pitch nor \"pitch_mm\" in {}", path.display());
-            if let Some(unknown) = &unknown {
-                found = format!("{found} ({unknown})");
-            }
+            let has = if count > 0 { format!(", which has {names}") } else { String::new() };
+            let found = format!("no pixel pitch: neither --pitch nor \"pitch_mm\" in {}{has}", path.display());
             Error::input(capture, found, EXAMPLE)
         })?;
+        let unknown = (count > 0).then(|| {
+            let (path, known) = (path.display(), KEYS.join(", "));
+            format!("{path}: unknown keys are left out ({count}): {names}; known are {known}")
+        });
         let sidecar = Self {
             pitch_mm,
             addressing: overrides.addressing.or(fields.addressing.map(Addressing::from)).unwrap_or_default(),

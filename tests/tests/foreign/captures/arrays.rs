@@ -10,6 +10,8 @@ use subsurf_tests::mutate::assert_survives;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
+use crate::warnings::Warnings;
+
 /// Height, width, window, window, channels.
 const SHAPE: [usize; 5] = [2, 3, 3, 3, 3];
 const VALUES: usize = 2 * 3 * 3 * 3 * 3;
@@ -151,7 +153,7 @@ fn what_is_too_small_was_not_measured_and_is_counted() {
     let warnings = Warnings::default();
     let options = Options { base_materials: 2, ..Options::default() };
     encode(&open(&path).unwrap(), None, &options, &warnings).unwrap();
-    let warnings = warnings.0.into_inner().unwrap();
+    let warnings = warnings.into_lines();
     assert!(matches!(&warnings[..], [one] if one.contains("a.npy: 2 values")), "{warnings:?}");
 
     std::fs::write(&path, npy(1, "<f4", false, &bytes(&[1e-41; VALUES], f32::to_le_bytes))).unwrap();
@@ -170,18 +172,6 @@ fn what_is_too_small_was_not_measured_and_is_counted() {
         "{:?}",
         capture.warnings()
     );
-}
-
-/// What a run warned of.
-#[derive(Default)]
-struct Warnings(std::sync::Mutex<Vec<String>>);
-
-impl subsurf_encoder::Progress for Warnings {
-    fn begin(&self, _: &str, _: u64) {}
-    fn advance(&self, _: u64) {}
-    fn warn(&self, message: &str) {
-        self.0.lock().unwrap().push(message.to_owned());
-    }
 }
 
 #[test]

@@ -42,7 +42,7 @@ pub(super) fn radiance(picture: &Rgb32FImage, order: &str, at: impl Fn(u32, u32)
     file
 }
 
-fn write(folder: &Path, name: &str, bytes: &[u8]) -> PathBuf {
+pub(super) fn write(folder: &Path, name: &str, bytes: &[u8]) -> PathBuf {
     let path = folder.join(name);
     std::fs::write(&path, bytes).unwrap();
     path
@@ -243,6 +243,32 @@ fn exif_says_which_way_is_up() {
             assert!(difference(&path, [w, h], expected) < 0.06, "{name}, orientation {orientation}");
         }
     }
+}
+
+#[test]
+fn tiff_says_which_way_is_up() {
+    use tiff::encoder::TiffEncoder;
+    use tiff::encoder::colortype::{Gray32Float, RGB32Float};
+    use tiff::tags::Tag;
+
+    let folder = tempfile::tempdir().unwrap();
+    let upright = linear();
+    // Orientation 6: rows of the file begin at the right.
+    let stored = Rgb32FImage::from_fn(4, 6, |x, y| *upright.get_pixel(5 - y, x));
+    let grey: Vec<f32> = stored.pixels().map(|rgb| rgb.0[0]).collect();
+    let [mut one, mut three] = [(); 2].map(|()| std::io::Cursor::new(Vec::new()));
+    let mut file = TiffEncoder::new(&mut one).unwrap();
+    let mut image = file.new_image::<Gray32Float>(4, 6).unwrap();
+    image.encoder().write_tag(Tag::Orientation, 6_u16).unwrap();
+    image.write_data(&grey).unwrap();
+    let mut file = TiffEncoder::new(&mut three).unwrap();
+    let mut image = file.new_image::<RGB32Float>(4, 6).unwrap();
+    image.encoder().write_tag(Tag::Orientation, 6_u16).unwrap();
+    image.write_data(stored.as_raw()).unwrap();
+    let path = write(folder.path(), "one.tif", &one.into_inner());
+    assert_eq!(difference(&path, [6, 4], |x, y| [upright.get_pixel(x, y).0[0]; 3]), 0.0);
+    let path = write(folder.path(), "three.tif", &three.into_inner());
+    assert_eq!(difference(&path, [6, 4], |x, y| upright.get_pixel(x, y).0), 0.0);
 }
 
 #[test]

@@ -52,7 +52,7 @@ fn keys_that_are_not_known_are_named() {
     assert!(warnings(r#"{"pitch_mm": 0.5, "eta": 1.5, "addressing": "clamp", "simulated": {}}"#).is_empty());
     for (sidecar, words) in [
         (r#"{"pitch": 0.5}"#, r#"no pixel pitch: neither --pitch nor "pitch_mm""#),
-        (r#"{"pitch": 0.5}"#, r#"unknown keys are left out (1): "pitch""#),
+        (r#"{"pitch": 0.5}"#, r#"a.json, which has "pitch""#),
         (r#"[0.5, null, null, null]"#, "unreadable sidecar"),
         (r#"{"pitch_mm": 0.5, "pitch_mm": 0.6}"#, "duplicate field `pitch_mm`"),
         (r#"{"pitch_mm": 1e39}"#, "pixel pitch inf mm"),
