@@ -22,7 +22,7 @@ pub(crate) struct Args {
     /// The .subsurf files; N goes from one to the next
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// A mesh (.obj, .ply, .glb, .gltf), or one of knot, bowl, drapery, relief, sphere, torus
+    /// A mesh (.obj, .ply, .stl, .off, .glb, .gltf), or one of knot, bowl, drapery, relief, sphere, torus
     #[arg(long, value_name = "FILE|SHAPE", default_value = "knot")]
     mesh: PathBuf,
     /// Longest side of the mesh in mm: the material has its real size

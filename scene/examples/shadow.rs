@@ -10,7 +10,7 @@ use subsurf_scene::{Environment, Light, LightShape, UpAxis, load_mesh, visibilit
 fn main() -> subsurf_scene::Result<()> {
     let file = std::env::args().nth(1).unwrap_or_else(|| "torus".to_owned());
     // 40 mm large, around the origin; edges of at most 2 mm, so that shadows have an outline.
-    let mesh = load_mesh(Path::new(&file), 40.0, UpAxis::Y)?.subdivided(2.0)?;
+    let mesh = load_mesh(Path::new(&file), 40.0, UpAxis::Y)?.mesh.subdivided(2.0)?;
 
     let towards = Vec3::new(0.9, 0.3, 0.35);
     let sun = Light { shape: LightShape::Directional { towards }, irradiance: [3.0, 2.9, 2.7] };

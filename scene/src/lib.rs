@@ -19,5 +19,5 @@ pub use mapping::{Mapping, place_in_box};
 pub use mesh::{BoundingSphere, Mesh, bowl, drapery, knot, relief, sphere, torus};
 pub use placement::Placement;
 pub use points::{PointGrid, SurfacePoints};
-pub use read::{SHAPES, UpAxis, load_mesh};
+pub use read::{LoadedMesh, MESH_EXTENSIONS, SHAPES, UpAxis, load_mesh};
 pub use scene::Scene;

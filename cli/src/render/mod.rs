@@ -15,7 +15,7 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_runtime::{RuntimeOptions, TargetFormat};
-use subsurf_scene::{Environment, load_mesh};
+use subsurf_scene::{Environment, Mesh, load_mesh};
 use subsurf_viewer::{DEFAULT_LIGHT, DrawnMaterial, ROUGHNESS, RenderRequest, Scattering, human, parse, read};
 
 use crate::devices::{self, BackendArg, check_picture};
@@ -23,6 +23,7 @@ use crate::options::Size;
 use crate::outln;
 use crate::picture::{check_picture_target, write_picture};
 use crate::program::failure::bad_request;
+use crate::program::warnings::warn;
 use btf::draw_btf;
 use options::{AnglesArg, LightArg};
 
@@ -40,8 +41,8 @@ pub(crate) struct Args {
     /// The picture to write (.png, .jpg, .tif, .webp, .bmp, .tga)
     #[arg(long, short)]
     output: PathBuf,
-    /// Draw it on this mesh: a file (.obj, .ply, .glb, .gltf), or one of knot, bowl, drapery, relief, sphere, torus; a BTF
-    /// on the knot if not given
+    /// Draw it on this mesh: a file (.obj, .ply, .stl, .off, .glb, .gltf), or one of knot, bowl, drapery, relief, sphere,
+    /// torus; a BTF on the knot if not given
     #[arg(long, value_name = "FILE|SHAPE")]
     mesh: Option<PathBuf>,
     /// Longest side of the mesh in mm: a translucent material has its real size
@@ -115,7 +116,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 None => args.backend.open()?,
             };
             let shape = args.mesh.as_deref().unwrap_or(Path::new(BTF_SHAPE));
-            let mesh = load_mesh(shape, args.extent, args.up.into())?;
+            let mesh = args.load_mesh(shape)?;
             let (picture, facts) = draw_btf(gpu.as_ref(), &btf, &mesh, &args.btf, &args.request()?)?;
             (picture, facts, devices::name(gpu.as_ref()))
         }
@@ -165,7 +166,7 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, 
             return Err(bad_request("--light X,Y,Z is for meshes; on a patch it is uniform, disc or line"));
         }
         (Some(shape), _) => {
-            let mesh = load_mesh(shape, args.extent, args.up.into())?;
+            let mesh = args.load_mesh(shape)?;
             draw_mesh(gpu.as_ref(), material, &mesh, args.mapping.into(), technique, &args.request()?)?
         }
     };
@@ -173,6 +174,15 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, 
 }
 
 impl Args {
+    /// The mesh of a file or a shape; what was changed or left out of it is said.
+    fn load_mesh(&self, path: &Path) -> anyhow::Result<Mesh> {
+        let loaded = load_mesh(path, self.extent, self.up.into())?;
+        for warning in &loaded.warnings {
+            warn(&format!("{}: {warning}", path.display()));
+        }
+        Ok(loaded.mesh)
+    }
+
     /// The picture of a mesh that is asked for.
     fn request(&self) -> anyhow::Result<RenderRequest> {
         Ok(RenderRequest {

@@ -6,6 +6,7 @@ mod captures;
 mod common;
 mod inputs_captures;
 mod inputs_materials;
+mod inputs_meshes;
 mod interrupt;
 mod render;
 #[cfg(target_os = "linux")]

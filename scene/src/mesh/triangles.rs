@@ -19,11 +19,11 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Mesh of `positions` in units of `mm_per_unit` mm, checked. Normals are means over the triangles around, weighted by
-    /// area, where `normals` does not hold a finite one for each vertex.
+    /// Mesh of `positions` in units of `mm_per_unit` mm, checked. Normals that are zero or not finite become means over the
+    /// triangles around, weighted by area; all do if `normals` does not hold one for each vertex.
     ///
     /// # Errors
-    /// [`Error::Mesh`] if the mesh is empty, an index leads outside, or a number is not finite.
+    /// [`Error::Mesh`] if the mesh is empty or has no area, an index leads outside, or a number is not finite.
     pub fn new(
         mut positions: Vec<Vec3>,
         normals: Vec<Vec3>,
@@ -50,9 +50,14 @@ impl Mesh {
         for position in &mut positions {
             *position *= mm_per_unit;
         }
-        let given = normals.len() == positions.len() && normals.iter().all(|normal| normal.is_finite());
-        let normals = if given { normals } else { smooth_normals(&positions, &triangles) };
-        let normals = normals.into_iter().map(|normal| normal.try_normalize().unwrap_or(Vec3::Y)).collect();
+        if !has_area(&positions, &triangles) {
+            return wrong(format!("no area: all of {} triangles are lines or points", triangles.len()));
+        }
+        let given = if normals.len() == positions.len() { normals } else { vec![Vec3::ZERO; positions.len()] };
+        let is_whole = given.iter().all(|normal| normal.try_normalize().is_some());
+        let smooth = if is_whole { Vec::new() } else { smooth_normals(&positions, &triangles) };
+        let unit = |(k, normal): (usize, &Vec3)| normal.try_normalize().or_else(|| smooth.get(k)?.try_normalize());
+        let normals = given.iter().enumerate().map(|normal| unit(normal).unwrap_or(Vec3::Y)).collect();
         Ok(Self { positions, normals, uvs, triangles })
     }
 
@@ -98,6 +103,17 @@ impl Mesh {
         }
         areas
     }
+}
+
+/// Whether a triangle is more than a line, but for the rounding of its corners.
+fn has_area(positions: &[Vec3], triangles: &[[u32; 3]]) -> bool {
+    let far = positions.iter().map(|position| position.abs().max_element()).fold(0.0, f32::max);
+    let rounding = f64::from(4.0 * f32::EPSILON * far);
+    triangles.iter().any(|triangle| {
+        let [a, b, c] = triangle.map(|k| positions[k as usize].as_dvec3());
+        let (ab, ac) = (b - a, c - a);
+        ab.cross(ac).length() > rounding * ab.length().max(ac.length())
+    })
 }
 
 /// Means of the normals of the triangles around each vertex, weighted by area; not of unit length.

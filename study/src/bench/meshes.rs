@@ -10,5 +10,5 @@ pub(super) const EXTENT_MM: f32 = 60.0;
 
 /// Mesh of a file, or a shape, and its name.
 pub(super) fn named(path: &Path) -> anyhow::Result<(String, Mesh)> {
-    Ok((stem(path), load_mesh(path, EXTENT_MM, UpAxis::Y)?))
+    Ok((stem(path), load_mesh(path, EXTENT_MM, UpAxis::Y)?.mesh))
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use subsurf_scene::{Mesh, SHAPES, UpAxis, load_mesh};
+use subsurf_scene::{LoadedMesh, MESH_EXTENSIONS, Mesh, SHAPES, UpAxis, load_mesh};
 
 use crate::error::{Error, Result};
 use crate::file::{DrawnMaterial, material_number, parse, read, stem};
@@ -73,6 +73,8 @@ pub(super) struct MeshReading {
 pub(super) struct Assets {
     pub(super) materials: Vec<Arc<MaterialFile>>,
     pub(super) mesh: Arc<Mesh>,
+    /// What was changed or left out of the mesh's file.
+    pub(super) warnings: Vec<String>,
     pub(super) mesh_name: String,
     /// Count of the meshes so far: a number for each.
     pub(super) mesh_number: u32,
@@ -92,9 +94,11 @@ impl Assets {
     pub(super) fn open(materials: &[PathBuf], asked: Option<&str>, mesh: &Path, reading: MeshReading) -> Result<Self> {
         let open = |path: &PathBuf| MaterialFile::open(path, asked);
         let files = materials.iter().map(open).collect::<Result<Vec<_>>>()?;
+        let loaded = load_mesh(mesh, reading.extent_mm, reading.up)?;
         Ok(Self {
             materials: files.concat(),
-            mesh: Arc::new(load_mesh(mesh, reading.extent_mm, reading.up)?),
+            mesh: Arc::new(loaded.mesh),
+            warnings: loaded.warnings,
             mesh_name: stem(mesh),
             mesh_number: 0,
             reading,
@@ -113,13 +117,14 @@ impl Assets {
                 self.materials.extend(files);
                 Ok(Dropped::Material(first))
             }
-            "obj" | "ply" | "glb" | "gltf" => {
+            extension if MESH_EXTENSIONS.contains(&extension) => {
                 self.set_mesh(path)?;
                 Ok(Dropped::Mesh)
             }
             _ => Err(Error::Request(format!(
-                "{}: neither a material (.subsurf) nor a mesh (.obj, .ply, .glb, .gltf); drop one of these",
-                path.display()
+                "{}: neither a material (.subsurf) nor a mesh (.{}); drop one of these",
+                path.display(),
+                MESH_EXTENSIONS.join(", .")
             ))),
         }
     }
@@ -131,7 +136,8 @@ impl Assets {
     }
 
     fn set_mesh(&mut self, path: &Path) -> Result<()> {
-        self.mesh = Arc::new(load_mesh(path, self.reading.extent_mm, self.reading.up)?);
+        let LoadedMesh { mesh, warnings } = load_mesh(path, self.reading.extent_mm, self.reading.up)?;
+        (self.mesh, self.warnings) = (Arc::new(mesh), warnings);
         self.mesh_name = stem(path);
         self.mesh_number += 1;
         Ok(())

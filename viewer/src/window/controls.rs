@@ -30,7 +30,7 @@ pub const KEYS: &str = "\
   S               save what the window shows as PNG
   H               hide the panel
   Q, Esc          quit
-  drop a file     a material (.subsurf) or a mesh (.obj, .ply, .glb, .gltf)";
+  drop a file     a material (.subsurf) or a mesh (.obj, .ply, .stl, .off, .glb, .gltf)";
 
 /// Request of a key or a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

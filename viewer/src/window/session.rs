@@ -51,7 +51,6 @@ impl Session {
         let assets = Assets::open(&config.files, config.material.as_deref(), &config.mesh, reading)?;
         Ok(Self {
             state: SceneState::of(&assets.mesh, &config.environment, config.size),
-            assets,
             settings: Settings {
                 technique: config.technique,
                 material: 0,
@@ -67,7 +66,8 @@ impl Session {
             images: config.images.clone(),
             budget_bytes: config.options.budget_bytes,
             times: Times::default(),
-            message: None,
+            message: warning(&assets),
+            assets,
             failure: None,
             refused: Vec::new(),
             is_stale: true,
@@ -272,7 +272,7 @@ impl Session {
     }
 
     fn show_mesh(&mut self, size: [u32; 2]) {
-        self.message = None;
+        self.message = warning(&self.assets);
         self.state.look_at(&self.assets.mesh, size);
         self.changed();
     }
@@ -337,4 +337,10 @@ impl Session {
             message: self.message.clone(),
         }
     }
+}
+
+/// What was changed or left out of the mesh's file, for the panel.
+fn warning(assets: &Assets) -> Option<Message> {
+    (!assets.warnings.is_empty())
+        .then(|| Message::Done(format!("{}: {}", assets.mesh_name, assets.warnings.join("; "))))
 }
