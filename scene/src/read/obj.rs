@@ -6,7 +6,6 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use super::corners::Corners;
-use super::polygon::triangulate;
 use super::raw::{Raw, Result};
 use super::text::{Lines, numbers, quoted, without_mark, words};
 
@@ -150,8 +149,7 @@ impl Lists {
                     out.normals.push(normal.copied().unwrap_or(Vec3::NAN));
                 })?);
             }
-            let positions: Vec<DVec3> = polygon.iter().map(|&k| out.positions[k as usize]).collect();
-            triangulate(&positions, |ear| out.triangles.push(ear.map(|k| polygon[k])));
+            out.add_polygon(&polygon);
         }
         if !has_uvs {
             out.uvs.clear();

@@ -2,7 +2,6 @@
 
 use glam::{DVec2, DVec3};
 
-use super::polygon::triangulate;
 use super::raw::{Raw, Result};
 use super::text::{Lines, number, numbers, quoted, without_mark, words};
 
@@ -49,8 +48,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw> {
         let (line, words) = lines.next().ok_or_else(|| format!("ends after face {k} of {faces}"))?;
         let corners = corners(&words, vertices).map_err(|error| format!("line {line}: {error}"))?;
         small += usize::from(corners.len() < 3);
-        let positions: Vec<DVec3> = corners.iter().map(|&k| out.positions[k as usize]).collect();
-        triangulate(&positions, |ear| out.triangles.push(ear.map(|k| corners[k])));
+        out.add_polygon(&corners);
     }
     out.leave_out(small, "faces of fewer than three corners");
     Ok(out)

@@ -3,7 +3,6 @@
 use glam::{DVec3, Vec3};
 
 use super::corners::Corners;
-use super::polygon::triangulate;
 use super::raw::{Raw, Result};
 use super::text::{Lines, numbers, without_mark, words};
 
@@ -51,7 +50,7 @@ impl Facets {
             let place = (position + 0.0).to_array().map(f64::to_bits);
             corners.push(self.vertices.number(place, || self.mesh.positions.push(position))?);
         }
-        triangulate(facet, |ear| self.mesh.triangles.push(ear.map(|k| corners[k])));
+        self.mesh.add_polygon(&corners);
         Ok(())
     }
 }

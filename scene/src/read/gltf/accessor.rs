@@ -1,7 +1,7 @@
 //! Accessors: numbers in views, of any type, strided, normalised or sparse.
 
 use super::buffers::Buffers;
-use super::document::{Accessor, Document, SparsePart, Whole};
+use super::document::{Accessor, Document, SparsePart, Whole, named};
 use crate::read::raw::{Result, count};
 use crate::read::text::quoted;
 
@@ -75,11 +75,7 @@ pub(super) struct Accessors<'a> {
 
 impl<'a> Accessors<'a> {
     fn get(&self, number: Whole) -> Result<&'a Accessor> {
-        let (number, count) = (number.0, self.document.accessors.len());
-        self.document
-            .accessors
-            .get(number)
-            .ok_or_else(|| format!("names accessor {number}; there are {count}, counted from 0"))
+        named(&self.document.accessors, "accessor", number)
     }
 
     /// Whether an accessor has no bytes, so that all its numbers are zero.
@@ -89,7 +85,7 @@ impl<'a> Accessors<'a> {
 
     /// Whether an accessor's numbers are floats; what is not there is no float.
     pub(super) fn is_float(&self, number: Whole) -> bool {
-        self.get(number).is_ok_and(|accessor| accessor.component_type.0 == 5126)
+        self.get(number).is_ok_and(|accessor| Component::parse(accessor.component_type.0) == Ok(Component::F32))
     }
 
     /// Whether an accessor's integers are shares of the largest of their type.

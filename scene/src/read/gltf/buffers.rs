@@ -8,7 +8,7 @@ use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
 use base64::engine::{DecodePaddingMode, Engine};
 use serde::Deserialize;
 
-use super::document::{Compressed, Document, Whole};
+use super::document::{Compressed, Document, Whole, named};
 use super::meshopt;
 use crate::read::raw::Result;
 use crate::read::text::quoted;
@@ -48,10 +48,8 @@ impl<'a> Buffers<'a> {
 
     /// View of a number.
     pub(super) fn view(&self, number: Whole) -> Result<View<'_>> {
+        let view = named(&self.document.buffer_views, "bufferView", number)?;
         let number = number.0;
-        let view = self.document.buffer_views.get(number).ok_or_else(|| {
-            format!("names bufferView {number}; there are {}, counted from 0", self.document.buffer_views.len())
-        })?;
         let at = |error: String| format!("bufferView {number}: {error}");
         let bytes = match MESHOPT.iter().find_map(|name| view.extensions.get(*name)) {
             None => self.bytes(view.buffer, view.byte_offset, view.byte_length),
@@ -66,21 +64,17 @@ impl<'a> Buffers<'a> {
 
     /// Part of a buffer.
     fn bytes(&self, number: Whole, offset: Whole, length: Whole) -> Result<&[u8]> {
-        let (Whole(number), Whole(offset), Whole(length)) = (number, offset, length);
         let buffer = self.buffer(number)?;
+        let (Whole(number), Whole(offset), Whole(length)) = (number, offset, length);
         let part = buffer.get(offset..).and_then(|rest| rest.get(..length));
         part.ok_or_else(|| {
             format!("{length} bytes from byte {offset} on of buffer {number}, which has {}", buffer.len())
         })
     }
 
-    fn buffer(&self, number: usize) -> Result<&[u8]> {
-        let count = self.document.buffers.len();
-        let buffer = self
-            .document
-            .buffers
-            .get(number)
-            .ok_or_else(|| format!("names buffer {number}; there are {count}, counted from 0"))?;
+    fn buffer(&self, number: Whole) -> Result<&[u8]> {
+        let buffer = named(&self.document.buffers, "buffer", number)?;
+        let number = number.0;
         let Some(uri) = &buffer.uri else {
             // Only the first is the binary chunk.
             let chunk = self.chunk.filter(|_| number == 0);

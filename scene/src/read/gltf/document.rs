@@ -27,6 +27,12 @@ impl TryFrom<f64> for Whole {
     }
 }
 
+/// The item that a number names, one of `what`.
+pub(super) fn named<'a, T>(items: &'a [T], what: &str, Whole(number): Whole) -> Result<&'a T, String> {
+    let count = items.len();
+    items.get(number).ok_or_else(|| format!("names {what} {number}; there are {count}, counted from 0"))
+}
+
 /// The root of a file.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::accessor::Accessors;
-use super::document::{Document, Instancing, Node, Whole};
+use super::document::{Document, Instancing, Node, Whole, named};
 use super::primitive::{Builder, Placing};
 use super::skin::joint_matrices;
 use crate::read::raw::Result;
@@ -41,13 +41,11 @@ pub(super) fn place(document: &Document, accessors: Accessors<'_>, builder: &mut
 
     for &number in &nodes.drawn {
         let node = &document.nodes[number];
-        let Some(Whole(mesh)) = node.mesh else {
+        let Some(mesh) = node.mesh else {
             continue;
         };
         let at = |error: String| format!("node {number}: {error}");
-        let count = document.meshes.len();
-        let mesh_of = document.meshes.get(mesh);
-        let mesh_of = mesh_of.ok_or_else(|| at(format!("names mesh {mesh}; there are {count}, counted from 0")))?;
+        let mesh_of = named(&document.meshes, "mesh", mesh).map_err(at)?;
         let world = nodes.world[number].unwrap_or(Mat4::IDENTITY);
         let placing = Placing {
             instances: instances(node, accessors).map_err(at)?.into_iter().map(|local| world * local).collect(),
@@ -56,7 +54,7 @@ pub(super) fn place(document: &Document, accessors: Accessors<'_>, builder: &mut
         let weights = node.weights.as_deref().or(mesh_of.weights.as_deref()).unwrap_or(&[]);
         for (k, primitive) in mesh_of.primitives.iter().enumerate() {
             let added = builder.add(primitive, weights, &placing);
-            added.map_err(|error| format!("mesh {mesh}, primitive {k}: {error}"))?;
+            added.map_err(|error| format!("mesh {}, primitive {k}: {error}", mesh.0))?;
         }
     }
     Ok(())
@@ -67,9 +65,7 @@ impl Nodes<'_> {
     fn visit(&mut self, roots: &[Whole], for_drawing: bool) -> Result<()> {
         let mut stack: Vec<_> = roots.iter().map(|&Whole(node)| (node, Mat4::IDENTITY, for_drawing)).collect();
         while let Some((number, parent, is_drawn)) = stack.pop() {
-            let count = self.world.len();
-            let node = self.document.nodes.get(number);
-            let node = node.ok_or_else(|| format!("names node {number}; there are {count}, counted from 0"))?;
+            let node = named(&self.document.nodes, "node", Whole(number))?;
             let world = parent * local(node);
             if !for_drawing && self.world[number].is_some() {
                 continue;
@@ -86,10 +82,9 @@ impl Nodes<'_> {
         Ok(())
     }
 
-    fn joints(&self, Whole(skin): Whole, accessors: Accessors<'_>) -> Result<Vec<Mat4>> {
-        let count = self.document.skins.len();
-        let of = self.document.skins.get(skin).ok_or_else(|| format!("names skin {skin}; there are {count}"))?;
-        joint_matrices(self.document, accessors, of, &self.world).map_err(|error| format!("skin {skin}: {error}"))
+    fn joints(&self, skin: Whole, accessors: Accessors<'_>) -> Result<Vec<Mat4>> {
+        let of = named(&self.document.skins, "skin", skin)?;
+        joint_matrices(accessors, of, &self.world).map_err(|error| format!("skin {}: {error}", skin.0))
     }
 }
 

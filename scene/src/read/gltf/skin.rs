@@ -3,23 +3,17 @@
 use glam::Mat4;
 
 use super::accessor::Accessors;
-use super::document::{Document, Skin, Whole};
+use super::document::{Skin, Whole, named};
 use crate::read::raw::Result;
 
 /// Matrix of each joint: from where a vertex was bound to where it is in the scene.
-pub(super) fn joint_matrices(
-    document: &Document,
-    accessors: Accessors<'_>,
-    skin: &Skin,
-    world: &[Option<Mat4>],
-) -> Result<Vec<Mat4>> {
+pub(super) fn joint_matrices(accessors: Accessors<'_>, skin: &Skin, world: &[Option<Mat4>]) -> Result<Vec<Mat4>> {
     let bound = match skin.inverse_bind_matrices {
         Some(number) => accessors.vectors::<16>(number)?,
         None => Vec::new(),
     };
-    let joint = |(k, &Whole(node)): (usize, &Whole)| {
-        let count = document.nodes.len();
-        let world = world.get(node).ok_or_else(|| format!("names node {node}; there are {count}, counted from 0"))?;
+    let joint = |(k, &node): (usize, &Whole)| {
+        let world = named(world, "node", node)?;
         let bound = bound.get(k).map_or(Mat4::IDENTITY, Mat4::from_cols_array);
         Ok(world.unwrap_or(Mat4::IDENTITY) * bound)
     };

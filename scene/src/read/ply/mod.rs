@@ -6,7 +6,6 @@ mod values;
 use glam::{DVec2, DVec3, Vec2};
 
 use super::corners::Corners;
-use super::polygon::triangulate;
 use super::raw::{Raw, Result};
 use super::text::{quoted, shortened};
 use header::{Element, Header};
@@ -177,8 +176,7 @@ impl Faces {
             let corners = &self.corners[first..end];
             first = end;
             small += usize::from(corners.len() < 3);
-            let positions: Vec<DVec3> = corners.iter().map(|&k| out.positions[k as usize]).collect();
-            triangulate(&positions, |ear| out.triangles.push(ear.map(|k| corners[k])));
+            out.add_polygon(corners);
         }
         out.leave_out(small, "faces of fewer than three corners");
         Ok(())
