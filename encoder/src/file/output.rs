@@ -39,13 +39,18 @@ pub fn remove_unfinished() {
 /// # Errors
 /// [`Error::Request`] if not.
 pub fn check_target(path: &Path) -> Result<()> {
+    checked_target(path).map(drop)
+}
+
+/// The file that `path` stands for, if it can be written.
+fn checked_target(path: &Path) -> Result<PathBuf> {
     let target = behind_links(path)?;
     check_folder(path, folder_of(&target))?;
     let refuse = |what: &str| Err(Error::Request(format!("{}: {what}", path.display())));
     match std::fs::metadata(&target) {
         Ok(found) if !found.is_file() => refuse("is there and is not a file"),
         Ok(found) if found.permissions().readonly() => refuse("is there and is write-protected"),
-        _ => Ok(()),
+        _ => Ok(target),
     }
 }
 
@@ -134,8 +139,7 @@ pub fn write_atomically(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<&mut File>) -> std::io::Result<()>,
 ) -> Result<()> {
-    check_target(path)?;
-    let target = behind_links(path)?;
+    let target = checked_target(path)?;
     let output = |source| Error::output(path, source);
     let mut file = new_file(folder_of(&target)).map_err(output)?;
     let _listed = Unfinished::new(file.path());
