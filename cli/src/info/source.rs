@@ -12,21 +12,13 @@ pub(super) fn info(args: &Args) -> anyhow::Result<()> {
     if args.file.is_dir() {
         let folder = Folder::open(&args.file)?;
         let simulated = folder.facts().and_then(|facts| facts.get("simulated")).cloned();
-        let raw_bytes = folder.raw_bytes();
-        return print(args, "images of a BTF", &folder, raw_bytes, simulated);
+        return print(args, &folder, folder.raw_bytes(), simulated);
     }
-    let extension = args.file.extension().unwrap_or_default().to_ascii_lowercase();
     let source = open_btf(&args.file)?;
-    let kind = match extension.to_str() {
-        Some("binary") => "isotropic BRDF of MERL",
-        Some("bsdf") => "isotropic BRDF of RGL",
-        _ => "compressed BTF of UBO2014",
-    };
-    let raw_bytes = std::fs::metadata(&args.file)?.len();
-    print(args, kind, source.as_ref(), raw_bytes, None)
+    print(args, source.as_ref(), std::fs::metadata(&args.file)?.len(), None)
 }
 
-fn print(args: &Args, kind: &str, source: &dyn Source, raw_bytes: u64, simulated: Option<Value>) -> anyhow::Result<()> {
+fn print(args: &Args, source: &dyn Source, raw_bytes: u64, simulated: Option<Value>) -> anyhow::Result<()> {
     check_images(source, &Bars::new())?;
     let ([width, height], is_linear) = (source.size(), source.white().is_none());
     let (lights, views) = (source.lights(), source.views());
@@ -43,15 +35,10 @@ fn print(args: &Args, kind: &str, source: &dyn Source, raw_bytes: u64, simulated
         (false, true) => "16-bit sRGB",
         (false, false) => "8-bit sRGB",
     };
-    let (lights, views, raw) = (lights.len(), views.len(), human(raw_bytes));
-    let path = args.file.display();
-    if args.file.is_dir() {
-        outln!(
-            "{path}: {kind}, {lights} lights × {views} views, {width} × {height} pixels, {pixels}, {raw} uncompressed"
-        );
-    } else {
-        outln!("{path}: {kind}, {lights} lights × {views} views, {width} × {height} pixels, {pixels}, {raw}");
-    }
+    let (path, kind, lights, views, raw) =
+        (args.file.display(), source.kind(), lights.len(), views.len(), human(raw_bytes));
+    let state = if args.file.is_dir() { " uncompressed" } else { "" };
+    outln!("{path}: {kind}, {lights} lights × {views} views, {width} × {height} pixels, {pixels}, {raw}{state}");
     if let Some(facts) = simulated {
         outln!("  synthetic: {facts}");
     }

@@ -1,8 +1,12 @@
-//! Isotropic BRDFs as BTFs of one texel: the directions at which readers of such BRDFs make images.
+//! Isotropic BRDFs as BTFs of one texel, whatever file they are from.
 
 use std::f32::consts::FRAC_PI_2;
+use std::path::Path;
 
 use glam::Vec3;
+
+use crate::capture::source::Source;
+use crate::error::Result;
 
 /// Views from the normal down, all at azimuth 0.
 const VIEWS: u16 = 18;
@@ -32,5 +36,64 @@ impl Directions {
             Vec3::new(theta.sin(), 0.0, theta.cos())
         };
         Self { lights: all.filter(|light| light.z >= reach.cos()).collect(), views: (0..VIEWS).map(view).collect() }
+    }
+}
+
+/// Measured isotropic BRDF, which is a source of linear images of one pixel.
+pub(super) trait IsotropicBrdf: Sync {
+    /// What such a file is, for people.
+    const KIND: &str;
+
+    /// The file.
+    fn path(&self) -> &Path;
+    /// Length of the file.
+    fn file_bytes(&self) -> u64;
+    /// Directions of the images.
+    fn directions(&self) -> &Directions;
+    /// π f_r cos θ of the light, linear RGB.
+    fn exitance(&self, light: Vec3, view: Vec3) -> [f32; 3];
+
+    /// As [`Source::warnings`].
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+impl<T: IsotropicBrdf> Source for T {
+    fn label(&self) -> String {
+        self.path().display().to_string()
+    }
+
+    fn kind(&self) -> &'static str {
+        T::KIND
+    }
+
+    fn lights(&self) -> Vec<Vec3> {
+        self.directions().lights.clone()
+    }
+
+    fn views(&self) -> Vec<Vec3> {
+        self.directions().views.clone()
+    }
+
+    fn size(&self) -> [u32; 2] {
+        [1, 1]
+    }
+
+    fn white(&self) -> Option<f32> {
+        None
+    }
+
+    fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>> {
+        let Directions { lights, views } = self.directions();
+        Ok(vec![self.exitance(lights[light], views[view])])
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        IsotropicBrdf::warnings(self)
+    }
+
+    fn raw_bytes(&self) -> Option<u64> {
+        Some(self.file_bytes())
     }
 }

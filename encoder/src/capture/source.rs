@@ -8,6 +8,10 @@ use crate::error::Result;
 pub trait Source: Sync {
     /// Name in errors: a path, for example.
     fn label(&self) -> String;
+    /// What it is, for people.
+    fn kind(&self) -> &'static str {
+        "images of a BTF"
+    }
     /// Unit vectors towards the lights.
     fn lights(&self) -> Vec<Vec3>;
     /// Unit vectors towards the eyes.

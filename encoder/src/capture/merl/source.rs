@@ -1,54 +1,44 @@
 //! Isotropic BRDFs as BTFs of one texel.
 
 use std::f32::consts::PI;
+use std::path::Path;
 use std::sync::LazyLock;
 
 use glam::Vec3;
 
 use super::{FILE_BYTES, Merl};
-use crate::capture::isotropic::Directions;
-use crate::capture::source::Source;
-use crate::error::Result;
+use crate::capture::isotropic::{Directions, IsotropicBrdf};
 
 /// Angle from the normal of the lowest lights and views, in degrees.
 const REACH_DEG: f32 = 85.0;
 
 static DIRECTIONS: LazyLock<Directions> = LazyLock::new(|| Directions::up_to(REACH_DEG));
 
-impl Source for Merl {
-    fn label(&self) -> String {
-        self.path().display().to_string()
+impl IsotropicBrdf for Merl {
+    const KIND: &str = "isotropic BRDF of MERL";
+
+    fn path(&self) -> &Path {
+        self.path()
     }
 
-    fn lights(&self) -> Vec<Vec3> {
-        DIRECTIONS.lights.clone()
+    fn file_bytes(&self) -> u64 {
+        FILE_BYTES as u64
     }
 
-    fn views(&self) -> Vec<Vec3> {
-        DIRECTIONS.views.clone()
+    fn directions(&self) -> &Directions {
+        &DIRECTIONS
     }
 
-    fn size(&self) -> [u32; 2] {
-        [1, 1]
-    }
-
-    fn white(&self) -> Option<f32> {
-        None
-    }
-
-    fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>> {
-        let (light, view) = (DIRECTIONS.lights[light], DIRECTIONS.views[view]);
-        Ok(vec![self.eval(light, view).map(|value| PI * value * light.z)])
+    fn exitance(&self, light: Vec3, view: Vec3) -> [f32; 3] {
+        self.eval(light, view).map(|value| PI * value * light.z)
     }
 
     fn warnings(&self) -> Vec<String> {
-        let nothing =
-            || format!("{}: no sample was measured, all are below 0 or no numbers; it is black", self.label());
+        let nothing = || {
+            let path = self.path().display();
+            format!("{path}: no sample was measured, all are below 0 or no numbers; it is black")
+        };
         self.is_empty().then(nothing).into_iter().collect()
-    }
-
-    fn raw_bytes(&self) -> Option<u64> {
-        Some(FILE_BYTES as u64)
     }
 }
 

@@ -1,14 +1,13 @@
 //! Measured isotropic BRDFs as BTFs of one texel.
 
 use std::f64::consts::{PI, TAU};
+use std::path::Path;
 use std::sync::LazyLock;
 
 use glam::{DVec3, Vec3};
 
 use super::Rgl;
-use crate::capture::isotropic::Directions;
-use crate::capture::source::Source;
-use crate::error::Result;
+use crate::capture::isotropic::{Directions, IsotropicBrdf};
 
 /// Angle from the normal of the lowest lights and views, in degrees: files are extrapolated from 78° on at the latest, and
 /// are no longer reciprocal below.
@@ -20,32 +19,26 @@ const TILT: f64 = 1e-4;
 
 static DIRECTIONS: LazyLock<Directions> = LazyLock::new(|| Directions::up_to(REACH_DEG));
 
-impl Source for Rgl {
-    fn label(&self) -> String {
-        self.path().display().to_string()
+impl IsotropicBrdf for Rgl {
+    const KIND: &str = "isotropic BRDF of RGL";
+
+    fn path(&self) -> &Path {
+        self.path()
     }
 
-    fn lights(&self) -> Vec<Vec3> {
-        DIRECTIONS.lights.clone()
+    fn file_bytes(&self) -> u64 {
+        self.file_bytes
     }
 
-    fn views(&self) -> Vec<Vec3> {
-        DIRECTIONS.views.clone()
+    fn directions(&self) -> &Directions {
+        &DIRECTIONS
     }
 
-    fn size(&self) -> [u32; 2] {
-        [1, 1]
-    }
-
-    fn white(&self) -> Option<f32> {
-        None
-    }
-
-    /// π f_r cos θ of the light. As the BRDF is reciprocal, the view takes the file's direction of incidence: the cosine
-    /// is then the one that the file has already.
+    /// As the BRDF is reciprocal, the view takes the file's direction of incidence: the cosine is then the one that the
+    /// file has already.
     #[allow(clippy::cast_possible_truncation, reason = "images are floats")]
-    fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>> {
-        let (light, view) = (DIRECTIONS.lights[light].as_dvec3(), DIRECTIONS.views[view].as_dvec3());
+    fn exitance(&self, light: Vec3, view: Vec3) -> [f32; 3] {
+        let (light, view) = (light.as_dvec3(), view.as_dvec3());
         let value = if view.truncate().length() < TILT {
             let around = (0..AZIMUTHS).map(|k| {
                 let (sin, cos) = (TAU * f64::from(k) / f64::from(AZIMUTHS)).sin_cos();
@@ -56,10 +49,6 @@ impl Source for Rgl {
         } else {
             self.eval_cosine(view, light)
         };
-        Ok(vec![value.map(|value| (PI * value) as f32)])
-    }
-
-    fn raw_bytes(&self) -> Option<u64> {
-        Some(self.file_bytes)
+        value.map(|value| (PI * value) as f32)
     }
 }

@@ -11,6 +11,10 @@ impl Source for Ubo {
         self.path().display().to_string()
     }
 
+    fn kind(&self) -> &'static str {
+        "compressed BTF of UBO2014"
+    }
+
     fn lights(&self) -> Vec<Vec3> {
         self.lights().to_vec()
     }
