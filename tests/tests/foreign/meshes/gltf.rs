@@ -252,10 +252,7 @@ fn compressed_views_and_primitives() {
         let mut parts = parts.clone();
         for (view, from, mode, count, stride) in [(0, positions, "ATTRIBUTES", 4, 12), (1, indices, "TRIANGLES", 6, 2)]
         {
-            let mut compressed = parts.views[from].clone();
-            compressed["mode"] = mode.into();
-            compressed["count"] = count.into();
-            compressed["byteStride"] = stride.into();
+            let compressed = parts.compressed(from, mode, count, stride);
             // The bytes themselves are nowhere.
             parts.views[view] =
                 json!({ "buffer": 1, "byteLength": count * stride, "extensions": { name: compressed } });

@@ -32,6 +32,15 @@ impl Parts {
         self.accessors.len() - 1
     }
 
+    /// What an extension says of a view that stands, compressed, in the view `from`.
+    pub(super) fn compressed(&self, from: usize, mode: &str, count: usize, stride: usize) -> Value {
+        let mut compressed = self.views[from].clone();
+        compressed["mode"] = mode.into();
+        compressed["count"] = count.into();
+        compressed["byteStride"] = stride.into();
+        compressed
+    }
+
     /// Adds vectors of N floats.
     pub(super) fn floats<const N: usize>(&mut self, vectors: &[[f32; N]]) -> usize {
         let shape = ["SCALAR", "VEC2", "VEC3", "VEC4"].get(N - 1).copied().unwrap_or("MAT4");

@@ -98,10 +98,7 @@ fn compressed() -> (Parts, serde_json::Value) {
     let positions = parts.view(&meshopt::attributes(&bytes(CORNERS.as_flattened(), f32::to_le_bytes), 12));
     let indices = parts.view(&meshopt::triangles(&[0, 1, 2, 0, 2, 3]));
     for (view, from, mode, count, stride) in [(0, positions, "ATTRIBUTES", 4, 12), (1, indices, "TRIANGLES", 6, 2)] {
-        let mut compressed = parts.views[from].clone();
-        compressed["mode"] = mode.into();
-        compressed["count"] = count.into();
-        compressed["byteStride"] = stride.into();
+        let compressed = parts.compressed(from, mode, count, stride);
         parts.views[view]["extensions"] = json!({ "EXT_meshopt_compression": compressed });
     }
     let stream = parts.view(&DRACO);

@@ -1,8 +1,7 @@
 //! PLY, STL and OFF files as all kinds of programs write them.
 
+use super::gltf_file::CORNERS;
 use super::{assert_refused, assert_square};
-
-const CORNERS: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 
 fn square(name: &str, what: &str, bytes: impl AsRef<[u8]>) -> Vec<String> {
     assert_square(what, &[(name, bytes.as_ref().to_vec())])
