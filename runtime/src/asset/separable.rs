@@ -13,7 +13,7 @@ use crate::gpu::{Gpu, Tracked};
 /// Refuses a basis whose tables are not as long as it says.
 pub(super) fn whole(basis: &SeparableBasis) -> Result<()> {
     let size = basis.size;
-    let error = || Error::Device(format!("a basis that has not as many numbers as {size:?} and the patch take"));
+    let error = || Error::Usage(format!("a basis that has not as many numbers as {size:?} and the patch take"));
     basis.is_whole().then_some(()).ok_or_else(error)
 }
 
@@ -72,7 +72,7 @@ impl SeparableMaterial {
         if self.terms == terms {
             return Ok(());
         }
-        Err(Error::Device(format!("this renderer draws L = {terms}, the material has L = {}", self.terms)))
+        Err(Error::Usage(format!("this renderer draws L = {terms}, the material has L = {}", self.terms)))
     }
 
     /// Bytes of layers and blocks on the device.

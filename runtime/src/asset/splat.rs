@@ -5,7 +5,7 @@ use subsurf_shaders::Rgb;
 use subsurf_shaders::fit::softening_gain;
 use subsurf_shaders::separable::SeparableBasis;
 
-use super::bssrdf::Material;
+use super::bssrdf::BssrdfPlanes;
 use super::patch_layers::PatchLayers;
 use super::separable::{albedo, whole};
 use crate::error::Result;
@@ -15,7 +15,7 @@ use crate::gpu::Gpu;
 #[derive(Debug)]
 pub struct SplatMaterial {
     /// Planes of the file.
-    pub(crate) planes: Material,
+    pub(crate) planes: BssrdfPlanes,
     /// One layer: albedo under uniform light.
     pub(crate) albedo: PatchLayers,
     /// SeparableBasis that give back the light that softened distances take, by [`softening_gain`].
@@ -30,7 +30,7 @@ impl SplatMaterial {
     pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>, basis: &SeparableBasis) -> Result<Self> {
         whole(basis)?;
         Ok(Self {
-            planes: Material::upload(gpu, material)?,
+            planes: BssrdfPlanes::upload(gpu, material)?,
             softening_gain: softening_gain(material),
             albedo: PatchLayers::upload(gpu, material.header(), vec![albedo(basis)])?,
         })
@@ -38,7 +38,7 @@ impl SplatMaterial {
 
     /// Planes of the file.
     #[must_use]
-    pub fn planes(&self) -> &Material {
+    pub fn planes(&self) -> &BssrdfPlanes {
         &self.planes
     }
 
