@@ -4,10 +4,10 @@
 
 use subsurf_decoder::Bssrdf;
 use subsurf_runtime::{
-    AmbientTransfer, Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, SeparableMaterial, Technique, VertexData, wgpu,
+    Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, SeparableMaterial, Technique, VertexData, wgpu,
 };
 use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Placement, Scene, torus};
-use subsurf_shaders::separable::{BasisSize, SeparableBasis};
+use subsurf_shaders::separable::ProjectedBasis;
 
 const SIZE: [u32; 2] = [640, 480];
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -38,9 +38,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let bssrdf = Bssrdf::parse(&bytes)?;
     let mesh = torus(18.0, 8.0, 64);
     let placement = Placement::new(&mesh, Mapping::Box, bssrdf.header());
-    let sky = AmbientTransfer::of(&mesh, &bssrdf)?;
-    let mesh = GpuMesh::upload(&gpu, &mesh, &placement, VertexData::Ambient(&sky))?;
-    let material = SeparableMaterial::upload(&gpu, &SeparableBasis::of(&bssrdf, BasisSize::default()))?;
+    let mesh = GpuMesh::upload(&gpu, &mesh, &placement, VertexData::Nothing)?;
+    let basis = ProjectedBasis::of(&bssrdf).ok_or("no separable basis: `subsurf encode --add-basis FILE` adds one")?;
+    let material = SeparableMaterial::upload(&gpu, &basis)?;
     let model = Drawable::Separable { mesh: &mesh, material: &material };
     let options = RuntimeOptions { format: FORMAT, samples: 4, ..Default::default() };
     let renderer = Renderer::new(&gpu, Technique::Separable(material.terms()), options)?;

@@ -9,8 +9,7 @@ mod gpu;
 mod technique;
 
 pub use asset::{
-    AmbientTransfer, BtfImages, BtfMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial,
-    VertexData, layout_of,
+    BtfImages, BtfMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial, VertexData, layout_of,
 };
 pub use error::{Error, Result};
 pub use frame::{BACKGROUND, Frame, Plan, Renderer, RuntimeOptions};

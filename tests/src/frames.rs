@@ -6,13 +6,13 @@ use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_runtime::{
-    AmbientTransfer, BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, Renderer, RuntimeOptions,
-    SeparableMaterial, SplatMaterial, Technique, VertexData,
+    BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, Renderer, RuntimeOptions, SeparableMaterial,
+    SplatMaterial, Technique, VertexData,
 };
 use subsurf_scene::{
-    Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene, SurfacePoints, visibility,
+    AmbientTransfer, Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene, SurfacePoints, visibility,
 };
-use subsurf_shaders::separable::{BasisSize, SeparableBasis};
+use subsurf_shaders::separable::ProjectedBasis;
 
 /// Display values: steps of 255 between the two APIs. Their arithmetic is the same but for rounding; sums of splats are
 /// half floats that lose up to 2⁻¹¹ with each addition.
@@ -90,7 +90,6 @@ impl Loaded {
     pub fn under(gpu: &Gpu, mode: RenderMode, file: &[u8], mesh: &Mesh, mapping: Mapping, scene: &Scene) -> Self {
         let material = Bssrdf::parse(file).unwrap();
         let placement = Placement::new(mesh, mapping, material.header());
-        let factors = || SeparableBasis::of(&material, BasisSize::default());
         let lit = || {
             let shares = AmbientTransfer::of(mesh, &material).unwrap();
             GpuMesh::upload(gpu, mesh, &placement, VertexData::Ambient(&shares)).unwrap()
@@ -105,8 +104,11 @@ impl Loaded {
                 let points = GpuPoints::upload(gpu, &surface).unwrap();
                 Self::Gather(on_gpu, points, Material::upload(gpu, &material).unwrap())
             }
-            RenderMode::Splat => Self::Splat(lit(), SplatMaterial::upload(gpu, &material, &factors()).unwrap()),
-            RenderMode::Separable => Self::Separable(lit(), SeparableMaterial::upload(gpu, &factors()).unwrap()),
+            RenderMode::Splat => Self::Splat(lit(), SplatMaterial::upload(gpu, &material).unwrap()),
+            RenderMode::Separable => {
+                let basis = ProjectedBasis::of(&material).expect("a file with a separable basis");
+                Self::Separable(lit(), SeparableMaterial::upload(gpu, &basis).unwrap())
+            }
         }
     }
 

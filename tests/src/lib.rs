@@ -8,10 +8,12 @@ pub mod program;
 
 use std::path::{Path, PathBuf};
 
+use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
 use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, Coding};
 use subsurf_decoder::container::crc32;
 use subsurf_decoder::{Bssrdf, Section};
+use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, add_basis};
 use subsurf_encoder::bssrdf::write_file;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
 use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Slab, simulate};
@@ -21,6 +23,17 @@ use subsurf_encoder::synthetic::Shape;
 #[must_use]
 pub fn shape(size: [u32; 2], radius: u16, addressing: Addressing) -> Shape {
     Shape { size, radius, samples: radius + 2, base_materials: 7, addressing }
+}
+
+/// A file of [`shape`], with a basis to draw separable blurs by: what a fit starts from, made in no time.
+///
+/// # Panics
+/// If it is refused.
+#[must_use]
+pub fn drawable(size: [u32; 2], radius: u16, addressing: Addressing) -> Vec<u8> {
+    let choice = BasisChoice::Size(BasisSize { terms: 2, gaussians: 4 });
+    let options = BasisOptions { choice, steps: 0 };
+    add_basis(&shape(size, radius, addressing).bmpp(), &options, &()).expect("a file of our own")
 }
 
 /// Writes a capture whose entries come from `rd` (pixel, place in the window, channel), in mm⁻².

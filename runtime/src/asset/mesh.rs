@@ -1,10 +1,9 @@
 //! Meshes on the device, with what techniques need to know of every vertex.
 
 use glam::{Vec2, Vec3, Vec4};
-use subsurf_scene::{Mapping, Mesh, Placement};
+use subsurf_scene::{AmbientTransfer, Mapping, Mesh, Placement};
 use wgpu::{Buffer, BufferUsages, IndexFormat, RenderPass, VertexBufferLayout, VertexStepMode, vertex_attr_array};
 
-use super::ambient::AmbientTransfer;
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, Tracked};
 
@@ -40,7 +39,9 @@ struct Vertex {
 pub enum VertexData<'a> {
     /// Number of the vertex's point, [`subsurf_scene::SurfacePoints::point_of`]: for the gather.
     Points(&'a [u32]),
-    /// Light from all around that scatters to the vertex: for splats and separable blurs.
+    /// Nothing: for splats and separable blurs, where light from all around is that of flat, open ground.
+    Nothing,
+    /// Light from all around that scatters to the vertex, computed ahead of time: for splats and separable blurs.
     Ambient(&'a [AmbientTransfer]),
     /// Tangents, [`Mesh::tangents`]: for BTFs.
     Tangents(&'a [Vec4]),
@@ -68,7 +69,7 @@ impl GpuMesh {
         };
         let sky = |k: usize| match known {
             VertexData::Ambient(shares) => shares[k],
-            VertexData::Points(_) | VertexData::Tangents(_) => AmbientTransfer { front: [1.0; 3], back: [0.0; 3] },
+            VertexData::Nothing | VertexData::Points(_) | VertexData::Tangents(_) => AmbientTransfer::FLAT,
         };
         let vertex = |k: usize| {
             let uv = mesh.uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[k]) * times;
@@ -78,7 +79,7 @@ impl GpuMesh {
                 uv: Vec2::new(uv.x, 1.0 - uv.y),
                 point: match known {
                     VertexData::Points(points) => points[k],
-                    VertexData::Ambient(_) | VertexData::Tangents(_) => 0,
+                    VertexData::Nothing | VertexData::Ambient(_) | VertexData::Tangents(_) => 0,
                 },
                 sky_front: halves(sky(k).front),
                 sky_back: halves(sky(k).back),
@@ -98,12 +99,12 @@ impl GpuMesh {
                 VertexData::Tangents(tangents) => {
                     Some(gpu.buffer("tangents", bytemuck::cast_slice(tangents), BufferUsages::VERTEX))
                 }
-                VertexData::Points(_) | VertexData::Ambient(_) => None,
+                VertexData::Nothing | VertexData::Points(_) | VertexData::Ambient(_) => None,
             },
             index_count: index_count.map_err(|_| Error::Mesh("more than 2³² indices".to_owned()))?,
             points: match known {
                 VertexData::Points(points) => points.iter().map(|point| *point as usize + 1).max().unwrap_or(0),
-                VertexData::Ambient(_) | VertexData::Tangents(_) => 0,
+                VertexData::Nothing | VertexData::Ambient(_) | VertexData::Tangents(_) => 0,
             },
             placement: *placement,
         })

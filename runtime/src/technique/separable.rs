@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use subsurf_decoder::bssrdf::basis::MAX_TERMS;
 use subsurf_scene::{Placement, Scene};
 use subsurf_shaders::passes::{Choice, table};
-use subsurf_shaders::separable::MAX_TERMS;
 use subsurf_shaders::uniform::{self, ScreenDomain, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureFormat};
 
