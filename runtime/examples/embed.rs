@@ -2,17 +2,13 @@
 //!
 //! `cargo run --release -p subsurf-runtime --example embed -- jade.subsurf leather.subsurf`
 
-use std::sync::Arc;
-
 use glam::{Mat4, Vec3};
-use subsurf_decoder::{Bssrdf, NestedBtf};
+use subsurf_decoder::File;
 use subsurf_runtime::wgpu::{Backends, LoadOp, Operations, StoreOp, TextureFormat};
 use subsurf_runtime::{
-    AmbientTransfer, BtfMaterial, DepthFormat, Gpu, GpuMesh, Input, Material, Object, Renderer, RuntimeOptions,
-    SeparableMaterial, Target, VertexData,
+    DepthFormat, Gpu, GpuMesh, Input, Material, Object, Renderer, RuntimeOptions, Target, VertexData,
 };
 use subsurf_scene::{Environment, Light, LightShape, Lighting, Mapping, sphere};
-use subsurf_shaders::separable::{BasisSize, SeparableBasis};
 
 #[path = "embed/application.rs"]
 mod application;
@@ -34,14 +30,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Once, at load: check the files, upload materials and meshes, compile the passes.
     let gpu = Gpu::from_device(app.device.clone(), app.queue.clone(), app.info.clone());
     let (jade, leather) = (std::fs::read(jade)?, std::fs::read(leather)?);
-    let (jade, leather) = (Bssrdf::parse(&jade)?, NestedBtf::parse(&leather)?);
+    let jade = Material::load(&gpu, &File::parse(&jade)?)?;
+    let leather = Material::load(&gpu, &File::parse(&leather)?)?;
     let mesh = sphere(8.0, 48);
-    let (ambient, tangents) = (AmbientTransfer::of(&mesh, &jade)?, mesh.tangents()?);
-    let mesh =
-        GpuMesh::upload(&gpu, &mesh, VertexData { ambient: Some(&ambient), tangents: Some(&tangents), points: None })?;
-    let basis = SeparableBasis::of(&jade, BasisSize::default());
-    let jade = Material::from(SeparableMaterial::upload(&gpu, &basis)?);
-    let leather = Material::Btf(Arc::new(BtfMaterial::upload(&gpu, &leather)?), 0);
+    let tangents = mesh.tangents()?;
+    let mesh = GpuMesh::upload(&gpu, &mesh, VertexData { tangents: Some(&tangents), ..Default::default() })?;
     let options = RuntimeOptions { format: colour, depth, tone_mapping: false, ..Default::default() };
     let mut renderer = Renderer::new(&gpu, options)?;
     for material in [&jade, &leather] {
@@ -49,10 +42,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
 
     // Objects may come, go and move with every frame.
-    let mut objects = [
-        Object::new(&mesh, &jade, Mapping::Box, 0.25),
-        Object::new(&mesh, &leather, Mapping::Uv([6.0, 3.0]), 1.0),
-    ];
+    let mut objects =
+        [Object::new(&mesh, &jade, Mapping::Box, 0.25), Object::new(&mesh, &leather, Mapping::Uv([6.0, 3.0]), 1.0)];
     let towards = Vec3::new(0.9, 1.1, 0.35);
     let lights = [Light { shape: LightShape::Directional { towards }, irradiance: [3.0, 2.9, 2.7] }];
     let environment = Environment::uniform([0.35, 0.4, 0.5]);

@@ -52,13 +52,6 @@ impl Placement {
     /// The same for a mesh that lies within a sphere.
     #[must_use]
     pub fn of_btf_within(bounds: BoundingSphere, mapping: Mapping) -> Self {
-        Self {
-            bounds,
-            mapping,
-            size: [1, 1],
-            pitch_mm: 1.0,
-            r_max_mm: 1.0,
-            eta: 1.0,
-        }
+        Self { bounds, mapping, size: [1, 1], pitch_mm: 1.0, r_max_mm: 1.0, eta: 1.0 }
     }
 }

@@ -85,12 +85,7 @@ mod tests {
     const BOUNDS: BoundingSphere = BoundingSphere { centre_mm: Vec3::new(1.0, 2.0, 3.0), radius_mm: 5.0 };
 
     fn camera() -> Camera {
-        Camera {
-            eye_mm: Vec3::new(30.0, 20.0, 50.0),
-            target_mm: BOUNDS.centre_mm,
-            fov_y_rad: 0.6,
-            exposure: 1.0,
-        }
+        Camera { eye_mm: Vec3::new(30.0, 20.0, 50.0), target_mm: BOUNDS.centre_mm, fov_y_rad: 0.6, exposure: 1.0 }
     }
 
     #[test]
@@ -114,7 +109,8 @@ mod tests {
         let right = view.view_from_world.row(0).truncate();
         let distance = camera().eye_mm.distance(BOUNDS.centre_mm);
         let edge = 1.5 * 0.3_f32.tan() * distance;
-        for (along, seen) in [(0.0, true), (edge, true), (edge + 4.0, true), (edge + 6.5, false), (-edge - 6.5, false)] {
+        for (along, seen) in [(0.0, true), (edge, true), (edge + 4.0, true), (edge + 6.5, false), (-edge - 6.5, false)]
+        {
             let moved = BoundingSphere { centre_mm: BOUNDS.centre_mm + along * right, ..BOUNDS };
             assert_eq!(view.sees(&moved), seen, "{along} mm beside the middle");
         }

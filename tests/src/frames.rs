@@ -6,13 +6,13 @@ use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_runtime::{
-    AmbientTransfer, BACKGROUND, Backend, BssrdfPlanes, Frame, GatherMaterial, Gpu, GpuMesh, GpuPoints, Input, Material,
-    Object, PictureTarget, Renderer, Result, RuntimeOptions, SeparableMaterial, SplatMaterial, VertexData,
+    BACKGROUND, Backend, BssrdfPlanes, Frame, GatherMaterial, Gpu, GpuMesh, GpuPoints, Input, Material, Object,
+    PictureTarget, Renderer, Result, RuntimeOptions, SeparableMaterial, SplatMaterial, VertexData,
 };
 use subsurf_scene::{
-    Camera, Environment, Light, LightShape, Mapping, Mesh, Scene, SurfacePoints, visibility,
+    AmbientTransfer, Camera, Environment, Light, LightShape, Mapping, Mesh, Scene, SurfacePoints, visibility,
 };
-use subsurf_shaders::separable::{BasisSize, SeparableBasis};
+use subsurf_shaders::separable::ProjectedBasis;
 
 /// Display values: steps of 255 between the two APIs. Their arithmetic is the same but for rounding; sums of splats are
 /// half floats that lose up to 2⁻¹¹ with each addition.
@@ -88,7 +88,6 @@ impl Loaded {
     #[must_use]
     pub fn under(gpu: &Gpu, mode: RenderMode, file: &[u8], mesh: &Mesh, mapping: Mapping, scene: &Scene) -> Self {
         let material = Bssrdf::parse(file).unwrap();
-        let factors = || SeparableBasis::of(&material, BasisSize::default());
         let lit = || {
             let shares = AmbientTransfer::of(mesh, &material).unwrap();
             GpuMesh::upload(gpu, mesh, VertexData { ambient: Some(&shares), ..Default::default() }).unwrap()
@@ -104,8 +103,11 @@ impl Loaded {
                 let planes = BssrdfPlanes::upload(gpu, &material).unwrap();
                 (GpuMesh::upload(gpu, &fine, known).unwrap(), GatherMaterial { planes, points }.into())
             }
-            RenderMode::Splat => (lit(), SplatMaterial::upload(gpu, &material, &factors()).unwrap().into()),
-            RenderMode::Separable => (lit(), SeparableMaterial::upload(gpu, &factors()).unwrap().into()),
+            RenderMode::Splat => (lit(), SplatMaterial::upload(gpu, &material).unwrap().into()),
+            RenderMode::Separable => {
+                let basis = ProjectedBasis::of(&material).expect("a file with a separable basis");
+                (lit(), SeparableMaterial::upload(gpu, &basis).unwrap().into())
+            }
         };
         Self { mesh, material, mapping }
     }

@@ -6,17 +6,20 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_decoder::bssrdf::{Addressing, Coding};
+use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, add_basis};
 use subsurf_encoder::synthetic::{Shape, capture_row, unit};
 use subsurf_runtime::{
-    BACKGROUND, Backend, BssrdfPlanes, GatherMaterial, Gpu, GpuMesh, GpuPoints, Input, Material, MaterialLayout, Object, PatchLight, PatchRenderer, PictureTarget,
-    Region, Renderer, RuntimeOptions, SeparableMaterial, SeparableRenderer, Technique, VertexData, layout_of,
+    BACKGROUND, Backend, BssrdfPlanes, GatherMaterial, Gpu, GpuMesh, GpuPoints, Input, Material, MaterialLayout,
+    Object, PatchLight, PatchRenderer, PictureTarget, Region, Renderer, RuntimeOptions, SeparableMaterial,
+    SeparableRenderer, Technique, VertexData, layout_of,
 };
 use subsurf_scene::{
     Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, REFLECTION_SIZE, Scene, SurfacePoints, sphere,
     torus,
 };
-use subsurf_shaders::separable::{BasisSize, SeparableBasis};
+use subsurf_shaders::separable::ProjectedBasis;
 use subsurf_shaders::{cpu, uniform};
 use subsurf_tests::shape;
 
@@ -133,15 +136,16 @@ fn separable(backend: Backend) {
     for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
         // The second window is wider than the patch: it wraps more than once.
         for (radius, terms, gaussians) in [(4, 2, 4), (20, 2, 2), (4, 1, 6)] {
+            let choice = BasisChoice::Size(BasisSize { terms, gaussians });
             let file = shape(size, radius, addressing).bmpp();
-            let material = Bssrdf::parse(&file).unwrap();
-            let factors = SeparableBasis::of(&material, BasisSize { terms, gaussians });
-            let uploaded = SeparableMaterial::upload(&gpu, &factors).unwrap();
+            let file = add_basis(&file, &BasisOptions { choice, ..BasisOptions::default() }, &()).unwrap();
+            let basis = ProjectedBasis::of(&Bssrdf::parse(&file).unwrap()).unwrap();
+            let uploaded = SeparableMaterial::upload(&gpu, &basis).unwrap();
             let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
             let renderer = SeparableRenderer::new(&gpu, terms).unwrap();
             let patch = renderer.prepare(&gpu, &uploaded, &light).unwrap();
             let found = renderer.draw(&gpu, &patch).unwrap().read(&gpu).unwrap();
-            let expected = cpu::separable(&factors, &irradiance);
+            let expected = basis.exitance(&irradiance);
             let largest = expected.iter().flatten().copied().fold(0.0, f32::max);
             let errors = found.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| (a - b).abs() / largest);
             let worst = errors.fold(0.0, f32::max);

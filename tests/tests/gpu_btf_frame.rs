@@ -7,8 +7,8 @@ use subsurf_decoder::NestedBtf;
 use subsurf_decoder::btf::{ColourEncoding, Grid};
 use subsurf_encoder::synthetic::NestedShape;
 use subsurf_runtime::{
-    BACKGROUND, Backend, BtfFiltering, BtfLayout, BtfMaterial, BtfOptions, Error, Gpu, GpuMesh, Input, Material, Object,
-    PictureTarget, Renderer, RuntimeOptions, Technique, VertexData,
+    BACKGROUND, Backend, BtfFiltering, BtfLayout, BtfMaterial, BtfOptions, Error, Gpu, GpuMesh, Input, Material,
+    Object, PictureTarget, Renderer, RuntimeOptions, Technique, VertexData,
 };
 use subsurf_scene::{
     Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, REFLECTION_SIZE, Scene, sphere, torus,

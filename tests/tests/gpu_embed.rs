@@ -1,18 +1,15 @@
 //! An application's frame: objects of ours and a cube of its own in one depth buffer, one encoder and one submission, under
 //! a projection whose middle is elsewhere, into linear light.
 
-use std::sync::Arc;
-
 use glam::{Mat4, Vec3, Vec4};
-use subsurf_decoder::{Bssrdf, NestedBtf};
+use subsurf_decoder::{Bssrdf, File};
 use subsurf_encoder::synthetic::NestedShape;
 use subsurf_runtime::wgpu::{self, Backends, Color, LoadOp, Operations, StoreOp, TextureFormat};
 use subsurf_runtime::{
-    AmbientTransfer, BtfMaterial, BtfOptions, DepthFormat, Error, Gpu, GpuMesh, Input, Material, Object, Renderer,
-    RuntimeOptions, SeparableMaterial, SplatMaterial, Target, VertexData,
+    BtfOptions, DepthFormat, Error, Gpu, GpuMesh, Input, Material, Object, Renderer, RuntimeOptions, SplatMaterial,
+    Target, VertexData,
 };
-use subsurf_scene::{Environment, Light, LightShape, Lighting, Mapping, View, sphere};
-use subsurf_shaders::separable::{BasisSize, SeparableBasis};
+use subsurf_scene::{AmbientTransfer, Environment, Light, LightShape, Lighting, Mapping, View, sphere};
 use subsurf_tests::frames::material_of;
 
 #[path = "../../runtime/examples/embed/application.rs"]
@@ -54,15 +51,14 @@ impl Stage {
         let app = Application::open(backends, SIZE, COLOUR, DEPTH.format).unwrap();
         let gpu = Gpu::from_device(app.device.clone(), app.queue.clone(), app.info.clone());
         let (file, btf) = (material_of("jade"), NestedShape::typical().database(1).to_bytes());
-        let (file, btf) = (Bssrdf::parse(&file).unwrap(), NestedBtf::parse(&btf).unwrap());
+        let load = |bytes| Material::load(&gpu, &File::parse(bytes).unwrap()).unwrap();
+        let (jade, leather) = (load(&file), load(&btf));
+        let file = Bssrdf::parse(&file).unwrap();
         let mesh = sphere(RADIUS, 64);
         let (ambient, tangents) = (AmbientTransfer::of(&mesh, &file).unwrap(), mesh.tangents().unwrap());
         let known = VertexData { ambient: Some(&ambient), tangents: Some(&tangents), points: None };
         let mesh = GpuMesh::upload(&gpu, &mesh, known).unwrap();
-        let basis = SeparableBasis::of(&file, BasisSize::default());
-        let jade: Material = SeparableMaterial::upload(&gpu, &basis).unwrap().into();
-        let splats: Material = SplatMaterial::upload(&gpu, &file, &basis).unwrap().into();
-        let leather = Material::Btf(Arc::new(BtfMaterial::upload(&gpu, &btf).unwrap()), 0);
+        let splats: Material = SplatMaterial::upload(&gpu, &file).unwrap().into();
         // Light from all around that has no grain, so that pictures can be compared bit for bit.
         let btf = BtfOptions { samples: 0, ..BtfOptions::default() };
         let options = RuntimeOptions { format: COLOUR, depth: DEPTH, tone_mapping: false, btf, ..Default::default() };
@@ -154,8 +150,8 @@ fn who_is_in_front(backends: Backends) {
     let view = application::view();
     let objects = [stage.jade(), stage.leather()];
     // Light from all around only: objects without shadows look the same wherever the others are.
-    let [all, jade, leather] = [&objects[..], &objects[..1], &objects[1..]]
-        .map(|objects| stage.draw(view, objects, &[], true));
+    let [all, jade, leather] =
+        [&objects[..], &objects[..1], &objects[1..]].map(|objects| stage.draw(view, objects, &[], true));
     let found = (0..all.len()).map(|k| match all[k] {
         [_, _, _, 0.0] => Front::Nothing,
         [r, g, b, _] if [r, g, b] == CUBE_COLOUR => Front::Cube,
@@ -250,11 +246,9 @@ fn mistakes_are_the_callers() {
     let mut frame = stage.renderer.prepare(&stage.gpu, &prepared, SIZE).unwrap();
     let skewed = Object { world_from_mesh: Mat4::from_scale(Vec3::new(1.0, 2.0, 1.0)), ..jade };
     let many = [jade; 17];
-    for (objects, reason) in [
-        (&[leather][..], "not prepared for"),
-        (&[skewed][..], "no rotation"),
-        (&many[..], "17 objects"),
-    ] {
+    for (objects, reason) in
+        [(&[leather][..], "not prepared for"), (&[skewed][..], "no rotation"), (&many[..], "17 objects")]
+    {
         let mut encoder = stage.app.device.create_command_encoder(&Default::default());
         let view_of = stage.app.colour.create_view(&wgpu::TextureViewDescriptor::default());
         let target = Target {

@@ -7,8 +7,8 @@ use subsurf_encoder::baseline::song2009::per_pixel_of;
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_runtime::{BACKGROUND, Backend, Error, Gpu, Input, RuntimeOptions};
 use subsurf_scene::{bowl, drapery, knot, torus};
+use subsurf_tests::drawable;
 use subsurf_tests::frames::{API_TOLERANCE, Loaded, RenderMode, SIZE, assert_close, device, material_of, scene};
-use subsurf_tests::shape;
 
 /// Every path against the gather, on meshes thick and thin; and both APIs against each other.
 #[test]
@@ -26,7 +26,7 @@ fn paths_come_close_to_the_gather_and_apis_to_each_other() {
 /// 2-BMPP and per-pixel profiles of the same numbers give the same splats.
 #[test]
 fn splats_are_the_same_from_profiles_of_every_pixel() {
-    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let file = drawable([31, 31], 6, Addressing::Mirror);
     let profiles = per_pixel_of(&Bssrdf::parse(&file).unwrap());
     let mesh = torus(9.0, 4.0, 32);
     let gpu = device(Backend::Vulkan);
@@ -83,7 +83,7 @@ fn far_meshes_do_not_shimmer() {
 /// An application's own device draws what ours draws.
 #[test]
 fn a_device_of_the_callers_own_draws_the_same() {
-    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let file = drawable([31, 31], 6, Addressing::Mirror);
     let mesh = torus(9.0, 4.0, 24);
     let scene = scene(&mesh);
     let ours = device(Backend::Vulkan);
@@ -98,7 +98,7 @@ fn a_device_of_the_callers_own_draws_the_same() {
 /// Points belong to the mesh whose vertices name them.
 #[test]
 fn points_of_another_surface_are_refused() {
-    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let file = drawable([31, 31], 6, Addressing::Mirror);
     let gpu = device(Backend::Vulkan);
     let [large, small] = [torus(9.0, 4.0, 24), torus(4.0, 1.5, 24)];
     let of = |mesh| Loaded::new(&gpu, RenderMode::Gather, &file, mesh);

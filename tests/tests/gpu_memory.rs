@@ -3,8 +3,8 @@
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_runtime::{Backend, Error, Frame, Gpu, RuntimeOptions};
 use subsurf_scene::{Scene, torus};
+use subsurf_tests::drawable;
 use subsurf_tests::frames::{Loaded, RenderMode, SIZE, device, scene};
-use subsurf_tests::shape;
 
 fn prepared(gpu: &Gpu, loaded: &Loaded, scene: &Scene, budget_bytes: Option<u64>) -> Result<Frame, Error> {
     let options = RuntimeOptions { budget_bytes, ..RuntimeOptions::default() };
@@ -13,7 +13,7 @@ fn prepared(gpu: &Gpu, loaded: &Loaded, scene: &Scene, budget_bytes: Option<u64>
 
 #[test]
 fn budgets_are_kept_or_refused() {
-    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let file = drawable([31, 31], 6, Addressing::Mirror);
     let mesh = torus(9.0, 4.0, 24);
     let scene = scene(&mesh);
     for gpu in Backend::ALL.map(device) {
@@ -46,7 +46,7 @@ fn budgets_are_kept_or_refused() {
 #[test]
 fn a_thousand_loads_and_resizes_leave_nothing() {
     let gpu = device(Backend::Vulkan);
-    let file = shape([16, 16], 3, Addressing::Mirror).bmpp();
+    let file = drawable([16, 16], 3, Addressing::Mirror);
     let mesh = torus(9.0, 4.0, 8);
     let scene = scene(&mesh);
     let options = RuntimeOptions { light_texels: 128, ..RuntimeOptions::default() };
@@ -85,7 +85,7 @@ fn the_ledger_agrees_with_the_allocator() {
     let before = allocated();
     let mesh = torus(9.0, 4.0, 48);
     let scene = scene(&mesh);
-    let file = shape([128, 128], 6, Addressing::Mirror).bmpp();
+    let file = drawable([128, 128], 6, Addressing::Mirror);
     for mode in [RenderMode::Splat, RenderMode::Separable] {
         let loaded = Loaded::new(&gpu, mode, &file, &mesh);
         let options = RuntimeOptions::default();

@@ -8,7 +8,7 @@ use subsurf_runtime::{
     BssrdfPlanes, Gpu, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, layout_of,
 };
 use subsurf_shaders::{Rgb, cpu};
-use subsurf_viewer::{Scattering, factors};
+use subsurf_viewer::{Scattering, basis};
 
 use super::exposure::exposure_for;
 use crate::picture::image;
@@ -51,7 +51,7 @@ pub(crate) fn draw_patch(
                     (renderer.gather(gpu, &uploaded, &light, whole)?, uploaded.gpu_bytes())
                 }
                 Scattering::Separable | Scattering::Homogeneous => {
-                    let uploaded = SeparableMaterial::upload(gpu, &factors(material, technique))?;
+                    let uploaded = SeparableMaterial::upload(gpu, &basis(material, technique)?)?;
                     let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
                     let patch = renderer.prepare(gpu, &uploaded, &light)?;
                     renderer.draw(gpu, &patch)?;
@@ -70,9 +70,7 @@ pub(crate) fn draw_patch(
             let exitance = match technique {
                 Scattering::Splat => return Err(no_splats()),
                 Scattering::Gather => cpu::gather(material, &irradiance, whole.origin, whole.size),
-                Scattering::Separable | Scattering::Homogeneous => {
-                    cpu::separable(&factors(material, technique), &irradiance)
-                }
+                Scattering::Separable | Scattering::Homogeneous => basis(material, technique)?.exitance(&irradiance),
             };
             let exposure = exposure.unwrap_or_else(|| exposure_for(exitance.iter()));
             facts.insert("exposure".to_owned(), json!(exposure));

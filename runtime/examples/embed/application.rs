@@ -6,9 +6,9 @@ use subsurf_runtime::wgpu::{self, util::DeviceExt};
 use subsurf_scene::View;
 
 /// Colour of the cube: brighter than white, as light of a scene may be.
-pub const CUBE_COLOUR: [f32; 3] = [0.0, 0.0, 4.0];
+pub(crate) const CUBE_COLOUR: [f32; 3] = [0.0, 0.0, 4.0];
 /// Middle of the cube and half its edge, in mm.
-pub const CUBE: (Vec3, f32) = (Vec3::new(0.0, -7.0, 0.0), 7.0);
+pub(crate) const CUBE: (Vec3, f32) = (Vec3::new(0.0, -7.0, 0.0), 7.0);
 
 const SHADER: &str = "
 struct Camera { clip_from_world: mat4x4<f32>, middle: vec4<f32>, colour: vec4<f32> }
@@ -26,12 +26,12 @@ struct Camera { clip_from_world: mat4x4<f32>, middle: vec4<f32>, colour: vec4<f3
 ";
 
 /// Application: its device, what it draws to, and its cube.
-pub struct Application {
-    pub device: wgpu::Device,
-    pub queue: wgpu::Queue,
-    pub info: wgpu::AdapterInfo,
-    pub colour: wgpu::Texture,
-    pub depth: wgpu::TextureView,
+pub(crate) struct Application {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    pub(crate) info: wgpu::AdapterInfo,
+    pub(crate) colour: wgpu::Texture,
+    pub(crate) depth: wgpu::TextureView,
     cube: wgpu::RenderPipeline,
     camera: wgpu::BindGroup,
 }
@@ -40,7 +40,7 @@ type Failed = Box<dyn std::error::Error>;
 
 /// Camera whose middle is not that of its picture, as tiles of a wall and the eyes of a headset have it; depth is 1 at the
 /// near plane and 0 far away.
-pub fn view() -> View {
+pub(crate) fn view() -> View {
     let (near, [left, right, bottom, top]) = (1.0, [-0.34, 0.26, -0.25, 0.20]);
     let clip_from_view = Mat4::from_cols(
         Vec4::new(2.0 * near / (right - left), 0.0, 0.0, 0.0),
@@ -54,7 +54,7 @@ pub fn view() -> View {
 
 impl Application {
     /// Opens a device of one of these APIs, and makes what is drawn to.
-    pub fn open(
+    pub(crate) fn open(
         backends: wgpu::Backends,
         size: [u32; 2],
         format: wgpu::TextureFormat,
@@ -126,7 +126,7 @@ impl Application {
     }
 
     /// Records the application's own pass, which clears colour and depth.
-    pub fn draw_cube(&self, encoder: &mut wgpu::CommandEncoder) {
+    pub(crate) fn draw_cube(&self, encoder: &mut wgpu::CommandEncoder) {
         let ops = |load| wgpu::Operations { load, store: wgpu::StoreOp::Store };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("cube"),
@@ -152,7 +152,7 @@ impl Application {
     }
 
     /// Waits, and reads the colour back: linear red, green, blue and coverage, row by row from the top.
-    pub fn read(&self) -> Result<Vec<[f32; 4]>, Failed> {
+    pub(crate) fn read(&self) -> Result<Vec<[f32; 4]>, Failed> {
         let [width, height] = [self.colour.width(), self.colour.height()];
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: None,

@@ -1,10 +1,9 @@
 //! Meshes on the device, with what techniques need to know of every vertex.
 
 use glam::{Vec2, Vec3, Vec4};
-use subsurf_scene::{BoundingSphere, Mesh};
+use subsurf_scene::{AmbientTransfer, BoundingSphere, Mesh};
 use wgpu::{Buffer, BufferUsages, IndexFormat, RenderPass, VertexBufferLayout, VertexStepMode, vertex_attr_array};
 
-use super::ambient::AmbientTransfer;
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, Tracked};
 
@@ -42,8 +41,8 @@ struct Vertex {
 pub struct VertexData<'a> {
     /// Number of the vertex's point, [`subsurf_scene::SurfacePoints::point_of`]: for the gather.
     pub points: Option<&'a [u32]>,
-    /// Light from all around that scatters to the vertex: for splats and separable blurs, which take the surface for a plane
-    /// without it.
+    /// Light from all around that scatters to the vertex, computed ahead of time: for splats and separable blurs, where it is
+    /// that of flat, open ground without it.
     pub ambient: Option<&'a [AmbientTransfer]>,
     /// Tangents, [`Mesh::tangents`]: for BTFs.
     pub tangents: Option<&'a [Vec4]>,
@@ -69,7 +68,7 @@ impl GpuMesh {
             return Err(Error::Usage(format!("data of {length} vertices for a mesh of {count}")));
         }
         let vertex = |k: usize| {
-            let sky = known.ambient.map_or(AmbientTransfer { front: [1.0; 3], back: [0.0; 3] }, |sky| sky[k]);
+            let sky = known.ambient.map_or(AmbientTransfer::FLAT, |sky| sky[k]);
             Vertex {
                 position_mm: mesh.positions[k],
                 normal: mesh.normals[k],

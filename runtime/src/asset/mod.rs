@@ -1,6 +1,5 @@
 //! From files and meshes to what is on the device, one file for each kind.
 
-mod ambient;
 mod bssrdf;
 mod btf;
 mod btf_images;
@@ -11,7 +10,6 @@ mod points;
 mod separable;
 mod splat;
 
-pub use ambient::AmbientTransfer;
 pub use bssrdf::{BssrdfPlanes, layout_of};
 pub use btf::BtfMaterial;
 pub use btf_images::BtfImages;

@@ -49,7 +49,8 @@ impl Plan {
     /// Bytes of lights' views, and of their depth.
     pub(crate) fn light_bytes(&self) -> u64 {
         let texels = |level: u32| u64::from((self.light_texels >> level).max(1)).pow(2);
-        let views = (0..self.light_levels()).map(texels).sum::<u64>() * u64::from(light_layers(self.lights)) * 3 * HALF4;
+        let views =
+            (0..self.light_levels()).map(texels).sum::<u64>() * u64::from(light_layers(self.lights)) * 3 * HALF4;
         views + texels(0) * u64::from(DEPTH.block_copy_size(None).unwrap_or(4))
     }
 

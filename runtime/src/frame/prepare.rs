@@ -147,7 +147,8 @@ impl Renderer {
     fn divisor(&self, input: &Input<'_>, size: [u32; 2]) -> u32 {
         let (view, light_texels) = (&input.view, self.options.light_texels);
         let bounds: Vec<_> = input.objects.iter().map(super::input::Object::bounds).collect();
-        let radius_mm = bounds.iter().copied().reduce(|all, bounds| all.union(&bounds)).map_or(1.0, |all| all.radius_mm);
+        let radius_mm =
+            bounds.iter().copied().reduce(|all, bounds| all.union(&bounds)).map_or(1.0, |all| all.radius_mm);
         let divisors = input.objects.iter().zip(&bounds).filter_map(|(object, bounds)| {
             let distance_mm = if view.is_parallel() { 1.0 } else { view.eye_mm().distance(bounds.centre_mm) };
             #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]

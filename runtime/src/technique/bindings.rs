@@ -94,12 +94,7 @@ impl<'a> Group<'a> {
             [self.plan.map_size(), self.plan.size, self.origin].map(|size| size.map(|side| side as f32));
         // Surfaces that are not seen at too flat an angle are the same two texels away.
         let near_mm = 2.0 * self.middle_mm().max(1e-3) / self.plan.texels_per_tangent(&self.input.view);
-        Upsampling {
-            texels_per_pixel: [maps[0] / picture[0], maps[1] / picture[1]],
-            origin,
-            near_mm,
-            pad: [0; 3],
-        }
+        Upsampling { texels_per_pixel: [maps[0] / picture[0], maps[1] / picture[1]], origin, near_mm, pad: [0; 3] }
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use subsurf_decoder::bssrdf::basis::MAX_TERMS;
 use subsurf_shaders::passes::{Choice, table};
-use subsurf_shaders::separable::MAX_TERMS;
 use subsurf_shaders::uniform::{ScreenDomain, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder};
 

@@ -66,8 +66,9 @@ impl BenchCase {
     }
 
     fn draw_timed(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<()> {
-        let passes =
-            self.session.with(scene, |renderer, frame, input, target| renderer.draw_timed(gpu, frame, input, target))?;
+        let passes = self
+            .session
+            .with(scene, |renderer, frame, input, target| renderer.draw_timed(gpu, frame, input, target))?;
         self.times.order = passes.iter().map(|(name, _)| *name).collect();
         for (name, time) in passes {
             self.times.passes.entry(name).or_default().push(ms(time));

@@ -151,7 +151,8 @@ impl Passes {
         plan: &Plan,
     ) -> Result<Vec<Reduction>> {
         let mut reductions = Vec::new();
-        for (light, level) in (0..plan.lights).flat_map(|light| (1..plan.light_levels()).map(move |level| (light, level)))
+        for (light, level) in
+            (0..plan.lights).flat_map(|light| (1..plan.light_levels()).map(move |level| (light, level)))
         {
             let block = TsmLight { light, group: group_number(slot), level, pad: 0 };
             let block = gpu.uniform("level of a shadow map", &block);

@@ -1,7 +1,7 @@
 // Light that is transmitted through thin parts, from the translucent shadow maps.
 
 struct Transmission {
-    // w_lma pitch^2, shape [a][l][m] with room for two terms; linear Rec. 709, and sigma_a in mm in the fourth place.
+    // w_lma, shape [a][l][m] with room for two terms; linear Rec. 709, and sigma_a in mm in the fourth place.
     weights: array<vec4<f32>, 32>,
     // A, the number of Gaussians, 1 to 8.
     gaussians: u32,
