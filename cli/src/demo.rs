@@ -13,7 +13,7 @@ use subsurf_encoder::capture::{Capture, Overrides, Scalar};
 use subsurf_encoder::metrics::bssrdf::{Judgement, Light, judge};
 use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Request};
 use subsurf_encoder::write_bytes;
-use subsurf_runtime::{Backend, Gpu, Material, PatchLight, PatchRenderer, Region, layout_of};
+use subsurf_runtime::{Backend, BssrdfPlanes, Gpu, PatchLight, PatchRenderer, Region, layout_of};
 use subsurf_scene::torus;
 use subsurf_shaders::cpu;
 use subsurf_viewer::{MappingChoice, RenderRequest, Scattering, human};
@@ -128,7 +128,7 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
     let mut agreement = String::new();
     let mut devices = Vec::new();
     for gpu in &gpus {
-        let uploaded = Material::upload(gpu, material)?;
+        let uploaded = BssrdfPlanes::upload(gpu, material)?;
         let renderer = PatchRenderer::new(gpu, layout_of(material))?;
         let light = PatchLight::upload(gpu, [header.width, header.height], &irradiance)?;
         let found = renderer.gather(gpu, &uploaded, &light, whole)?.read(gpu)?;

@@ -15,6 +15,7 @@ mod placement;
 mod points;
 mod read;
 mod scene;
+mod view;
 
 pub use camera::Camera;
 pub use error::{Error, Result};
@@ -27,4 +28,5 @@ pub use mesh::{BoundingSphere, Mesh, bowl, drapery, knot, relief, sphere, torus}
 pub use placement::Placement;
 pub use points::{PointGrid, SurfacePoints};
 pub use read::{LoadedMesh, MESH_EXTENSIONS, SHAPES, UpAxis, load_mesh};
-pub use scene::Scene;
+pub use scene::{Lighting, Scene};
+pub use view::View;

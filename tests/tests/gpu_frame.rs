@@ -5,7 +5,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::baseline::song2009::per_pixel_of;
 use subsurf_encoder::metrics::psnr_db;
-use subsurf_runtime::{BACKGROUND, Backend, Drawable, Error, Gpu, Renderer, RuntimeOptions, Technique};
+use subsurf_runtime::{BACKGROUND, Backend, Error, Gpu, Input, RuntimeOptions};
 use subsurf_scene::{bowl, drapery, knot, torus};
 use subsurf_tests::frames::{API_TOLERANCE, Loaded, RenderMode, SIZE, assert_close, device, material_of, scene};
 use subsurf_tests::{drawable, shape};
@@ -91,7 +91,7 @@ fn a_device_of_the_callers_own_draws_the_same() {
     let draw = |gpu: &Gpu| Loaded::new(gpu, RenderMode::Separable, &file, &mesh).picture(gpu, &scene, SIZE);
     assert!(draw(&ours) == draw(&theirs), "the same picture");
     let kept = Loaded::new(&ours, RenderMode::Separable, &file, &mesh);
-    assert!(ours.ledger().bytes() > 0, "{:?} is there", kept.path());
+    assert!(ours.ledger().bytes() > 0, "{:?} is there", kept.material.technique());
     assert_eq!(theirs.ledger().bytes(), 0, "each has a ledger of its own");
 }
 
@@ -101,16 +101,14 @@ fn points_of_another_surface_are_refused() {
     let file = drawable([31, 31], 6, Addressing::Mirror);
     let gpu = device(Backend::Vulkan);
     let [large, small] = [torus(9.0, 4.0, 24), torus(4.0, 1.5, 24)];
-    let of = |mesh| match Loaded::new(&gpu, RenderMode::Gather, &file, mesh) {
-        Loaded::Gather(mesh, points, material) => (mesh, points, material),
-        _ => panic!("another path"),
-    };
-    let (mesh, _, material) = of(&large);
-    let (_, points, _) = of(&small);
-    let model = Drawable::Gather { mesh: &mesh, points: &points, material: &material };
-    let renderer = Renderer::new(&gpu, Technique::Gather(material.layout()), RuntimeOptions::default()).unwrap();
-    match renderer.prepare(&gpu, &model, &scene(&large), SIZE) {
-        Err(Error::Device(reason)) => assert!(reason.contains("another surface"), "{reason}"),
-        other => panic!("{:?}", other.map(|frame| *frame.plan())),
+    let of = |mesh| Loaded::new(&gpu, RenderMode::Gather, &file, mesh);
+    let mixed = Loaded { mesh: of(&large).mesh, ..of(&small) };
+    let scene = scene(&large);
+    let renderer = mixed.renderer(&gpu, RuntimeOptions::default()).unwrap();
+    let mut frame = mixed.prepare(&gpu, &renderer, &scene, SIZE).unwrap();
+    let objects = [mixed.object(&scene)];
+    match renderer.gather(&gpu, &mut frame, &Input::new(&scene, &objects, SIZE)) {
+        Err(Error::Usage(reason)) => assert!(reason.contains("another surface"), "{reason}"),
+        other => panic!("{other:?}"),
     }
 }

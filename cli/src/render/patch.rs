@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_runtime::{
-    Gpu, Material, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, layout_of,
+    BssrdfPlanes, Gpu, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, layout_of,
 };
 use subsurf_shaders::{Rgb, cpu};
 use subsurf_viewer::{Scattering, basis};
@@ -47,7 +47,7 @@ pub(crate) fn draw_patch(
             let (exitance, gpu_bytes) = match technique {
                 Scattering::Splat => return Err(no_splats()),
                 Scattering::Gather => {
-                    let uploaded = Material::upload(gpu, material)?;
+                    let uploaded = BssrdfPlanes::upload(gpu, material)?;
                     (renderer.gather(gpu, &uploaded, &light, whole)?, uploaded.gpu_bytes())
                 }
                 Scattering::Separable | Scattering::Homogeneous => {

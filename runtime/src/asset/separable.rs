@@ -58,7 +58,7 @@ impl SeparableMaterial {
         if self.terms == terms {
             return Ok(());
         }
-        Err(Error::Device(format!("this renderer draws L = {terms}, the material has L = {}", self.terms)))
+        Err(Error::Usage(format!("this renderer draws L = {terms}, the material has L = {}", self.terms)))
     }
 
     /// Bytes of layers and blocks on the device.

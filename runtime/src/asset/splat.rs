@@ -4,7 +4,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_shaders::separable::albedo;
 use subsurf_shaders::{Rgb, softening_gain};
 
-use super::bssrdf::Material;
+use super::bssrdf::BssrdfPlanes;
 use super::patch_layers::PatchLayers;
 use crate::error::Result;
 use crate::gpu::Gpu;
@@ -13,7 +13,7 @@ use crate::gpu::Gpu;
 #[derive(Debug)]
 pub struct SplatMaterial {
     /// Planes of the file.
-    pub(crate) planes: Material,
+    pub(crate) planes: BssrdfPlanes,
     /// One layer: albedo under uniform light.
     pub(crate) albedo: PatchLayers,
     /// Factors that give back the light that softened distances take, by [`softening_gain`].
@@ -27,7 +27,7 @@ impl SplatMaterial {
     /// [`Error::Unsupported`](crate::Error::Unsupported) if the device takes no texture of that size.
     pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>) -> Result<Self> {
         Ok(Self {
-            planes: Material::upload(gpu, material)?,
+            planes: BssrdfPlanes::upload(gpu, material)?,
             softening_gain: softening_gain(material),
             albedo: PatchLayers::upload(gpu, material.header(), vec![albedo(material)])?,
         })
@@ -35,7 +35,7 @@ impl SplatMaterial {
 
     /// Planes of the file.
     #[must_use]
-    pub fn planes(&self) -> &Material {
+    pub fn planes(&self) -> &BssrdfPlanes {
         &self.planes
     }
 

@@ -60,14 +60,16 @@ impl BlurStage {
 pub struct ScreenDomain {
     /// Texels of the maps, columns and rows.
     pub size: [u32; 2],
-    /// Texels that the pitch of the material covers at a distance of 1 mm.
+    /// Texels that the pitch of the material covers at a distance of 1 mm, or at any.
     pub focal_texels: f32,
-    /// Distance from the eye to depth 0 in mm.
+    /// Distance from the eye to depth 0 in mm; 1 where the projection is parallel.
     pub middle_mm: f32,
     /// Pitch of the pixels of the material in mm.
     pub pitch_mm: f32,
+    /// 1 in perspective, where things further away are smaller; 0 where the projection is parallel.
+    pub perspective: f32,
     #[doc(hidden)]
-    pub pad: [u32; 3],
+    pub pad: [u32; 2],
 }
 
 /// `Transmission` of `transmission.wgsl`.
@@ -105,8 +107,10 @@ impl Transmission {
 pub struct Upsampling {
     /// Texels of the maps to a pixel of the picture, along rows and columns.
     pub texels_per_pixel: [f32; 2],
+    /// Pixel of the target where the picture begins.
+    pub origin: [f32; 2],
     /// Difference of depth in mm by which the weight of a texel falls to a half.
     pub near_mm: f32,
     #[doc(hidden)]
-    pub pad: u32,
+    pub pad: [u32; 3],
 }

@@ -11,7 +11,7 @@ use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, add_basis};
 use subsurf_encoder::synthetic::Shape;
 use subsurf_runtime::{
-    Backend, Gpu, HomogeneousRenderer, Material, PatchLight, PatchRenderer, Region, SeparableMaterial,
+    Backend, BssrdfPlanes, Gpu, HomogeneousRenderer, PatchLight, PatchRenderer, Region, SeparableMaterial,
     SeparableRenderer, layout_of,
 };
 use subsurf_shaders::mean_kernel;
@@ -71,7 +71,7 @@ fn measure(gpu: &Gpu, backend: Backend, side: u32, args: &Args) -> anyhow::Resul
     let material = Bssrdf::parse(&file)?;
     let light = PatchLight::upload(gpu, [side; 2], &vec![[1.0; 3]; (side * side) as usize])?;
 
-    let uploaded = Material::upload(gpu, &material)?;
+    let uploaded = BssrdfPlanes::upload(gpu, &material)?;
     let renderer = PatchRenderer::new(gpu, layout_of(&material))?;
     let whole = Region { origin: [0, 0], size: [side; 2] };
     // A gather takes long enough to be timed a few times only.

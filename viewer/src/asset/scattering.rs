@@ -3,8 +3,10 @@
 use std::sync::Arc;
 
 use subsurf_decoder::Bssrdf;
-use subsurf_runtime::{Gpu, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial, VertexData};
-use subsurf_scene::{AmbientTransfer, Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
+use subsurf_runtime::{
+    BssrdfPlanes, GatherMaterial, Gpu, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial, VertexData,
+};
+use subsurf_scene::{AmbientTransfer, Mapping, Mesh, Scene, SurfacePoints, visibility};
 use subsurf_shaders::separable::ProjectedBasis;
 
 use super::gpu::GpuAsset;
@@ -84,21 +86,20 @@ impl Asset {
     /// # Errors
     /// The device cannot draw it, or has no room for it.
     pub fn upload(&self, gpu: &Gpu, material: &Bssrdf<'_>, mesh: &Mesh) -> Result<GpuAsset> {
-        let placement = Placement::new(mesh, self.mapping, material.header());
-        let shared = |sky: &[AmbientTransfer]| GpuMesh::upload(gpu, mesh, &placement, VertexData::Ambient(sky));
-        Ok(match &self.parts {
-            Parts::Gather { fine, surface } => GpuAsset::Gather {
-                mesh: GpuMesh::upload(gpu, fine, &placement, VertexData::Points(&surface.point_of))?,
-                points: GpuPoints::upload(gpu, surface)?,
-                material: Material::upload(gpu, material)?,
-            },
-            Parts::Splat { sky } => {
-                GpuAsset::Splat { mesh: shared(sky)?, material: SplatMaterial::upload(gpu, material)? }
+        let shared = |sky: &[AmbientTransfer]| {
+            GpuMesh::upload(gpu, mesh, VertexData { ambient: Some(sky), ..Default::default() })
+        };
+        let (mesh, material): (_, Material) = match &self.parts {
+            Parts::Gather { fine, surface } => {
+                let known = VertexData { points: Some(&surface.point_of), ..Default::default() };
+                let planes = BssrdfPlanes::upload(gpu, material)?;
+                let material = GatherMaterial { planes, points: GpuPoints::upload(gpu, surface)? };
+                (GpuMesh::upload(gpu, fine, known)?, material.into())
             }
-            Parts::Separable { sky, basis } => {
-                GpuAsset::Separable { mesh: shared(sky)?, material: SeparableMaterial::upload(gpu, basis)? }
-            }
-        })
+            Parts::Splat { sky } => (shared(sky)?, SplatMaterial::upload(gpu, material)?.into()),
+            Parts::Separable { sky, basis } => (shared(sky)?, SeparableMaterial::upload(gpu, basis)?.into()),
+        };
+        Ok(GpuAsset { mesh, material, mapping: self.mapping })
     }
 }
 
