@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, ImageResult, Limits, Rgb32FImage};
+use tiff::tags::Tag;
 
 use super::grey::Grey;
 use super::jpeg;
@@ -57,7 +58,9 @@ impl Decoder {
             Source::Other(_, decoder) => decoder.dimensions().into(),
         };
         let pixels = stored.map(u64::from).iter().product::<u64>();
-        if pixels == 0 || pixels / PIXELS_OF_BYTE > file_bytes {
+        // Those of one colour take no bytes in WebP, which is limited to 16,384 pixels to a side.
+        let is_limited = matches!(source, Source::Other(ImageFormat::WebP, _));
+        if pixels == 0 || !is_limited && pixels / PIXELS_OF_BYTE > file_bytes {
             return Err(wrong(format!("{} × {} pixels in a file of {file_bytes} bytes", stored[0], stored[1])));
         }
         let orientation = match &mut source {
@@ -141,6 +144,9 @@ fn source(path: &Path, mut file: BufReader<File>) -> std::result::Result<Source,
     });
     let format = reader.format().or(named).ok_or("not of a known format")?;
     reader.set_format(format);
+    if format == ImageFormat::Tiff && has_planar_tiles(path) {
+        return Err("a TIFF file of tiles for each channel apart (planar configuration 2)".to_owned());
+    }
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(HEADER_BYTES);
     reader.limits(limits);
@@ -151,6 +157,15 @@ fn source(path: &Path, mut file: BufReader<File>) -> std::result::Result<Source,
             Grey::open(format, BufReader::new(again)).map(Source::Grey).ok_or_else(|| error.to_string())
         }
     }
+}
+
+/// Whether a TIFF file has tiles of one channel each, whose sizes the decoder does not expect.
+fn has_planar_tiles(path: &Path) -> bool {
+    let file = File::open(path).ok().and_then(|file| tiff::decoder::Decoder::new(BufReader::new(file)).ok());
+    file.is_some_and(|mut file| {
+        let mut tag = |tag| file.find_tag_unsigned::<u32>(tag).ok().flatten();
+        tag(Tag::PlanarConfiguration) == Some(2) && tag(Tag::TileWidth).is_some()
+    })
 }
 
 fn is_on_its_side(orientation: Orientation) -> bool {

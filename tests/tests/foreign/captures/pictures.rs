@@ -173,6 +173,32 @@ fn one_float_for_each_pixel_is_a_picture_too() {
     }
 }
 
+/// Luminance with chroma beside it, which is in fewer pixels, is no picture of grey.
+#[test]
+fn luminance_and_chroma_are_refused() {
+    use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, SmallVec, Text, WritableImage};
+
+    let channel = |name: &str| AnyChannel::new(Text::from(name), FlatSamples::F32(vec![0.5; 4]));
+    let channels: SmallVec<[_; 4]> = ["BY", "RY", "Y"].map(channel).into_iter().collect();
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let image = Image::from_channels((2, 2), AnyChannels::sort(channels));
+    image.write().to_buffered(&mut bytes).expect("memory can be written to");
+    let folder = tempfile::tempdir().unwrap();
+    let path = write(folder.path(), "colour.exr", &bytes.into_inner());
+    let error = Picture::open(&path).unwrap_err().to_string();
+    assert!(error.contains("colour.exr") && error.lines().count() == 1, "{error}");
+}
+
+/// Large maps of one colour take nearly no bytes.
+#[test]
+fn one_colour_is_a_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = RgbImage::from_pixel(4_096, 4_096, Rgb([120, 60, 30]));
+    let path = write(folder.path(), "a.webp", &encoded(image, ImageFormat::WebP));
+    let header = Header { size: [4_096; 2], format: PixelFormat::Display8 };
+    assert_eq!(Header::open(&path).unwrap(), header);
+}
+
 #[test]
 fn scanlines_may_come_in_any_order() {
     let folder = tempfile::tempdir().unwrap();
