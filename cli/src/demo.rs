@@ -7,12 +7,13 @@ use std::time::Instant;
 use serde_json::json;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
+use subsurf_encoder::bssrdf::basis::{BasisOptions, add_basis};
 use subsurf_encoder::bssrdf::{Method, Options, encode};
 use subsurf_encoder::capture::{Capture, Overrides, Scalar};
 use subsurf_encoder::metrics::bssrdf::{Judgement, Light, judge};
 use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Request};
 use subsurf_encoder::write_bytes;
-use subsurf_runtime::{Backend, Gpu, Material, PatchLight, PatchRenderer, Region, layout_of};
+use subsurf_runtime::{Backend, BssrdfPlanes, Gpu, PatchLight, PatchRenderer, Region, layout_of};
 use subsurf_scene::torus;
 use subsurf_shaders::cpu;
 use subsurf_viewer::{MappingChoice, RenderRequest, Scattering, human};
@@ -71,11 +72,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let start = Instant::now();
         let options = Options { method, base_materials: BASE_MATERIALS, ..Options::default() };
         let encoded = encode(&capture, None, &options, &Bars::new())?;
-        write_bytes(&path(name), &encoded.bytes)?;
-        outln!("   {name}: {} in {:.1} s", human(encoded.bytes.len() as u64), start.elapsed().as_secs_f64());
-        let material = Bssrdf::parse(&encoded.bytes)?;
-        judgements.push(judge(&capture, &material, encoded.bytes.len() as u64, &Bars::new())?);
-        files.push(encoded.bytes);
+        // What is looked at on meshes gets a separable basis, too.
+        let bytes = match method {
+            Method::Direct => add_basis(&encoded.bytes, &BasisOptions::default(), &Bars::new())?,
+            _ => encoded.bytes,
+        };
+        write_bytes(&path(name), &bytes)?;
+        outln!("   {name}: {} in {:.1} s", human(bytes.len() as u64), start.elapsed().as_secs_f64());
+        let material = Bssrdf::parse(&bytes)?;
+        judgements.push(judge(&capture, &material, bytes.len() as u64, &Bars::new())?);
+        files.push(bytes);
     }
     let material = Bssrdf::parse(&files[1])?;
     compare::print(&judgements[1]);
@@ -122,7 +128,7 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
     let mut agreement = String::new();
     let mut devices = Vec::new();
     for gpu in &gpus {
-        let uploaded = Material::upload(gpu, material)?;
+        let uploaded = BssrdfPlanes::upload(gpu, material)?;
         let renderer = PatchRenderer::new(gpu, layout_of(material))?;
         let light = PatchLight::upload(gpu, [header.width, header.height], &irradiance)?;
         let found = renderer.gather(gpu, &uploaded, &light, whole)?.read(gpu)?;

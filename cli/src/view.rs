@@ -5,7 +5,10 @@ use std::sync::Arc;
 
 use subsurf_runtime::{Backend, RuntimeOptions};
 use subsurf_scene::Environment;
-use subsurf_viewer::{BtfImageSet, Config, Error, Host, KEYS, LoadImages, Picture, Viewer, event_loop};
+use subsurf_viewer::{
+    BtfImageSet, Config, DrawnMaterial, Error, Host, KEYS, LoadImages, Picture, Scattering, Viewer, event_loop, parse,
+    read,
+};
 
 use crate::devices::check_picture;
 use crate::images::FolderImages;
@@ -34,9 +37,9 @@ pub(crate) struct Args {
     /// Where the material lies on the mesh
     #[arg(long, value_enum, default_value = "auto")]
     mapping: MappingArg,
-    /// How light scatters in translucent materials, to begin with
-    #[arg(long, value_enum, default_value = "separable")]
-    technique: TechniqueArg,
+    /// How light scatters in translucent materials, to begin with; separable if not given, splat where a file has no basis for it
+    #[arg(long, value_enum)]
+    technique: Option<TechniqueArg>,
     /// Begin with ten times the difference to the gather, or of a BTF to its images
     #[arg(long)]
     error: bool,
@@ -110,7 +113,10 @@ impl Args {
             extent_mm: self.extent,
             up: self.up.into(),
             mapping: self.mapping.into(),
-            technique: self.technique.into(),
+            technique: match self.technique {
+                Some(technique) => technique.into(),
+                None => usual_technique(&self.files)?,
+            },
             shows_error: self.error,
             repeats: self.btf.repeat.map(|Copies(repeats)| repeats),
             images: self.btf.images.clone().map(load_images),
@@ -132,6 +138,17 @@ impl Args {
             captures: self.screenshot.is_some(),
         })
     }
+}
+
+/// The fastest technique that all files have what it takes for.
+fn usual_technique(files: &[PathBuf]) -> anyhow::Result<Scattering> {
+    for path in files {
+        let bytes = read(path)?;
+        if matches!(parse(path, &bytes)?, DrawnMaterial::Bssrdf(material) if material.basis().is_none()) {
+            return Ok(Scattering::Splat);
+        }
+    }
+    Ok(Scattering::Separable)
 }
 
 /// Reads a folder of images when they are to be shown.

@@ -83,6 +83,8 @@ sections! {
     Codes = b"CODE", "palette codes";
     /// `LSPP`: per-pixel local scattering profiles.
     LocalProfiles = b"LSPP", "local scattering profiles";
+    /// `SEPB`: separable basis.
+    SeparableBasis = b"SEPB", "separable basis";
     /// `BTFH`: model, colour encoding and grid of a BTF.
     BtfHeader = b"BTFH", "BTF header";
     /// `MATS`: names and sizes of a BTF's materials.

@@ -1,100 +1,83 @@
-//! A material on a mesh, drawn with a device, a queue and a texture that an application has of its own.
+//! Translucent and textured meshes in an application's own frame: its device, its encoder, its depth, its camera.
 //!
-//! `cargo run --release -p subsurf-runtime --example embed -- jade.subsurf`
+//! `cargo run --release -p subsurf-runtime --example embed -- jade.subsurf leather.subsurf`
 
-use subsurf_decoder::Bssrdf;
+use glam::{Mat4, Vec3};
+use subsurf_decoder::File;
+use subsurf_runtime::wgpu::{Backends, LoadOp, Operations, StoreOp, TextureFormat};
 use subsurf_runtime::{
-    AmbientTransfer, Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, SeparableMaterial, Technique, VertexData, wgpu,
+    DepthFormat, Gpu, GpuMesh, Input, Material, Object, Renderer, RuntimeOptions, Target, VertexData,
 };
-use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Placement, Scene, torus};
-use subsurf_shaders::separable::{BasisSize, SeparableBasis};
+use subsurf_scene::{Environment, Light, LightShape, Lighting, Mapping, sphere};
+
+#[path = "embed/application.rs"]
+mod application;
+use application::Application;
 
 const SIZE: [u32; 2] = [640, 480];
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let file = std::env::args().nth(1).ok_or("which material? embed FILE.subsurf")?;
-
-    // What an application has already.
-    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-    let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))?;
-    let limits = wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits());
-    let wanted = wgpu::DeviceDescriptor { required_limits: limits, ..Default::default() };
-    let (device, queue) = pollster::block_on(adapter.request_device(&wanted))?;
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("the application's picture"),
-        size: wgpu::Extent3d { width: SIZE[0], height: SIZE[1], depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: FORMAT,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    });
-
-    // Once, at load: check the file, upload material and mesh, compile the passes.
-    let gpu = Gpu::from_device(device.clone(), queue.clone(), adapter.get_info());
-    let bytes = std::fs::read(file)?;
-    let bssrdf = Bssrdf::parse(&bytes)?;
-    let mesh = torus(18.0, 8.0, 64);
-    let placement = Placement::new(&mesh, Mapping::Box, bssrdf.header());
-    let sky = AmbientTransfer::of(&mesh, &bssrdf)?;
-    let mesh = GpuMesh::upload(&gpu, &mesh, &placement, VertexData::Ambient(&sky))?;
-    let material = SeparableMaterial::upload(&gpu, &SeparableBasis::of(&bssrdf, BasisSize::default()))?;
-    let model = Drawable::Separable { mesh: &mesh, material: &material };
-    let options = RuntimeOptions { format: FORMAT, samples: 4, ..Default::default() };
-    let renderer = Renderer::new(&gpu, Technique::Separable(material.terms()), options)?;
-
-    // Again when the size changes: room for the passes of a frame.
-    let [eye_mm, target_mm] = [[55.0, 60.0, 80.0], [0.0; 3]].map(Into::into);
-    let mut scene = Scene {
-        lights: vec![Light {
-            shape: LightShape::Directional { towards: [0.9, 1.1, 0.35].into() },
-            irradiance: [3.0, 2.9, 2.7],
-        }],
-        environment: Environment::uniform([0.35, 0.4, 0.5]),
-        roughness: 0.25,
-        camera: Camera { eye_mm, target_mm, fov_y_rad: 0.5, exposure: 0.5 },
+    let files: Vec<String> = std::env::args().skip(1).collect();
+    let [jade, leather] = &files[..] else {
+        return Err("which materials? embed BSSRDF.subsurf BTF.subsurf".into());
     };
-    let mut frame = renderer.prepare(&gpu, &model, &scene, SIZE)?;
 
-    // Every frame: lights, view, coat and environment may all have changed.
-    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-    for step in 0..3_u8 {
-        scene.roughness = 0.2 + 0.1 * f32::from(step);
-        renderer.draw(&gpu, &mut frame, &model, &scene, &view)?;
+    // What an application has already: here linear light without a limit, and depth that is 1 near and 0 far.
+    let colour = TextureFormat::Rgba16Float;
+    let depth = DepthFormat { format: TextureFormat::Depth32Float, is_reversed: true };
+    let app = Application::open(Backends::all().with_env(), SIZE, colour, depth.format)?;
+
+    // Once, at load: check the files, upload materials and meshes, compile the passes.
+    let gpu = Gpu::from_device(app.device.clone(), app.queue.clone(), app.info.clone());
+    let (jade, leather) = (std::fs::read(jade)?, std::fs::read(leather)?);
+    let jade = Material::load(&gpu, &File::parse(&jade)?)?;
+    let leather = Material::load(&gpu, &File::parse(&leather)?)?;
+    let mesh = sphere(8.0, 48);
+    let tangents = mesh.tangents()?;
+    let mesh = GpuMesh::upload(&gpu, &mesh, VertexData { tangents: Some(&tangents), ..Default::default() })?;
+    let options = RuntimeOptions { format: colour, depth, tone_mapping: false, ..Default::default() };
+    let mut renderer = Renderer::new(&gpu, options)?;
+    for material in [&jade, &leather] {
+        renderer.compile(&gpu, material.technique())?;
     }
 
-    let pixels = read_back(&device, &queue, &texture)?;
-    let background = subsurf_runtime::BACKGROUND;
-    let drawn: Vec<_> = pixels.iter().filter(|pixel| pixel[..3] != [background; 3]).collect();
-    assert!(drawn.len() > pixels.len() / 10, "{} of {} pixels show the torus", drawn.len(), pixels.len());
-    let mean = |c: usize| drawn.iter().map(|pixel| usize::from(pixel[c])).sum::<usize>() / drawn.len();
-    println!("{}: the torus covers {} pixels, mean {:?}", adapter.get_info().name, drawn.len(), [0, 1, 2].map(mean));
-    println!("{} bytes on the device", gpu.ledger().bytes());
-    Ok(())
-}
+    // Objects may come, go and move with every frame.
+    let mut objects =
+        [Object::new(&mesh, &jade, Mapping::Box, 0.25), Object::new(&mesh, &leather, Mapping::Uv([6.0, 3.0]), 1.0)];
+    let towards = Vec3::new(0.9, 1.1, 0.35);
+    let lights = [Light { shape: LightShape::Directional { towards }, irradiance: [3.0, 2.9, 2.7] }];
+    let environment = Environment::uniform([0.35, 0.4, 0.5]);
+    let lighting = Lighting { lights: &lights, environment: &environment, reference_mm: Vec3::ZERO };
+    let view = application::view();
+    let input = Input { view, exposure: 1.0, lighting, objects: &objects };
 
-/// Nothing of this library: how wgpu hands out the texels of a texture, four bytes each.
-fn read_back(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    texture: &wgpu::Texture,
-) -> Result<Vec<[u8; 4]>, Box<dyn std::error::Error>> {
-    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: u64::from(SIZE[0] * SIZE[1] * 4),
-        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-        mapped_at_creation: false,
-    });
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    // Rows must be multiples of 256 bytes, as those of 640 pixels are.
-    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(SIZE[0] * 4), rows_per_image: None };
-    let to = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
-    encoder.copy_texture_to_buffer(texture.as_image_copy(), to, texture.size());
-    queue.submit([encoder.finish()]);
-    buffer.map_async(wgpu::MapMode::Read, .., |mapped| mapped.expect("the buffer can be mapped"));
-    device.poll(wgpu::PollType::wait_indefinitely())?;
-    let bytes = buffer.get_mapped_range(..)?;
-    Ok(bytes.as_chunks::<4>().0.to_vec())
+    // Again when the size or the materials change: room for the passes of a frame.
+    let mut frame = renderer.prepare(&gpu, &input, SIZE)?;
+
+    for step in 0..3_u8 {
+        objects[1].world_from_mesh = Mat4::from_translation(Vec3::new(9.0 - f32::from(step), 0.0, 2.0));
+        let mut encoder = app.device.create_command_encoder(&Default::default());
+        app.draw_cube(&mut encoder);
+        let target = Target {
+            colour: &app.colour.create_view(&Default::default()),
+            load: LoadOp::Load,
+            resolve: None,
+            depth: &app.depth,
+            depth_ops: Operations { load: LoadOp::Load, store: StoreOp::Store },
+            origin: [0; 2],
+        };
+        let input = Input { view, exposure: 1.0, lighting, objects: &objects };
+        renderer.draw(&gpu, &mut encoder, &mut frame, &input, &target)?;
+        app.queue.submit([encoder.finish()]);
+    }
+
+    let pixels = app.read()?;
+    let covered = |is: &dyn Fn([f32; 3]) -> bool| {
+        pixels.iter().filter(|[r, g, b, covered]| *covered > 0.0 && is([*r, *g, *b])).count()
+    };
+    let is_cube = |colour: [f32; 3]| colour == application::CUBE_COLOUR;
+    let [cube, ours] = [covered(&is_cube), covered(&|colour| !is_cube(colour))];
+    println!("{}: {ours} pixels of ours, {cube} of the cube, {} bytes", app.info.name, gpu.ledger().bytes());
+    assert!(ours > 10_000 && cube > 10_000, "both are in the picture");
+    Ok(())
 }

@@ -1,4 +1,4 @@
-//! Errors, sorted by whose fault they are: the file, the scene, the budget, the device.
+//! Errors, sorted by whose fault they are: the file, the scene, the caller, the budget, the device.
 
 use subsurf_decoder::ReadError;
 
@@ -58,7 +58,10 @@ pub enum Error {
         /// Passes that were asked for.
         what: &'static str,
     },
-    /// Device or driver that failed, or a request that does not fit what is on the device.
+    /// Mistake of the caller: things that do not belong together, or options out of range.
+    #[error("{0}")]
+    Usage(String),
+    /// Device or driver that failed.
     #[error("the device failed: {0}")]
     Device(String),
 }

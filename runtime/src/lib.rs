@@ -9,16 +9,18 @@ mod gpu;
 mod technique;
 
 pub use asset::{
-    AmbientTransfer, BtfImages, BtfMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial,
-    VertexData, layout_of,
+    BssrdfPlanes, BtfImages, BtfMaterial, GatherMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial,
+    SplatMaterial, VertexData, layout_of,
 };
 pub use error::{Error, Result};
-pub use frame::{BACKGROUND, Frame, Plan, Renderer, RuntimeOptions};
-pub use gpu::{Backend, Gpu, Ledger, OnScreen, PictureTarget, devices};
+pub use frame::{
+    BACKGROUND, BACKGROUND_COLOUR, Frame, Input, Object, PictureTarget, Plan, Renderer, RuntimeOptions, Target,
+};
+pub use gpu::{Backend, ColourTarget, Gpu, Ledger, OnScreen, devices};
 pub use subsurf_shaders::uniform::BtfFiltering;
 pub use subsurf_shaders::{BtfLayout, MaterialLayout, TargetFormat};
 pub use technique::{
-    BtfAnswer, BtfOptions, BtfQueries, BtfQuery, Drawable, Exitance, HomogeneousPatch, HomogeneousRenderer, PatchLight,
-    PatchRenderer, Region, SeparablePatch, SeparableRenderer, Technique,
+    BtfAnswer, BtfOptions, BtfQueries, BtfQuery, DepthFormat, Exitance, HomogeneousPatch, HomogeneousRenderer,
+    PatchLight, PatchRenderer, Region, SeparablePatch, SeparableRenderer, Technique,
 };
 pub use wgpu;

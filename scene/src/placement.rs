@@ -26,8 +26,14 @@ impl Placement {
     /// Placement of a scattering material, of which `header` says the size.
     #[must_use]
     pub fn new(mesh: &Mesh, mapping: Mapping, header: &BssrdfHeader) -> Self {
+        Self::within(mesh.bounding_sphere(), mapping, header)
+    }
+
+    /// The same for a mesh that lies within a sphere.
+    #[must_use]
+    pub fn within(bounds: BoundingSphere, mapping: Mapping, header: &BssrdfHeader) -> Self {
         Self {
-            bounds: mesh.bounding_sphere(),
+            bounds,
             mapping,
             size: [header.width, header.height],
             pitch_mm: header.pitch_mm,
@@ -40,13 +46,12 @@ impl Placement {
     /// coordinates, in u and in v.
     #[must_use]
     pub fn of_btf(mesh: &Mesh, copies: [f32; 2]) -> Self {
-        Self {
-            bounds: mesh.bounding_sphere(),
-            mapping: Mapping::Uv(copies),
-            size: [1, 1],
-            pitch_mm: 1.0,
-            r_max_mm: 1.0,
-            eta: 1.0,
-        }
+        Self::of_btf_within(mesh.bounding_sphere(), Mapping::Uv(copies))
+    }
+
+    /// The same for a mesh that lies within a sphere.
+    #[must_use]
+    pub fn of_btf_within(bounds: BoundingSphere, mapping: Mapping) -> Self {
+        Self { bounds, mapping, size: [1, 1], pitch_mm: 1.0, r_max_mm: 1.0, eta: 1.0 }
     }
 }

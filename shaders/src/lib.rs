@@ -3,12 +3,11 @@
 //! - [`passes`]: the table of all passes. WGSL files are joined, not preprocessed: a pass is a file under `wgsl/pass/` after
 //!   the parts that its first line names, files under `wgsl/lib/` and `wgsl/material/`.
 //! - [`uniform`]: uniform blocks, laid out as in WGSL.
-//! - [`separable`]: what the separable passes draw, the basis of a material and the cascade of Gaussians.
-//! - [`fit`]: that basis from a material.
-//! - [`cpu`]: a pass `wgsl/pass/…/NAME.wgsl` has a twin `cpu/NAME.rs` that gives the same numbers, but for these:
+//! - [`separable`]: what the separable passes draw, the basis of a material with the coefficients of every pixel.
+//! - [`cpu`] (the gathers, on all cores, with the feature `gather`): a pass `wgsl/pass/…/NAME.wgsl` has a twin `cpu/NAME.rs` that gives the same numbers, but for these:
 //!
 //! * `blur_patch_first`, `blur_patch_rows`, `blur_patch_columns`, `blur_patch_last`: stages of one sum, which
-//!   [`cpu::separable`] computes as a whole.
+//!   [`separable::ProjectedBasis::exitance`] computes as a whole.
 //! * `homogeneous`: a baseline that is timed, not looked at.
 //! * `btf_query`: its twin is the decoder.
 //! * `tsm_render`, `tsm_reduce`, `surface_gbuffer`, `splat`, `splat_resolve`, `shade_splat`: they approximate what
@@ -16,11 +15,12 @@
 //! * `separable_gbuffer`, `blur_screen_rows`, `blur_screen_columns`, `shade_separable`: likewise.
 
 pub mod cpu;
-pub mod fit;
+mod mean_kernel;
 pub mod passes;
 mod rgb;
 pub mod separable;
 pub mod uniform;
 
+pub use mean_kernel::{mean_kernel, softening_gain};
 pub use passes::{BtfLayout, MaterialLayout, TargetFormat};
 pub use rgb::Rgb;

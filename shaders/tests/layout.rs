@@ -50,11 +50,12 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(PatchRegion: origin);
     assert_layout_of!(PointGrid: origin_mm, cell_mm, cells, points);
     assert_layout_of!(LightSource: clip_from_world, position_or_direction, is_local, irradiance, cos_outer, axis, cos_inner, middle_mm, texel_mm);
-    assert_layout_of!(Scene: clip_from_world, eye_mm, exposure, forward, middle_mm, centre_mm, eta, sky_transmittance, roughness, lights, row, patches_per_mm, pitch_mm, is_boxed, sky, light);
-    assert_layout_of!(TsmLight: light);
-    assert_layout_of!(Splat: softening_gain, clip_from_centre, fade_in, fade_out, focal, middle_mm, texel_mm, light, level, side, refines, stride, pitch_mm);
+    assert_layout_of!(Scene: clip_from_world, eye_mm, exposure, forward, lights, centre_mm, row, sky, light);
+    assert_layout_of!(Object: world_from_mesh, place_from_world, uv_scale, patches_per_mm, pitch_mm, is_boxed, eta, sky_transmittance, roughness, depth_offset_mm, group, handedness);
+    assert_layout_of!(TsmLight: light, group, level);
+    assert_layout_of!(Splat: softening_gain, clip_from_centre, fade_in, fade_out, focal, middle_mm, texel_mm, light, level, side, refines, stride, pitch_mm, group, is_parallel);
     assert_layout_of!(SplatRings: count, near_mm);
-    assert_layout_of!(Upsampling: texels_per_pixel, near_mm);
+    assert_layout_of!(Upsampling: texels_per_pixel, origin, near_mm);
     assert_layout_of!(Transmission: weights, gaussians);
     assert_layout_of!(Frame: size, texels, exposure);
     assert_layout_of!(BlurStage: weights, axis, sigma, stride, taps, step, sparse, has_sum);
@@ -63,7 +64,7 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(BtfCodebooks: chains, merged, i2, i1, p2_bytes, p1, is_signed, colours, tints, tint_count, tint_at, i2_mask, last_i2, stages, is_relative, first, step, nodes, alpha_max, sin_beta_max, theta_max, cos_light_min, colour_encoding, white, octaves, last_word);
     assert_layout_of!(BtfImages: light_rings, view_rings, rings, size, tiles, white, cos_light_min);
     assert_layout_of!(BtfTexture: levels, count, filtering, samples);
-    assert_layout_of!(ScreenDomain: size, focal_texels, middle_mm, pitch_mm);
+    assert_layout_of!(ScreenDomain: size, focal_texels, middle_mm, pitch_mm, perspective);
 }
 
 /// WGSL of the reference pass for a layout.

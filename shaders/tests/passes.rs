@@ -102,7 +102,9 @@ fn is(space: AddressSpace, inner: &TypeInner, binding: Binding, target: TargetFo
         TargetFormat::Packed => ScalarKind::Uint,
     };
     match binding {
-        Binding::Uniform => space == AddressSpace::Uniform && matches!(inner, TypeInner::Struct { .. }),
+        Binding::Uniform | Binding::Object => {
+            space == AddressSpace::Uniform && matches!(inner, TypeInner::Struct { .. })
+        }
         Binding::Float | Binding::Filtered => texture(ScalarKind::Float, false),
         Binding::FloatLayers | Binding::FilteredLayers => texture(ScalarKind::Float, true),
         Binding::Target => texture(of_target, false),

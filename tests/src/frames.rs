@@ -6,13 +6,13 @@ use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_runtime::{
-    AmbientTransfer, BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, Renderer, RuntimeOptions,
-    SeparableMaterial, SplatMaterial, Technique, VertexData,
+    BACKGROUND, Backend, BssrdfPlanes, Frame, GatherMaterial, Gpu, GpuMesh, GpuPoints, Input, Material, Object,
+    PictureTarget, Renderer, Result, RuntimeOptions, SeparableMaterial, SplatMaterial, VertexData,
 };
 use subsurf_scene::{
-    Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, Scene, SurfacePoints, visibility,
+    AmbientTransfer, Camera, Environment, Light, LightShape, Mapping, Mesh, Scene, SurfacePoints, visibility,
 };
-use subsurf_shaders::separable::{BasisSize, SeparableBasis};
+use subsurf_shaders::separable::ProjectedBasis;
 
 /// Display values: steps of 255 between the two APIs. Their arithmetic is the same but for rounding; sums of splats are
 /// half floats that lose up to 2⁻¹¹ with each addition.
@@ -64,14 +64,13 @@ pub enum RenderMode {
 }
 
 /// A mesh and a material on a device, for one path.
-#[allow(clippy::large_enum_variant, reason = "one or two at a time, and they stay where they are")]
-pub enum Loaded {
-    /// For the reference.
-    Gather(GpuMesh, GpuPoints, Material),
-    /// For splats.
-    Splat(GpuMesh, SplatMaterial),
-    /// For the separable path.
-    Separable(GpuMesh, SeparableMaterial),
+pub struct Loaded {
+    /// Mesh.
+    pub mesh: GpuMesh,
+    /// Material.
+    pub material: Material,
+    /// Rule by which one lies on the other.
+    pub mapping: Mapping,
 }
 
 impl Loaded {
@@ -89,45 +88,50 @@ impl Loaded {
     #[must_use]
     pub fn under(gpu: &Gpu, mode: RenderMode, file: &[u8], mesh: &Mesh, mapping: Mapping, scene: &Scene) -> Self {
         let material = Bssrdf::parse(file).unwrap();
-        let placement = Placement::new(mesh, mapping, material.header());
-        let factors = || SeparableBasis::of(&material, BasisSize::default());
         let lit = || {
             let shares = AmbientTransfer::of(mesh, &material).unwrap();
-            GpuMesh::upload(gpu, mesh, &placement, VertexData::Ambient(&shares)).unwrap()
+            GpuMesh::upload(gpu, mesh, VertexData { ambient: Some(&shares), ..Default::default() }).unwrap()
         };
-        match mode {
+        let (mesh, material): (_, Material) = match mode {
             RenderMode::Gather => {
                 // Fine enough that the sum is close to its integral.
                 let fine = mesh.clone().subdivided(0.8 * material.header().pitch_mm).unwrap();
                 let visibilities = visibility(&fine, &scene.lights);
                 let surface = SurfacePoints::new(&fine, mapping, material.header(), &visibilities);
-                let on_gpu = GpuMesh::upload(gpu, &fine, &placement, VertexData::Points(&surface.point_of)).unwrap();
+                let known = VertexData { points: Some(&surface.point_of), ..Default::default() };
                 let points = GpuPoints::upload(gpu, &surface).unwrap();
-                Self::Gather(on_gpu, points, Material::upload(gpu, &material).unwrap())
+                let planes = BssrdfPlanes::upload(gpu, &material).unwrap();
+                (GpuMesh::upload(gpu, &fine, known).unwrap(), GatherMaterial { planes, points }.into())
             }
-            RenderMode::Splat => Self::Splat(lit(), SplatMaterial::upload(gpu, &material, &factors()).unwrap()),
-            RenderMode::Separable => Self::Separable(lit(), SeparableMaterial::upload(gpu, &factors()).unwrap()),
-        }
+            RenderMode::Splat => (lit(), SplatMaterial::upload(gpu, &material).unwrap().into()),
+            RenderMode::Separable => {
+                let basis = ProjectedBasis::of(&material).expect("a file with a separable basis");
+                (lit(), SeparableMaterial::upload(gpu, &basis).unwrap().into())
+            }
+        };
+        Self { mesh, material, mapping }
     }
 
     /// As a renderer takes it.
     #[must_use]
-    pub fn model(&self) -> Drawable<'_> {
-        match self {
-            Self::Gather(mesh, points, material) => Drawable::Gather { mesh, points, material },
-            Self::Splat(mesh, material) => Drawable::Splat { mesh, material },
-            Self::Separable(mesh, material) => Drawable::Separable { mesh, material },
-        }
+    pub fn object(&self, scene: &Scene) -> Object<'_> {
+        Object::new(&self.mesh, &self.material, self.mapping, scene.roughness)
     }
 
-    /// The renderer's name for the path.
-    #[must_use]
-    pub fn path(&self) -> Technique {
-        match self {
-            Self::Gather(_, _, material) => Technique::Gather(material.layout()),
-            Self::Splat(_, material) => Technique::Splat(material.planes().layout()),
-            Self::Separable(_, material) => Technique::Separable(material.terms()),
-        }
+    /// Renderer for the path.
+    ///
+    /// # Errors
+    /// If the device cannot draw it.
+    pub fn renderer(&self, gpu: &Gpu, options: RuntimeOptions) -> Result<Renderer> {
+        Renderer::for_technique(gpu, self.material.technique(), options)
+    }
+
+    /// Buffers for pictures of `size` pixels.
+    ///
+    /// # Errors
+    /// If there is no room for them.
+    pub fn prepare(&self, gpu: &Gpu, renderer: &Renderer, scene: &Scene, size: [u32; 2]) -> Result<Frame> {
+        renderer.prepare(gpu, &Input::new(scene, &[self.object(scene)], size), size)
     }
 
     /// # Panics
@@ -141,9 +145,26 @@ impl Loaded {
     /// If the device draws none.
     #[must_use]
     pub fn picture_with(&self, gpu: &Gpu, scene: &Scene, size: [u32; 2], options: RuntimeOptions) -> Vec<[u8; 3]> {
-        let renderer = Renderer::new(gpu, self.path(), options).unwrap();
-        let mut frame = renderer.prepare(gpu, &self.model(), scene, size).unwrap();
-        renderer.picture(gpu, &mut frame, &self.model(), scene).unwrap()
+        let renderer = self.renderer(gpu, options).unwrap();
+        let mut frame = self.prepare(gpu, &renderer, scene, size).unwrap();
+        self.drawn(gpu, &renderer, &mut frame, scene, size)
+    }
+
+    /// Picture of `size` pixels by a frame that was prepared for it.
+    ///
+    /// # Panics
+    /// If the device draws none.
+    #[must_use]
+    pub fn drawn(
+        &self,
+        gpu: &Gpu,
+        renderer: &Renderer,
+        frame: &mut Frame,
+        scene: &Scene,
+        size: [u32; 2],
+    ) -> Vec<[u8; 3]> {
+        let target = PictureTarget::new(gpu, size, renderer.options()).unwrap();
+        renderer.picture(gpu, frame, &Input::new(scene, &[self.object(scene)], size), &target).unwrap()
     }
 }
 

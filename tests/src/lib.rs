@@ -8,10 +8,12 @@ pub mod program;
 
 use std::path::{Path, PathBuf};
 
+use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
 use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, Coding};
 use subsurf_decoder::container::crc32;
 use subsurf_decoder::{Bssrdf, Section};
+use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, FittedBasis, add_basis};
 use subsurf_encoder::bssrdf::write_file;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
 use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Slab, simulate};
@@ -21,6 +23,17 @@ use subsurf_encoder::synthetic::Shape;
 #[must_use]
 pub fn shape(size: [u32; 2], radius: u16, addressing: Addressing) -> Shape {
     Shape { size, radius, samples: radius + 2, base_materials: 7, addressing }
+}
+
+/// A file of [`shape`], with a basis to draw separable blurs by: what a fit starts from, made in no time.
+///
+/// # Panics
+/// If it is refused.
+#[must_use]
+pub fn drawable(size: [u32; 2], radius: u16, addressing: Addressing) -> Vec<u8> {
+    let choice = BasisChoice::Size(BasisSize { terms: 2, gaussians: 4 });
+    let options = BasisOptions { choice, steps: 0 };
+    add_basis(&shape(size, radius, addressing).bmpp(), &options, &()).expect("a file of our own")
 }
 
 /// Writes a capture whose entries come from `rd` (pixel, place in the window, channel), in mm⁻².
@@ -109,8 +122,31 @@ pub fn format_example() -> Vec<u8> {
     write_file(&header, &sections)
 }
 
-/// CRC-32 of what reading a file gives: its header, the albedo of every pixel, and Rd between pixels in and around the
-/// patch, as little-endian bytes. `None` if it is refused.
+/// The same file with a separable basis of numbers that one can follow: L = 2, A = 2; with S = 2, 140 bytes.
+///
+/// # Panics
+/// Never.
+#[must_use]
+pub fn format_basis() -> FittedBasis {
+    FittedBasis {
+        size: BasisSize { terms: 2, gaussians: 2 },
+        samples: 2,
+        sigmas: vec![0.5, 2.0],
+        weights: vec![
+            [0.5, 0.25, 0.125],
+            [0.25, 0.125, 0.0625],
+            [-0.125, 0.0, 0.125],
+            [0.0, 0.5, -0.5],
+            [0.0625, 0.125, 0.25],
+            [1.0, 2.0, 3.0],
+        ],
+        projection: vec![[1.0, 2.0, 3.0], [0.5, 0.0, -0.5], [-1.0, 1.0, 0.0], [2.0, 4.0, 8.0]],
+        psnr_db: 0.0,
+    }
+}
+
+/// CRC-32 of what reading a file gives: its header, the albedo of every pixel, Rd between pixels in and around the
+/// patch, and of a separable basis coefficients, weights and taps, as little-endian bytes. `None` if it is refused.
 #[must_use]
 pub fn fingerprint(bytes: &[u8]) -> Option<u32> {
     let material = Bssrdf::parse(bytes).ok()?;
@@ -121,6 +157,19 @@ pub fn fingerprint(bytes: &[u8]) -> Option<u32> {
         add(material.albedo([x, y]));
         for step in [[0, 0], [1, 0], [0, -1], [-2, 1], [3, 3], [-9, 4]] {
             add(material.rd([x + step[0], y + step[1]], [x, y]));
+        }
+    }
+    if let Some(basis) = material.basis() {
+        let BasisSize { terms, gaussians } = basis.size();
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            (0..terms).for_each(|l| add(basis.coefficient(l, &material.profile([x, y]))));
+        }
+        for (l, m) in (0..terms).flat_map(|l| (0..terms).map(move |m| (l, m))) {
+            (0..gaussians).for_each(|a| add(basis.weight(l, m, a)));
+        }
+        for (stage, sigma) in basis.cascade().stages().iter().zip(basis.sigmas()) {
+            #[allow(clippy::cast_precision_loss, reason = "a few pixels")]
+            add([sigma, stage.stride as f32, stage.taps as f32]);
         }
     }
     Some(crc32(&found))

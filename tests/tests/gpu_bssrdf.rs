@@ -2,19 +2,24 @@
 //!
 //! The GL backend must really be GLES 3.0: `.cargo/config.toml` sets Mesa's overrides for `cargo test`.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_decoder::bssrdf::{Addressing, Coding};
+use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, add_basis};
 use subsurf_encoder::synthetic::{Shape, capture_row, unit};
 use subsurf_runtime::{
-    BACKGROUND, Backend, Drawable, Gpu, GpuMesh, GpuPoints, Material, MaterialLayout, PatchLight, PatchRenderer,
-    Region, Renderer, RuntimeOptions, SeparableMaterial, SeparableRenderer, Technique, VertexData, layout_of,
+    BACKGROUND, Backend, BssrdfPlanes, GatherMaterial, Gpu, GpuMesh, GpuPoints, Input, Material, MaterialLayout,
+    Object, PatchLight, PatchRenderer, PictureTarget, Region, Renderer, RuntimeOptions, SeparableMaterial,
+    SeparableRenderer, Technique, VertexData, layout_of,
 };
 use subsurf_scene::{
     Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, REFLECTION_SIZE, Scene, SurfacePoints, sphere,
     torus,
 };
-use subsurf_shaders::separable::{BasisSize, SeparableBasis};
+use subsurf_shaders::separable::ProjectedBasis;
 use subsurf_shaders::{cpu, uniform};
 use subsurf_tests::shape;
 
@@ -104,7 +109,7 @@ fn patch(backend: Backend) {
                 let file = file(layout, &shape(size, radius, addressing));
                 let material = Bssrdf::parse(&file).unwrap();
                 let what = format!("{backend}, {layout:?}, {addressing:?}, radius {radius}");
-                let uploaded = Material::upload(&gpu, &material).unwrap();
+                let uploaded = BssrdfPlanes::upload(&gpu, &material).unwrap();
                 let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
                 let region = Region { origin: [2, 1], size: [21, 16] };
                 let exitance = renderer.gather(&gpu, &uploaded, &light, region).unwrap();
@@ -131,15 +136,16 @@ fn separable(backend: Backend) {
     for addressing in [Addressing::Clamp, Addressing::Repeat, Addressing::Mirror] {
         // The second window is wider than the patch: it wraps more than once.
         for (radius, terms, gaussians) in [(4, 2, 4), (20, 2, 2), (4, 1, 6)] {
+            let choice = BasisChoice::Size(BasisSize { terms, gaussians });
             let file = shape(size, radius, addressing).bmpp();
-            let material = Bssrdf::parse(&file).unwrap();
-            let factors = SeparableBasis::of(&material, BasisSize { terms, gaussians });
-            let uploaded = SeparableMaterial::upload(&gpu, &factors).unwrap();
+            let file = add_basis(&file, &BasisOptions { choice, ..BasisOptions::default() }, &()).unwrap();
+            let basis = ProjectedBasis::of(&Bssrdf::parse(&file).unwrap()).unwrap();
+            let uploaded = SeparableMaterial::upload(&gpu, &basis).unwrap();
             let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
             let renderer = SeparableRenderer::new(&gpu, terms).unwrap();
             let patch = renderer.prepare(&gpu, &uploaded, &light).unwrap();
             let found = renderer.draw(&gpu, &patch).unwrap().read(&gpu).unwrap();
-            let expected = cpu::separable(&factors, &irradiance);
+            let expected = basis.exitance(&irradiance);
             let largest = expected.iter().flatten().copied().fold(0.0, f32::max);
             let errors = found.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| (a - b).abs() / largest);
             let worst = errors.fold(0.0, f32::max);
@@ -170,7 +176,7 @@ fn patch_variants(backend: Backend) {
     for (number, file) in variants(&shape(size, 4, Addressing::Clamp)).iter().enumerate() {
         let material = Bssrdf::parse(file).unwrap();
         let renderer = PatchRenderer::new(&gpu, layout_of(&material)).unwrap();
-        let uploaded = Material::upload(&gpu, &material).unwrap();
+        let uploaded = BssrdfPlanes::upload(&gpu, &material).unwrap();
         let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
         let found = renderer.gather(&gpu, &uploaded, &light, Region { origin: [0, 0], size }).unwrap();
         let expected = cpu::gather(&material, &irradiance, [0, 0], size);
@@ -208,7 +214,7 @@ fn capture_patch(backend: Backend) {
     let entries: Vec<u8> = entries.flat_map(f32::to_le_bytes).collect();
     let irradiance = patterned_light(size);
     let renderer = PatchRenderer::new(&gpu, MaterialLayout::Capture).unwrap();
-    let uploaded = Material::upload_capture(&gpu, material.header(), &entries).unwrap();
+    let uploaded = BssrdfPlanes::upload_capture(&gpu, material.header(), &entries).unwrap();
     let light = PatchLight::upload(&gpu, size, &irradiance).unwrap();
     let region = Region { origin: [0, 0], size };
     let found = renderer.gather(&gpu, &uploaded, &light, region).unwrap().read(&gpu).unwrap();
@@ -259,16 +265,20 @@ fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, layout: MaterialL
     let placement = Placement::new(mesh, mapping, material.header());
 
     let options = RuntimeOptions::default();
-    let renderer = Renderer::new(&gpu, Technique::Gather(layout), options).unwrap();
+    let renderer = Renderer::for_technique(&gpu, Technique::Gather(layout), options).unwrap();
     let points = GpuPoints::upload(&gpu, &surface).unwrap();
-    let uploaded = Material::upload(&gpu, &material).unwrap();
-    let on_gpu = GpuMesh::upload(&gpu, mesh, &placement, VertexData::Points(&surface.point_of)).unwrap();
-    let model = Drawable::Gather { mesh: &on_gpu, points: &points, material: &uploaded };
-    let mut frame = renderer.prepare(&gpu, &model, &scene, size).unwrap();
-    let picture = renderer.picture(&gpu, &mut frame, &model, &scene).unwrap();
-    let found = points.read(&gpu).unwrap();
+    let gathered = Arc::new(GatherMaterial { planes: BssrdfPlanes::upload(&gpu, &material).unwrap(), points });
+    let known = VertexData { points: Some(&surface.point_of), ..Default::default() };
+    let on_gpu = GpuMesh::upload(&gpu, mesh, known).unwrap();
+    let uploaded = Material::Gather(gathered.clone());
+    let objects = [Object::new(&on_gpu, &uploaded, mapping, scene.roughness)];
+    let input = Input::new(&scene, &objects, size);
+    let mut frame = renderer.prepare(&gpu, &input, size).unwrap();
+    let target = PictureTarget::new(&gpu, size, &options).unwrap();
+    let picture = renderer.picture(&gpu, &mut frame, &input, &target).unwrap();
+    let found = gathered.points.read(&gpu).unwrap();
 
-    let block = uniform::Scene::new(&scene, &placement, size, options.light_texels);
+    let block = uniform::Blocks::new(&scene, &placement, size, options.light_texels);
     let expected = cpu::surface_gather(&material, &surface, &cpu::irradiance(&block, &surface));
     // Irradiance and exitance.
     assert_close(&found, &expected, 2.0, &what);
@@ -320,7 +330,7 @@ fn ledger(backend: Backend) {
     let file = shape([40, 30], 5, Addressing::Clamp).bmpp();
     let material = Bssrdf::parse(&file).unwrap();
     assert_eq!(gpu.ledger().bytes(), 0, "nothing yet");
-    let uploaded = Material::upload(&gpu, &material).unwrap();
+    let uploaded = BssrdfPlanes::upload(&gpu, &material).unwrap();
     // Profiles in four channels, planes as they stand in the file, and 48 bytes of uniforms.
     let planes = 16 * 7 * 7 + 6 * 40 * 30;
     assert_eq!(uploaded.gpu_bytes(), planes + 48, "of the material");
@@ -329,7 +339,7 @@ fn ledger(backend: Backend) {
     assert_eq!(gpu.ledger().bytes(), 0, "all gone");
 
     let other = PatchRenderer::new(&gpu, MaterialLayout::PerPixel).unwrap();
-    let uploaded = Material::upload(&gpu, &material).unwrap();
+    let uploaded = BssrdfPlanes::upload(&gpu, &material).unwrap();
     let light = PatchLight::upload(&gpu, [40, 30], &patterned_light([40, 30])).unwrap();
     let region = Region { origin: [0, 0], size: [4, 4] };
     assert!(other.gather(&gpu, &uploaded, &light, region).is_err(), "a renderer for another layout");

@@ -1,14 +1,18 @@
 //! Pictures of meshes of BTFs on Vulkan and on OpenGL ES 3.0 against their CPU twin, and against themselves.
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3};
 use subsurf_decoder::NestedBtf;
 use subsurf_decoder::btf::{ColourEncoding, Grid};
 use subsurf_encoder::synthetic::NestedShape;
 use subsurf_runtime::{
-    BACKGROUND, Backend, BtfFiltering, BtfLayout, BtfMaterial, BtfOptions, Drawable, Error, Gpu, GpuMesh, Renderer,
-    RuntimeOptions, Technique, VertexData,
+    BACKGROUND, Backend, BtfFiltering, BtfLayout, BtfMaterial, BtfOptions, Error, Gpu, GpuMesh, Input, Material,
+    Object, PictureTarget, Renderer, RuntimeOptions, Technique, VertexData,
 };
-use subsurf_scene::{Camera, Environment, Light, LightShape, Mesh, Placement, REFLECTION_SIZE, Scene, sphere, torus};
+use subsurf_scene::{
+    Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, REFLECTION_SIZE, Scene, sphere, torus,
+};
 use subsurf_shaders::{cpu, uniform};
 use subsurf_tests::frames::device;
 
@@ -58,23 +62,20 @@ fn picture(
     scene: &Scene,
     options: BtfOptions,
 ) -> Vec<[u8; 3]> {
-    let placement = Placement::of_btf(mesh, copies);
     let tangents = mesh.tangents().unwrap();
-    let on_gpu = GpuMesh::upload(gpu, mesh, &placement, VertexData::Tangents(&tangents)).unwrap();
-    let material = BtfMaterial::upload(gpu, btf).unwrap();
-    let model = Drawable::Btf { mesh: &on_gpu, material: &material, number: 0 };
-    let renderer = Renderer::new(
-        gpu,
-        Technique::Btf(BtfLayout::Nested),
-        RuntimeOptions { btf: options, ..RuntimeOptions::default() },
-    )
-    .unwrap();
-    let mut frame = renderer.prepare(gpu, &model, scene, SIZE).unwrap();
-    renderer.picture(gpu, &mut frame, &model, scene).unwrap()
+    let known = VertexData { tangents: Some(&tangents), ..Default::default() };
+    let on_gpu = GpuMesh::upload(gpu, mesh, known).unwrap();
+    let material = Material::Btf(BtfMaterial::upload(gpu, btf).unwrap().into(), 0);
+    let objects = [Object::new(&on_gpu, &material, Mapping::Uv(copies), scene.roughness)];
+    let input = Input::new(scene, &objects, SIZE);
+    let options = RuntimeOptions { btf: options, ..RuntimeOptions::default() };
+    let renderer = Renderer::for_technique(gpu, material.technique(), options).unwrap();
+    let mut frame = renderer.prepare(gpu, &input, SIZE).unwrap();
+    renderer.picture(gpu, &mut frame, &input, &PictureTarget::new(gpu, SIZE, &options).unwrap()).unwrap()
 }
 
 fn twin(btf: &NestedBtf<'_>, mesh: &Mesh, copies: [f32; 2], scene: &Scene, options: BtfOptions) -> Vec<[u8; 3]> {
-    let block = uniform::Scene::new(scene, &Placement::of_btf(mesh, copies), SIZE, 512);
+    let block = uniform::Blocks::new(scene, &Placement::of_btf(mesh, copies), SIZE, 512);
     let uvs = mesh.uvs.as_ref().unwrap().iter().map(|uv| *uv * Vec2::from(copies));
     let uvs: Vec<Vec2> = uvs.map(|uv| Vec2::new(uv.x, 1.0 - uv.y)).collect();
     let triangles = cpu::BtfTriangles {
@@ -88,7 +89,7 @@ fn twin(btf: &NestedBtf<'_>, mesh: &Mesh, copies: [f32; 2], scene: &Scene, optio
     let BtfOptions { filtering, samples } = options;
     let surface = cpu::BtfSurface { btf, material: 0, filtering, samples };
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };
-    cpu::shade_btf(&triangles, &surface, &block, &reflections, SIZE, [BACKGROUND; 3])
+    cpu::shade_btf(&triangles, &surface, &block.scene, &reflections, SIZE, [BACKGROUND; 3])
 }
 
 fn share_that_differs(a: &[[u8; 3]], b: &[[u8; 3]]) -> f64 {
@@ -174,24 +175,30 @@ fn what_cannot_be_drawn_is_said() {
     let btf = NestedBtf::parse(&file).unwrap();
     let gpu = device(Backend::Gl);
     let mesh = torus(6.0, 2.0, 12);
-    let placement = Placement::of_btf(&mesh, [4.0, 2.0]);
     let tangents = mesh.tangents().unwrap();
-    let material = BtfMaterial::upload(&gpu, &btf).unwrap();
-    let renderer = Renderer::new(&gpu, Technique::Btf(BtfLayout::Nested), RuntimeOptions::default()).unwrap();
-    let on_gpu = GpuMesh::upload(&gpu, &mesh, &placement, VertexData::Tangents(&tangents)).unwrap();
-    let prepare = |mesh, number| {
-        let model = Drawable::Btf { mesh, material: &material, number };
-        renderer.prepare(&gpu, &model, &scene(1), SIZE).map(|_| ()).unwrap_err()
+    let material: Arc<BtfMaterial> = BtfMaterial::upload(&gpu, &btf).unwrap().into();
+    let known = VertexData { tangents: Some(&tangents), ..Default::default() };
+    let on_gpu = GpuMesh::upload(&gpu, &mesh, known).unwrap();
+    let bare = GpuMesh::upload(&gpu, &mesh, VertexData::default()).unwrap();
+    let scene = scene(1);
+    let draw = |mesh, number, mapping, options| {
+        let material = Material::Btf(material.clone(), number);
+        let objects = [Object::new(mesh, &material, mapping, 0.3)];
+        let input = Input::new(&scene, &objects, SIZE);
+        let renderer = Renderer::for_technique(&gpu, Technique::Btf(BtfLayout::Nested), options).unwrap();
+        let mut frame = renderer.prepare(&gpu, &input, SIZE)?;
+        let target = PictureTarget::new(&gpu, SIZE, &options).unwrap();
+        renderer.picture(&gpu, &mut frame, &input, &target)
     };
-    assert!(prepare(&on_gpu, 1).to_string().contains("material 1 of a BTF of 1"), "no such material");
-    let bare = GpuMesh::upload(&gpu, &mesh, &placement, VertexData::Points(&vec![0; mesh.positions.len()])).unwrap();
-    assert!(prepare(&bare, 0).to_string().contains("tangents"), "no tangents");
-    let budget = RuntimeOptions { budget_bytes: Some(100_000), ..RuntimeOptions::default() };
-    let renderer = Renderer::new(&gpu, Technique::Btf(BtfLayout::Nested), budget).unwrap();
-    let model = Drawable::Btf { mesh: &on_gpu, material: &material, number: 0 };
-    match renderer.prepare(&gpu, &model, &scene(1), SIZE) {
+    let (copies, plain) = (Mapping::Uv([4.0, 2.0]), RuntimeOptions::default());
+    let refusal = |mesh, number, mapping| draw(mesh, number, mapping, plain).unwrap_err().to_string();
+    assert!(refusal(&on_gpu, 1, copies).contains("material 1 of a BTF of 1"), "no such material");
+    assert!(refusal(&bare, 0, copies).contains("tangents"), "no tangents");
+    assert!(refusal(&on_gpu, 0, Mapping::Box).contains("texture coordinates"), "no box mapping");
+    let budget = RuntimeOptions { budget_bytes: Some(100_000), ..plain };
+    match draw(&on_gpu, 0, copies, budget) {
         Err(Error::OverBudget { .. }) => {}
-        other => panic!("{other:?}"),
+        other => panic!("{:?}", other.map(|_| ())),
     }
     assert!(Mesh { uvs: None, ..sphere(1.0, 4) }.tangents().is_err(), "no texture coordinates");
 }

@@ -5,10 +5,10 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::baseline::song2009::per_pixel_of;
 use subsurf_encoder::metrics::psnr_db;
-use subsurf_runtime::{BACKGROUND, Backend, Drawable, Error, Gpu, Renderer, RuntimeOptions, Technique};
+use subsurf_runtime::{BACKGROUND, Backend, Error, Gpu, Input, RuntimeOptions};
 use subsurf_scene::{bowl, drapery, knot, torus};
+use subsurf_tests::drawable;
 use subsurf_tests::frames::{API_TOLERANCE, Loaded, RenderMode, SIZE, assert_close, device, material_of, scene};
-use subsurf_tests::shape;
 
 /// Every path against the gather, on meshes thick and thin; and both APIs against each other.
 #[test]
@@ -26,7 +26,7 @@ fn paths_come_close_to_the_gather_and_apis_to_each_other() {
 /// 2-BMPP and per-pixel profiles of the same numbers give the same splats.
 #[test]
 fn splats_are_the_same_from_profiles_of_every_pixel() {
-    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let file = drawable([31, 31], 6, Addressing::Mirror);
     let profiles = per_pixel_of(&Bssrdf::parse(&file).unwrap());
     let mesh = torus(9.0, 4.0, 32);
     let gpu = device(Backend::Vulkan);
@@ -83,7 +83,7 @@ fn far_meshes_do_not_shimmer() {
 /// An application's own device draws what ours draws.
 #[test]
 fn a_device_of_the_callers_own_draws_the_same() {
-    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let file = drawable([31, 31], 6, Addressing::Mirror);
     let mesh = torus(9.0, 4.0, 24);
     let scene = scene(&mesh);
     let ours = device(Backend::Vulkan);
@@ -91,26 +91,24 @@ fn a_device_of_the_callers_own_draws_the_same() {
     let draw = |gpu: &Gpu| Loaded::new(gpu, RenderMode::Separable, &file, &mesh).picture(gpu, &scene, SIZE);
     assert!(draw(&ours) == draw(&theirs), "the same picture");
     let kept = Loaded::new(&ours, RenderMode::Separable, &file, &mesh);
-    assert!(ours.ledger().bytes() > 0, "{:?} is there", kept.path());
+    assert!(ours.ledger().bytes() > 0, "{:?} is there", kept.material.technique());
     assert_eq!(theirs.ledger().bytes(), 0, "each has a ledger of its own");
 }
 
 /// Points belong to the mesh whose vertices name them.
 #[test]
 fn points_of_another_surface_are_refused() {
-    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let file = drawable([31, 31], 6, Addressing::Mirror);
     let gpu = device(Backend::Vulkan);
     let [large, small] = [torus(9.0, 4.0, 24), torus(4.0, 1.5, 24)];
-    let of = |mesh| match Loaded::new(&gpu, RenderMode::Gather, &file, mesh) {
-        Loaded::Gather(mesh, points, material) => (mesh, points, material),
-        _ => panic!("another path"),
-    };
-    let (mesh, _, material) = of(&large);
-    let (_, points, _) = of(&small);
-    let model = Drawable::Gather { mesh: &mesh, points: &points, material: &material };
-    let renderer = Renderer::new(&gpu, Technique::Gather(material.layout()), RuntimeOptions::default()).unwrap();
-    match renderer.prepare(&gpu, &model, &scene(&large), SIZE) {
-        Err(Error::Device(reason)) => assert!(reason.contains("another surface"), "{reason}"),
-        other => panic!("{:?}", other.map(|frame| *frame.plan())),
+    let of = |mesh| Loaded::new(&gpu, RenderMode::Gather, &file, mesh);
+    let mixed = Loaded { mesh: of(&large).mesh, ..of(&small) };
+    let scene = scene(&large);
+    let renderer = mixed.renderer(&gpu, RuntimeOptions::default()).unwrap();
+    let mut frame = mixed.prepare(&gpu, &renderer, &scene, SIZE).unwrap();
+    let objects = [mixed.object(&scene)];
+    match renderer.gather(&gpu, &mut frame, &Input::new(&scene, &objects, SIZE)) {
+        Err(Error::Usage(reason)) => assert!(reason.contains("another surface"), "{reason}"),
+        other => panic!("{other:?}"),
     }
 }

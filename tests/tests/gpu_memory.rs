@@ -1,19 +1,19 @@
 //! Bytes on the device: within budgets, counted rightly, and given back.
 
 use subsurf_decoder::bssrdf::Addressing;
-use subsurf_runtime::{Backend, Error, Frame, Gpu, Renderer, RuntimeOptions};
+use subsurf_runtime::{Backend, Error, Frame, Gpu, RuntimeOptions};
 use subsurf_scene::{Scene, torus};
+use subsurf_tests::drawable;
 use subsurf_tests::frames::{Loaded, RenderMode, SIZE, device, scene};
-use subsurf_tests::shape;
 
 fn prepared(gpu: &Gpu, loaded: &Loaded, scene: &Scene, budget_bytes: Option<u64>) -> Result<Frame, Error> {
     let options = RuntimeOptions { budget_bytes, ..RuntimeOptions::default() };
-    Renderer::new(gpu, loaded.path(), options)?.prepare(gpu, &loaded.model(), scene, SIZE)
+    loaded.prepare(gpu, &loaded.renderer(gpu, options)?, scene, SIZE)
 }
 
 #[test]
 fn budgets_are_kept_or_refused() {
-    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let file = drawable([31, 31], 6, Addressing::Mirror);
     let mesh = torus(9.0, 4.0, 24);
     let scene = scene(&mesh);
     for gpu in Backend::ALL.map(device) {
@@ -46,22 +46,22 @@ fn budgets_are_kept_or_refused() {
 #[test]
 fn a_thousand_loads_and_resizes_leave_nothing() {
     let gpu = device(Backend::Vulkan);
-    let file = shape([16, 16], 3, Addressing::Mirror).bmpp();
+    let file = drawable([16, 16], 3, Addressing::Mirror);
     let mesh = torus(9.0, 4.0, 8);
     let scene = scene(&mesh);
     let options = RuntimeOptions { light_texels: 128, ..RuntimeOptions::default() };
     let allocated = || gpu.device().generate_allocator_report().map_or(0, |report| report.total_allocated_bytes);
     for mode in [RenderMode::Splat, RenderMode::Separable] {
         let first = Loaded::new(&gpu, mode, &file, &mesh);
-        let renderer = Renderer::new(&gpu, first.path(), options).unwrap();
+        let renderer = first.renderer(&gpu, options).unwrap();
         drop(first);
         let mut after_some = (0, 0);
         for cycle in 0..1_000_u32 {
             let loaded = Loaded::new(&gpu, mode, &file, &mesh);
             let size = [16 + cycle % 29, 16 + cycle % 31];
-            let mut frame = renderer.prepare(&gpu, &loaded.model(), &scene, size).unwrap();
+            let mut frame = loaded.prepare(&gpu, &renderer, &scene, size).unwrap();
             if cycle % 50 == 0 {
-                renderer.picture(&gpu, &mut frame, &loaded.model(), &scene).unwrap();
+                let _ = loaded.drawn(&gpu, &renderer, &mut frame, &scene, size);
             }
             drop((loaded, frame));
             gpu.finish().unwrap();
@@ -85,12 +85,12 @@ fn the_ledger_agrees_with_the_allocator() {
     let before = allocated();
     let mesh = torus(9.0, 4.0, 48);
     let scene = scene(&mesh);
-    let file = shape([128, 128], 6, Addressing::Mirror).bmpp();
+    let file = drawable([128, 128], 6, Addressing::Mirror);
     for mode in [RenderMode::Splat, RenderMode::Separable] {
         let loaded = Loaded::new(&gpu, mode, &file, &mesh);
         let options = RuntimeOptions::default();
-        let renderer = Renderer::new(&gpu, loaded.path(), options).unwrap();
-        let frame = renderer.prepare(&gpu, &loaded.model(), &scene, [640, 480]).unwrap();
+        let renderer = loaded.renderer(&gpu, options).unwrap();
+        let frame = loaded.prepare(&gpu, &renderer, &scene, [640, 480]).unwrap();
         gpu.finish().unwrap();
         let (ours, theirs) = (gpu.ledger().bytes(), allocated() - before);
         println!("{mode:?}: {ours} bytes by the ledger, {theirs} by the allocator");

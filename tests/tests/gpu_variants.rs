@@ -6,15 +6,15 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_runtime::wgpu::TextureFormat;
 use subsurf_runtime::{
-    BACKGROUND, Backend, Error, Gpu, Material, MaterialLayout, PatchLight, PatchRenderer, Region, Renderer,
+    BACKGROUND, Backend, BssrdfPlanes, Error, Gpu, MaterialLayout, PatchLight, PatchRenderer, Region, Renderer,
     RuntimeOptions, TargetFormat, Technique,
 };
 use subsurf_scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
+use subsurf_tests::drawable;
 use subsurf_tests::frames::{
     API_TOLERANCE, EDGE_PIXELS, Loaded, RenderMode, SIZE, assert_close, device, material_of, psnr, scene,
     share_that_differs,
 };
-use subsurf_tests::shape;
 
 /// [`scene`] with another light, close by.
 fn close_light(mesh: &Mesh, shape: impl Fn(Vec3) -> LightShape) -> Scene {
@@ -44,7 +44,7 @@ fn lights_close_by_and_boxes_come_close_to_the_gather() {
 /// A target that encodes by itself shows what the shader encodes for another; several samples change edges alone.
 #[test]
 fn targets_of_srgb_and_of_several_samples_show_the_same() {
-    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let file = drawable([31, 31], 6, Addressing::Mirror);
     let mesh = torus(9.0, 4.0, 32);
     let scene = scene(&mesh);
     let usual = RuntimeOptions::default();
@@ -80,7 +80,7 @@ fn targets_of_srgb_and_of_several_samples_show_the_same() {
 /// Bits of half floats in integers give the pictures that half floats give; where they cannot, it is said.
 #[test]
 fn devices_without_half_floats_to_draw_to_draw_the_same() {
-    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
+    let file = drawable([31, 31], 6, Addressing::Mirror);
     let mesh = torus(9.0, 4.0, 32);
     let scene = scene(&mesh);
     for backend in Backend::ALL {
@@ -89,7 +89,7 @@ fn devices_without_half_floats_to_draw_to_draw_the_same() {
         let packed = device(backend).with_target_format(TargetFormat::Packed);
         // Bit for bit, but for what is rounded the other way.
         let exitance = |gpu: &Gpu| {
-            let material = Material::upload(gpu, &Bssrdf::parse(&file).unwrap()).unwrap();
+            let material = BssrdfPlanes::upload(gpu, &Bssrdf::parse(&file).unwrap()).unwrap();
             let irradiance: Vec<[f32; 3]> = (0..31 * 31_u16).map(|k| [f32::from(k), 0.01, -f32::from(k)]).collect();
             let light = PatchLight::upload(gpu, [31; 2], &irradiance).unwrap();
             let renderer = PatchRenderer::new(gpu, material.layout()).unwrap();
@@ -105,7 +105,7 @@ fn devices_without_half_floats_to_draw_to_draw_the_same() {
             let share = share_that_differs(&draw(&gpu), &draw(&packed));
             assert!(share <= EDGE_PIXELS, "{backend}, {mode:?}: {share} of pixels differ by more than {API_TOLERANCE}");
         }
-        match Renderer::new(&packed, Technique::Splat(MaterialLayout::Bmpp2), RuntimeOptions::default()) {
+        match Renderer::for_technique(&packed, Technique::Splat(MaterialLayout::Bmpp2), RuntimeOptions::default()) {
             Err(Error::NoHalfFloats { what }) => assert_eq!(what, "splats"),
             other => panic!("{other:?}"),
         }

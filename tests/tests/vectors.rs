@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use subsurf_decoder::container::Crc;
-use subsurf_decoder::{Bssrdf, ReadError};
+use subsurf_decoder::{Bssrdf, ReadError, Section};
 use subsurf_tests::{fingerprint, format_example};
 
 fn folder() -> &'static Path {
@@ -46,6 +46,11 @@ fn broken_files_are_refused_for_what_is_broken() {
     assert!(matches!(error("x_ratio.subsurf"), ReadError::BadNumber { .. }), "ratio");
     assert!(matches!(error("x_profile_infinite.subsurf"), ReadError::BadNumber { .. }), "profile");
     assert!(matches!(error("x_overlap.subsurf"), ReadError::Overlap { .. }), "overlap");
+    for name in ["x_basis_width", "x_basis_widths_fall", "x_basis_nan", "x_basis_huge"] {
+        let found = error(&format!("{name}.subsurf"));
+        assert!(matches!(found, ReadError::BadNumber { section: Section::SeparableBasis, .. }), "{name}: {found}");
+    }
+    assert!(matches!(error("x_basis_terms.subsurf"), ReadError::BadField { value: 3, .. }), "terms");
 }
 
 #[test]
@@ -55,10 +60,32 @@ fn the_example_of_the_specification_is_the_file() {
     assert_eq!(file.len(), 216);
 }
 
+/// Coefficients worked out by hand from FORMAT.md, section 2.7: P̂ of pixel 0 is (−1, −2, −3), (−2, −4, −6).
+#[test]
+fn a_basis_says_what_the_specification_says() {
+    let file = std::fs::read(folder().join("separable_basis.subsurf")).unwrap();
+    assert_eq!(file.len(), 216 + 24 + 4 + 4 * 2 + 6 * 2 * 6 + 12 * 2 * 2);
+    let material = Bssrdf::parse(&file).unwrap();
+    let basis = material.basis().unwrap();
+    let of_pixel = |l| basis.coefficient(l, &material.profile([0, 0]));
+    let close = |found: [f32; 3], expected: [f64; 3]| {
+        (0..3).all(|c| (f64::from(found[c]) - expected[c]).abs() < 1e-5 * expected[c].abs().max(1.0))
+    };
+    let e = |p: f64| (0.5 * p).exp();
+    assert!(close(of_pixel(0), [e(-1.0) + 0.5 * e(-2.0), 2.0 * e(-2.0), 3.0 * e(-3.0) - 0.5 * e(-6.0)]), "c_0");
+    assert!(close(of_pixel(1), [-e(-1.0) + 2.0 * e(-2.0), e(-2.0) + 4.0 * e(-4.0), 8.0 * e(-6.0)]), "c_1");
+    assert_eq!(basis.weight(0, 1, 1), [0.0, 0.5, -0.5]);
+    assert_eq!(basis.weight(1, 0, 1), basis.weight(0, 1, 1), "symmetric");
+    // V_0 = Σ k² e^(−2 k²) / Σ e^(−2 k²) = 0.2150; s = max(1, ⌊1.8 √0.2150⌋) = 1, t = ⌈3.2 √(4 − 0.2150)⌉ = 7.
+    let cascade = basis.cascade();
+    let taps: Vec<_> = cascade.stages().iter().map(|stage| (stage.stride, stage.taps)).collect();
+    assert_eq!(taps, [(1, 2), (1, 7)]);
+}
+
 /// Every file cut at every length, and with every byte changed: an error or bounded values.
 #[test]
 fn damage_is_refused_or_harmless() {
-    for name in ["bmpp_mirror.subsurf", "per_pixel_clamp.subsurf", "one_pixel.subsurf"] {
+    for name in ["bmpp_mirror.subsurf", "per_pixel_clamp.subsurf", "one_pixel.subsurf", "separable_basis.subsurf"] {
         let file = std::fs::read(folder().join(name)).unwrap();
         for length in 0..file.len() {
             assert!(Bssrdf::parse(&file[..length]).is_err(), "{name} cut to {length} bytes");
@@ -70,6 +97,11 @@ fn damage_is_refused_or_harmless() {
             if let Ok(material) = Bssrdf::parse_with(&damaged, Crc::Skip) {
                 let rd = material.rd([1, -2], [2, 1]);
                 assert!(rd.iter().all(|rd| rd.is_finite() && *rd >= 0.0), "{name}, byte {at}: {rd:?}");
+                if let Some(basis) = material.basis() {
+                    let c = basis.coefficient(0, &material.profile([1, -2]));
+                    assert!(c.iter().all(|c| c.is_finite()), "{name}, byte {at}: {c:?}");
+                    assert!(basis.cascade().stages().iter().all(|stage| stage.taps < 64), "{name}, byte {at}");
+                }
             }
         }
     }

@@ -11,8 +11,8 @@ mod units;
 mod window;
 
 pub use asset::{
-    Asset, BtfImageSet, GpuAsset, MappingChoice, RenderSession, Scattering, TexturedMesh, choose_mapping, expect_uvs,
-    exposure_of, factors, light_of, points, repeats, upload_images,
+    Asset, BtfImageSet, GpuAsset, MappingChoice, RenderSession, Scattering, TexturedMesh, basis, choose_mapping,
+    expect_uvs, exposure_of, light_of, points, repeats, upload_images,
 };
 pub use error::{Error, Result, one_line};
 pub use file::{DrawnMaterial, material_number, parse, parse_btf, read, stem};

@@ -5,9 +5,10 @@
 use std::path::PathBuf;
 
 use subsurf_decoder::bssrdf::Addressing;
-use subsurf_encoder::synthetic::{NestedShape, Shape};
+use subsurf_encoder::synthetic::NestedShape;
 use subsurf_runtime::{Backend, Gpu, RuntimeOptions};
 use subsurf_scene::{Environment, UpAxis};
+use subsurf_tests::drawable;
 use subsurf_tests::program::under_display;
 use subsurf_viewer::{Config, Error, Event, Host, MappingChoice, Picture, Scattering, Viewer, options};
 use winit::event_loop::EventLoop;
@@ -96,7 +97,7 @@ fn a_window_draws_and_survives_the_loss_of_its_device() {
         let (material, backend) = case.split_once(' ').unwrap();
         let bytes = match material {
             "btf" => NestedShape::small().database(2).to_bytes(),
-            _ => Shape { size: [9, 7], radius: 2, samples: 4, base_materials: 4, addressing: Addressing::Clamp }.bmpp(),
+            _ => drawable([9, 7], 2, Addressing::Clamp),
         };
         return draw(&bytes, if backend == "gl" { Backend::Gl } else { Backend::Vulkan });
     }

@@ -16,6 +16,7 @@ use subsurf_encoder::rate::bssrdf::{Point, search};
 use subsurf_encoder::{check_target, write_bytes};
 use subsurf_viewer::human;
 
+use super::basis::{self, BasisArgs};
 use super::curve;
 use super::report::Report;
 use crate::options::{ByteCount, CaptureArgs};
@@ -29,9 +30,9 @@ use crate::program::threads;
 #[derive(clap::Args)]
 pub(super) struct FitArgs {
     /// The capture: a .npy or .npz array of shape (height, width, D, D, 3) of Rd in mm⁻², and its sidecar .json with the pixel pitch
-    #[arg(required = true)]
+    #[arg(required_unless_present = "add_basis")]
     capture: Option<PathBuf>,
-    /// The .subsurf file to write; NAME.subsurf beside the capture if not given
+    /// The .subsurf file to write; NAME.subsurf beside the capture if not given, with --add-basis the file itself
     #[arg(long, short)]
     output: Option<PathBuf>,
     /// What to fit
@@ -55,6 +56,8 @@ pub(super) struct FitArgs {
     /// Choose K, M and precision: the best file of at most this size; 40000, 40kB
     #[arg(long, value_name = "SIZE", conflicts_with_all = CHOSEN, conflicts_with = "target_psnr")]
     target_bytes: Option<ByteCount>,
+    #[command(flatten)]
+    basis: BasisArgs,
     /// Nodes of a profile; half the window's width and one if not given
     #[arg(long, short = 'S', value_name = "S")]
     samples: Option<usize>,
@@ -140,10 +143,13 @@ impl FitArgs {
 }
 
 pub(super) fn run(args: &FitArgs) -> anyhow::Result<()> {
+    threads::set(args.threads)?;
+    if let Some(path) = &args.basis.add_basis {
+        return basis::add(path, args.output.as_ref().unwrap_or(path), &args.basis, args.json);
+    }
     let Some(path) = &args.capture else {
         return Err(bad_request("what is to be encoded? Give a capture, or `btf` and its images"));
     };
-    threads::set(args.threads)?;
     let capture = args.facts.open(path)?;
     let output = args.output.clone().unwrap_or_else(|| path.with_extension("subsurf"));
     check_target(&output)?;
@@ -163,19 +169,22 @@ pub(super) fn run(args: &FitArgs) -> anyhow::Result<()> {
                 outln!("{}", curve::line(point));
             }
         };
+        let target = args.basis.leave_room(target, &capture, args.samples)?;
         let curve = search(&capture, args.samples, args.seed, target, &bars, &mut found)?;
         let best = curve.chosen();
         (Encoded { stopped: curve.stopped, ..best.file.clone() }, best.candidate, Some(curve))
     } else {
         (encode(&capture, args.samples, &options, &bars)?, options, None)
     };
+    let encoded = args.basis.added_to(encoded, &bars)?;
     write_bytes(&output, &encoded.bytes)?;
     drop(graceful);
     let seconds = start.elapsed().as_secs_f64();
     let material = Bssrdf::parse(&encoded.bytes)?;
     let judgement = judge(&capture, &material, encoded.bytes.len() as u64, &bars)?;
     drop(bars);
-    let report = Report { capture: &capture, output: &output, options: &options, encoded: &encoded, seconds };
+    let basis = material.basis();
+    let report = Report { capture: &capture, output: &output, options: &options, encoded: &encoded, seconds, basis };
     if args.json {
         report.print_json(&judgement, curve.as_ref())
     } else {

@@ -1,5 +1,6 @@
 //! `subsurf encode`: from what was measured to a file.
 
+mod basis;
 mod btf;
 mod capture;
 mod curve;

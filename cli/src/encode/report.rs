@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use serde_json::json;
+use subsurf_decoder::bssrdf::SeparableBasis;
 use subsurf_encoder::bssrdf::{Encoded, Options};
 use subsurf_encoder::capture::Capture;
 use subsurf_encoder::metrics::bssrdf::Judgement;
@@ -11,6 +12,7 @@ use subsurf_viewer::human;
 
 use super::curve::coding_name;
 use crate::compare;
+use crate::info::{basis_line, basis_to_json};
 use crate::outln;
 use crate::program::memory::resident;
 
@@ -21,6 +23,7 @@ pub(super) struct Report<'a> {
     pub(super) options: &'a Options,
     pub(super) encoded: &'a Encoded,
     pub(super) seconds: f64,
+    pub(super) basis: Option<&'a SeparableBasis<'a>>,
 }
 
 impl Report<'_> {
@@ -35,6 +38,7 @@ impl Report<'_> {
             "half_profiles": self.options.half_profiles,
             "base_materials": encoded.base_materials,
             "samples": encoded.samples,
+            "basis": self.basis.map(basis_to_json),
             "cost": encoded.cost,
             "entries": encoded.entries,
             "measured": encoded.measured,
@@ -73,6 +77,9 @@ impl Report<'_> {
             outln!("  {} of {asked} base materials: no pixel had use for the others", encoded.base_materials);
         }
         compare::print(judgement);
+        if let Some(basis) = self.basis {
+            outln!("  {}", basis_line(basis));
+        }
         let memory = resident().unwrap_or_default();
         let beside_mapped = human(memory.peak.saturating_sub(memory.mapped));
         outln!("  {:.1} s, {beside_mapped} of memory besides the mapped capture", self.seconds);

@@ -7,7 +7,8 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use serde_json::json;
-use subsurf_decoder::bssrdf::{BssrdfModel, Coding, Profiles};
+use subsurf_decoder::bssrdf::basis::BasisSize;
+use subsurf_decoder::bssrdf::{BssrdfModel, Coding, Profiles, SeparableBasis};
 use subsurf_decoder::{Bssrdf, Content, File};
 use subsurf_encoder::capture::is_btf;
 use subsurf_viewer::read;
@@ -58,7 +59,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "model": model, "width": header.width, "height": header.height, "base_materials": header.base_materials,
             "samples": header.samples, "window_radius": header.window_radius, "pitch_mm": header.pitch_mm,
             "r_max_mm": header.r_max_mm, "eta": header.eta, "addressing": format!("{:?}", header.addressing).to_lowercase(),
-            "bytes": bytes.len(), "sections": sections,
+            "basis": material.basis().map(basis_to_json), "bytes": bytes.len(), "sections": sections,
         });
         outln!("{value:#}");
         return Ok(());
@@ -79,10 +80,27 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         header.base_materials,
     );
     outln!("  refractive index {}, linear Rec. 709", header.eta);
+    match material.basis() {
+        Some(basis) => outln!("  {}", basis_line(basis)),
+        None => outln!("  no separable basis: `subsurf encode --add-basis FILE` adds one"),
+    }
     for entry in container.entries() {
         outln!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
     }
     Ok(())
+}
+
+/// A separable basis in a line.
+pub(crate) fn basis_line(basis: &SeparableBasis<'_>) -> String {
+    let BasisSize { terms, gaussians } = basis.size();
+    let widths: Vec<String> = basis.sigmas().map(|sigma| format!("{sigma:.2}")).collect();
+    format!("separable basis: maps: {terms}, Gaussians: {gaussians}, of σ = {} pixels", widths.join(", "))
+}
+
+/// The same as JSON.
+pub(crate) fn basis_to_json(basis: &SeparableBasis<'_>) -> serde_json::Value {
+    let BasisSize { terms, gaussians } = basis.size();
+    json!({ "terms": terms, "gaussians": gaussians, "sigmas_px": basis.sigmas().collect::<Vec<_>>() })
 }
 
 /// Parses with all checks, and names the file if it fails.

@@ -79,9 +79,9 @@ fn on_cpu(
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };
     let placement = Placement::of_btf(mesh, copies);
     let draw = |exposure, size| {
-        let mut block = uniform::Scene::new(scene, &placement, size, RuntimeOptions::default().light_texels);
-        block.exposure = exposure;
-        cpu::shade_btf(&triangles, surface, &block, &reflections, size, [BACKGROUND; 3])
+        let mut block = uniform::Blocks::new(scene, &placement, size, RuntimeOptions::default().light_texels);
+        block.scene.exposure = exposure;
+        cpu::shade_btf(&triangles, surface, &block.scene, &reflections, size, [BACKGROUND; 3])
     };
     let exposure = exposure.unwrap_or_else(|| exposure_of(|dark| draw(dark, size.map(|side| side.div_ceil(4)))));
     Ok((draw(exposure, size), exposure))

@@ -44,12 +44,12 @@ pub(crate) fn draw_mesh(
             assert_eq!(technique, Scattering::Gather, "the CPU draws meshes by the reference only");
             let (fine, surface) = points(mesh, mapping, material, &scene)?;
             let placement = Placement::new(mesh, mapping, material.header());
-            let mut block = uniform::Scene::new(&scene, &placement, large, request.options.light_texels);
+            let mut block = uniform::Blocks::new(&scene, &placement, large, request.options.light_texels);
             let exitance = cpu::surface_gather(material, &surface, &cpu::irradiance(&block, &surface));
             let brightest = scene.environment.irradiance(Vec3::Y).iter().copied().fold(0.0, f32::max);
             let chosen = || exposure_for(exitance.iter()).min(BRIGHT / brightest.max(1e-6)) * std::f32::consts::PI;
-            block.exposure = request.exposure.unwrap_or_else(chosen);
-            scene.camera.exposure = block.exposure;
+            block.scene.exposure = request.exposure.unwrap_or_else(chosen);
+            scene.camera.exposure = block.scene.exposure;
             let of_vertices = || surface.point_of.iter().map(|&point| point as usize);
             let exitances: Vec<Rgb> = of_vertices().map(|point| exitance[point]).collect();
             let visibilities: Vec<_> = of_vertices().map(|point| surface.visibilities[point]).collect();

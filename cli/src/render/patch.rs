@@ -5,10 +5,10 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_runtime::{
-    Gpu, Material, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, layout_of,
+    BssrdfPlanes, Gpu, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, layout_of,
 };
 use subsurf_shaders::{Rgb, cpu};
-use subsurf_viewer::{Scattering, factors};
+use subsurf_viewer::{Scattering, basis};
 
 use super::exposure::exposure_for;
 use crate::picture::image;
@@ -47,11 +47,11 @@ pub(crate) fn draw_patch(
             let (exitance, gpu_bytes) = match technique {
                 Scattering::Splat => return Err(no_splats()),
                 Scattering::Gather => {
-                    let uploaded = Material::upload(gpu, material)?;
+                    let uploaded = BssrdfPlanes::upload(gpu, material)?;
                     (renderer.gather(gpu, &uploaded, &light, whole)?, uploaded.gpu_bytes())
                 }
                 Scattering::Separable | Scattering::Homogeneous => {
-                    let uploaded = SeparableMaterial::upload(gpu, &factors(material, technique))?;
+                    let uploaded = SeparableMaterial::upload(gpu, &basis(material, technique)?)?;
                     let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
                     let patch = renderer.prepare(gpu, &uploaded, &light)?;
                     renderer.draw(gpu, &patch)?;
@@ -70,9 +70,7 @@ pub(crate) fn draw_patch(
             let exitance = match technique {
                 Scattering::Splat => return Err(no_splats()),
                 Scattering::Gather => cpu::gather(material, &irradiance, whole.origin, whole.size),
-                Scattering::Separable | Scattering::Homogeneous => {
-                    cpu::separable(&factors(material, technique), &irradiance)
-                }
+                Scattering::Separable | Scattering::Homogeneous => basis(material, technique)?.exitance(&irradiance),
             };
             let exposure = exposure.unwrap_or_else(|| exposure_for(exitance.iter()));
             facts.insert("exposure".to_owned(), json!(exposure));

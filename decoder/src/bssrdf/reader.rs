@@ -1,5 +1,6 @@
 //! Reads and checks a BSSRDF file once; afterwards its planes are borrowed and nothing can fail.
 
+use super::basis::SeparableBasis;
 use super::layout::{BssrdfHeader, Coding, MAX_PAIRS, MODEL_2BMPP, MODEL_PER_PIXEL};
 use super::planes::{BaseMaterials, BssrdfModel, Mixtures, PerPixelProfiles, Profiles};
 use super::values;
@@ -15,6 +16,7 @@ use crate::section::Section;
 pub struct Bssrdf<'a> {
     header: BssrdfHeader,
     model: BssrdfModel<'a>,
+    basis: Option<SeparableBasis<'a>>,
 }
 
 impl<'a> Bssrdf<'a> {
@@ -43,7 +45,12 @@ impl<'a> Bssrdf<'a> {
         } else {
             BssrdfModel::BaseMaterials(BaseMaterials { profiles: planes.profiles()?, mixtures: planes.mixtures()? })
         };
-        Ok(Self { header, model })
+        let basis = if sections.has(Section::SeparableBasis) {
+            Some(SeparableBasis::parse(sections.any(Section::SeparableBasis)?, header.samples)?)
+        } else {
+            None
+        };
+        Ok(Self { header, model, basis })
     }
 
     /// Sizes, units and model.
@@ -56,6 +63,12 @@ impl<'a> Bssrdf<'a> {
     #[must_use]
     pub fn model(&self) -> &BssrdfModel<'a> {
         &self.model
+    }
+
+    /// The separable basis, where the file has one.
+    #[must_use]
+    pub fn basis(&self) -> Option<&SeparableBasis<'a>> {
+        self.basis.as_ref()
     }
 }
 

@@ -1,5 +1,6 @@
 //! Diffuse BSSRDFs: captures to files of per-pixel profiles and of K-BMPP.
 
+pub mod basis;
 pub(crate) mod clusters;
 pub(crate) mod direct;
 mod encode;

@@ -24,9 +24,9 @@ pub fn layout_of(material: &Bssrdf<'_>) -> MaterialLayout {
     }
 }
 
-/// Scattering material on the device, in one of the layouts.
+/// Planes of a scattering material on the device, in one of the layouts.
 #[derive(Debug)]
-pub struct Material {
+pub struct BssrdfPlanes {
     layout: MaterialLayout,
     header: BssrdfHeader,
     uniform: Tracked<Buffer>,
@@ -34,7 +34,7 @@ pub struct Material {
     views: Vec<TextureView>,
 }
 
-impl Material {
+impl BssrdfPlanes {
     /// Uploads the planes of a file, each as one texture, as they stand in the file. Only the small table of base
     /// profiles is widened from three channels to four, so that a node is one load instead of three.
     ///
@@ -122,7 +122,7 @@ impl Material {
         if self.layout == layout {
             return Ok(());
         }
-        Err(Error::Device(format!("this renderer draws {layout:?}, the material is stored as {:?}", self.layout)))
+        Err(Error::Usage(format!("this renderer draws {layout:?}, the material is stored as {:?}", self.layout)))
     }
 }
 

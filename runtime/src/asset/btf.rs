@@ -61,7 +61,7 @@ impl BtfMaterial {
         if self.layout == layout {
             return Ok(());
         }
-        Err(Error::Device(format!("this draws BTFs as {layout:?}, the material is stored as {:?}", self.layout)))
+        Err(Error::Usage(format!("this draws BTFs as {layout:?}, the material is stored as {:?}", self.layout)))
     }
 
     /// Bytes of textures and blocks on the device.

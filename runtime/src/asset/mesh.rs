@@ -1,10 +1,9 @@
 //! Meshes on the device, with what techniques need to know of every vertex.
 
 use glam::{Vec2, Vec3, Vec4};
-use subsurf_scene::{Mapping, Mesh, Placement};
+use subsurf_scene::{AmbientTransfer, BoundingSphere, Mesh};
 use wgpu::{Buffer, BufferUsages, IndexFormat, RenderPass, VertexBufferLayout, VertexStepMode, vertex_attr_array};
 
-use super::ambient::AmbientTransfer;
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, Tracked};
 
@@ -18,7 +17,9 @@ pub struct GpuMesh {
     index_count: u32,
     /// One more than the largest point that a vertex names; 0 if none does.
     pub(crate) points: usize,
-    pub(crate) placement: Placement,
+    has_uvs: bool,
+    /// Where the mesh is, in its own space.
+    pub(crate) bounds: BoundingSphere,
 }
 
 #[repr(C)]
@@ -26,7 +27,7 @@ pub struct GpuMesh {
 struct Vertex {
     position_mm: Vec3,
     normal: Vec3,
-    /// Texture coordinates in copies of the patch, v down.
+    /// Texture coordinates of the mesh, v up.
     uv: Vec2,
     point: u32,
     /// [`AmbientTransfer::front`], 0 to 2 as 0 to 255.
@@ -35,15 +36,16 @@ struct Vertex {
     sky_back: [u8; 4],
 }
 
-/// What a technique needs to know of every vertex, in the order of the mesh.
-#[derive(Clone, Copy, Debug)]
-pub enum VertexData<'a> {
+/// What techniques need to know of every vertex, in the order of the mesh; what nobody needs may be left out.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct VertexData<'a> {
     /// Number of the vertex's point, [`subsurf_scene::SurfacePoints::point_of`]: for the gather.
-    Points(&'a [u32]),
-    /// Light from all around that scatters to the vertex: for splats and separable blurs.
-    Ambient(&'a [AmbientTransfer]),
+    pub points: Option<&'a [u32]>,
+    /// Light from all around that scatters to the vertex, computed ahead of time: for splats and separable blurs, where it is
+    /// that of flat, open ground without it.
+    pub ambient: Option<&'a [AmbientTransfer]>,
     /// Tangents, [`Mesh::tangents`]: for BTFs.
-    Tangents(&'a [Vec4]),
+    pub tangents: Option<&'a [Vec4]>,
 }
 
 /// Values of 0 to 2 as bytes of 0 to 255.
@@ -57,56 +59,48 @@ impl GpuMesh {
     /// Uploads a mesh with data of its vertices.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if the device takes no buffers of that size; [`Error::Mesh`] if there are more than 2³² indices.
-    ///
-    /// # Panics
-    /// If there is data for fewer vertices than the mesh has.
-    pub fn upload(gpu: &Gpu, mesh: &Mesh, placement: &Placement, known: VertexData<'_>) -> Result<Self> {
-        let times = match placement.mapping {
-            Mapping::Uv(times) => Vec2::from(times),
-            Mapping::Box => Vec2::ZERO,
-        };
-        let sky = |k: usize| match known {
-            VertexData::Ambient(shares) => shares[k],
-            VertexData::Points(_) | VertexData::Tangents(_) => AmbientTransfer { front: [1.0; 3], back: [0.0; 3] },
-        };
+    /// [`Error::Unsupported`] if the device takes no buffers of that size; [`Error::Mesh`] if there are more than 2³² indices;
+    /// [`Error::Usage`] if there is data for another number of vertices than the mesh has.
+    pub fn upload(gpu: &Gpu, mesh: &Mesh, known: VertexData<'_>) -> Result<Self> {
+        let count = mesh.positions.len();
+        let lengths = [known.points.map(<[_]>::len), known.ambient.map(<[_]>::len), known.tangents.map(<[_]>::len)];
+        if let Some(length) = lengths.into_iter().flatten().find(|length| *length != count) {
+            return Err(Error::Usage(format!("data of {length} vertices for a mesh of {count}")));
+        }
         let vertex = |k: usize| {
-            let uv = mesh.uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[k]) * times;
+            let sky = known.ambient.map_or(AmbientTransfer::FLAT, |sky| sky[k]);
             Vertex {
                 position_mm: mesh.positions[k],
                 normal: mesh.normals[k],
-                uv: Vec2::new(uv.x, 1.0 - uv.y),
-                point: match known {
-                    VertexData::Points(points) => points[k],
-                    VertexData::Ambient(_) | VertexData::Tangents(_) => 0,
-                },
-                sky_front: halves(sky(k).front),
-                sky_back: halves(sky(k).back),
+                uv: mesh.uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[k]),
+                point: known.points.map_or(0, |points| points[k]),
+                sky_front: halves(sky.front),
+                sky_back: halves(sky.back),
             }
         };
-        let vertices: Vec<Vertex> = (0..mesh.positions.len()).map(vertex).collect();
+        let vertices: Vec<Vertex> = (0..count).map(vertex).collect();
         let limit = gpu.device.limits().max_buffer_size;
         let need = (size_of_val(&vertices[..]) as u64).max(size_of_val(&mesh.triangles[..]) as u64);
         if need > limit {
             return Err(Error::Unsupported { what: "buffers", need, have: limit });
         }
         let index_count = u32::try_from(3 * mesh.triangles.len());
+        let tangents = |tangents| gpu.buffer("tangents", bytemuck::cast_slice(tangents), BufferUsages::VERTEX);
         Ok(Self {
             vertices: gpu.buffer("vertices", bytemuck::cast_slice(&vertices), BufferUsages::VERTEX),
             indices: gpu.buffer("indices", bytemuck::cast_slice(&mesh.triangles), BufferUsages::INDEX),
-            tangents: match known {
-                VertexData::Tangents(tangents) => {
-                    Some(gpu.buffer("tangents", bytemuck::cast_slice(tangents), BufferUsages::VERTEX))
-                }
-                VertexData::Points(_) | VertexData::Ambient(_) => None,
-            },
+            tangents: known.tangents.map(tangents),
             index_count: index_count.map_err(|_| Error::Mesh("more than 2³² indices".to_owned()))?,
-            points: match known {
-                VertexData::Points(points) => points.iter().map(|point| *point as usize + 1).max().unwrap_or(0),
-                VertexData::Ambient(_) | VertexData::Tangents(_) => 0,
-            },
-            placement: *placement,
+            points: known.points.into_iter().flatten().max().map_or(0, |largest| *largest as usize + 1),
+            has_uvs: mesh.uvs.is_some(),
+            bounds: mesh.bounding_sphere(),
         })
+    }
+
+    /// Refuses a mesh that was uploaded without texture coordinates.
+    pub(crate) fn expect_uvs(&self) -> Result<()> {
+        let missing = || Error::Mesh("it has no texture coordinates, by which the material lies on it".to_owned());
+        self.has_uvs.then_some(()).ok_or_else(missing)
     }
 
     /// Refuses a mesh that was uploaded without tangents.

@@ -1,19 +1,19 @@
 //! From files and meshes to what is on the device, one file for each kind.
 
-mod ambient;
 mod bssrdf;
 mod btf;
 mod btf_images;
+mod material;
 mod mesh;
 mod patch_layers;
 mod points;
 mod separable;
 mod splat;
 
-pub use ambient::AmbientTransfer;
-pub use bssrdf::{Material, layout_of};
+pub use bssrdf::{BssrdfPlanes, layout_of};
 pub use btf::BtfMaterial;
 pub use btf_images::BtfImages;
+pub use material::{GatherMaterial, Material};
 pub use mesh::{GpuMesh, VertexData};
 pub(crate) use mesh::{TANGENTS, VERTICES};
 pub use points::GpuPoints;

@@ -51,13 +51,13 @@ impl GpuPoints {
         })
     }
 
-    /// Refuses points that are fewer than a mesh names, or not `bound` in number.
-    pub(crate) fn expect(&self, mesh: &GpuMesh, bound: usize) -> Result<()> {
-        if mesh.points <= self.count && self.count == bound {
+    /// Refuses points that are fewer than a mesh names.
+    pub(crate) fn expect(&self, mesh: &GpuMesh) -> Result<()> {
+        if (1..=self.count).contains(&mesh.points) {
             return Ok(());
         }
-        let (have, want) = (self.count, mesh.points.max(bound));
-        Err(Error::Device(format!("{have} points for a mesh that names {want}: they are of another surface")))
+        let (have, want) = (self.count, mesh.points);
+        Err(Error::Usage(format!("{have} points for a mesh that names {want}: they are of another surface")))
     }
 
     /// Exitance of every point as it was last gathered, linear Rec. 709, relative to irradiance in the scene's unit.

@@ -1,26 +1,13 @@
 //! Materials for separable blurs on the device.
 
 use subsurf_decoder::bssrdf::BssrdfHeader;
-use subsurf_shaders::separable::SeparableBasis;
+use subsurf_shaders::separable::ProjectedBasis;
 use subsurf_shaders::uniform;
-use subsurf_shaders::{Rgb, cpu};
 use wgpu::Buffer;
 
 use super::patch_layers::PatchLayers;
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, Tracked};
-
-/// Refuses a basis whose tables are not as long as it says.
-pub(super) fn whole(basis: &SeparableBasis) -> Result<()> {
-    let size = basis.size;
-    let error = || Error::Device(format!("a basis that has not as many numbers as {size:?} and the patch take"));
-    basis.is_whole().then_some(()).ok_or_else(error)
-}
-
-/// Albedo of every pixel under uniform light.
-pub(super) fn albedo(basis: &SeparableBasis) -> Vec<Rgb> {
-    cpu::separable(basis, &vec![[1.0; 3]; basis.coefficients_of(0).len()])
-}
 
 /// Separable material on the device: coefficients c_l and albedo over the patch, and blocks of the cascade of Gaussians.
 #[derive(Debug)]
@@ -36,21 +23,20 @@ pub struct SeparableMaterial {
 }
 
 impl SeparableMaterial {
-    /// Uploads a basis; coefficients become half floats.
+    /// Uploads the basis of a file, [`ProjectedBasis::of`]; coefficients become half floats.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Device`] if some are missing.
-    pub fn upload(gpu: &Gpu, basis: &SeparableBasis) -> Result<Self> {
-        whole(basis)?;
-        let terms = basis.size.terms;
-        let layers = (0..terms).map(|l| basis.coefficients_of(l).to_vec()).chain([albedo(basis)]);
+    /// [`Error::Unsupported`] if the device takes no texture of that size.
+    pub fn upload(gpu: &Gpu, basis: &ProjectedBasis) -> Result<Self> {
+        let terms = basis.size().terms;
+        let layers = (0..terms).map(|l| basis.coefficients_of(l).to_vec()).chain([basis.albedo()]);
         let stages = uniform::BlurStage::cascade(basis);
         Ok(Self {
-            header: basis.header,
+            header: *basis.header(),
             terms,
-            layers: PatchLayers::upload(gpu, &basis.header, layers.collect())?,
+            layers: PatchLayers::upload(gpu, basis.header(), layers.collect())?,
             transmission: gpu.uniform("transmission", &uniform::Transmission::new(basis)),
-            narrowest_pixels: basis.sigmas.first().copied().unwrap_or(1.0),
+            narrowest_pixels: basis.sigmas().first().copied().unwrap_or(1.0),
             stages: stages.iter().map(|axes| axes.map(|block| gpu.uniform("stage", &block))).collect(),
         })
     }
@@ -72,7 +58,7 @@ impl SeparableMaterial {
         if self.terms == terms {
             return Ok(());
         }
-        Err(Error::Device(format!("this renderer draws L = {terms}, the material has L = {}", self.terms)))
+        Err(Error::Usage(format!("this renderer draws L = {terms}, the material has L = {}", self.terms)))
     }
 
     /// Bytes of layers and blocks on the device.

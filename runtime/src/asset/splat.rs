@@ -1,13 +1,11 @@
 //! Materials for splats on the device.
 
 use subsurf_decoder::Bssrdf;
-use subsurf_shaders::Rgb;
-use subsurf_shaders::fit::softening_gain;
-use subsurf_shaders::separable::SeparableBasis;
+use subsurf_shaders::separable::albedo;
+use subsurf_shaders::{Rgb, softening_gain};
 
-use super::bssrdf::Material;
+use super::bssrdf::BssrdfPlanes;
 use super::patch_layers::PatchLayers;
-use super::separable::{albedo, whole};
 use crate::error::Result;
 use crate::gpu::Gpu;
 
@@ -15,30 +13,29 @@ use crate::gpu::Gpu;
 #[derive(Debug)]
 pub struct SplatMaterial {
     /// Planes of the file.
-    pub(crate) planes: Material,
+    pub(crate) planes: BssrdfPlanes,
     /// One layer: albedo under uniform light.
     pub(crate) albedo: PatchLayers,
-    /// SeparableBasis that give back the light that softened distances take, by [`softening_gain`].
+    /// Factors that give back the light that softened distances take, by [`softening_gain`].
     pub(crate) softening_gain: [Rgb; 8],
 }
 
 impl SplatMaterial {
-    /// Uploads the planes of a file as they stand in it, and the albedo that its separable basis gives.
+    /// Uploads the planes of a file as they stand in it, and its albedo, [`albedo`].
     ///
     /// # Errors
-    /// [`Error::Unsupported`](crate::Error::Unsupported) if the device takes no texture of that size; [`Error::Device`](crate::Error::Device) if some numbers of the basis are missing.
-    pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>, basis: &SeparableBasis) -> Result<Self> {
-        whole(basis)?;
+    /// [`Error::Unsupported`](crate::Error::Unsupported) if the device takes no texture of that size.
+    pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>) -> Result<Self> {
         Ok(Self {
-            planes: Material::upload(gpu, material)?,
+            planes: BssrdfPlanes::upload(gpu, material)?,
             softening_gain: softening_gain(material),
-            albedo: PatchLayers::upload(gpu, material.header(), vec![albedo(basis)])?,
+            albedo: PatchLayers::upload(gpu, material.header(), vec![albedo(material)])?,
         })
     }
 
     /// Planes of the file.
     #[must_use]
-    pub fn planes(&self) -> &Material {
+    pub fn planes(&self) -> &BssrdfPlanes {
         &self.planes
     }
 

@@ -1,9 +1,18 @@
-//! Frames: sizes of their buffers within a budget, and their passes, recorded one after the other.
+//! Frames: what the host shows, sizes of their buffers within a budget, and their passes, recorded one after the other.
 
+mod draw;
+mod input;
 mod options;
-pub(crate) mod plan;
+mod picture;
+mod plan;
+mod prepare;
 mod renderer;
 
-pub use options::{BACKGROUND, RuntimeOptions};
+pub(crate) use draw::Placed;
+pub use input::{Input, Object, Target};
+pub use options::{BACKGROUND, BACKGROUND_COLOUR, RuntimeOptions};
+pub use picture::PictureTarget;
 pub use plan::Plan;
-pub use renderer::{Frame, Renderer};
+pub(crate) use plan::light_layers;
+pub use prepare::Frame;
+pub use renderer::Renderer;

@@ -2,39 +2,51 @@
 
 use wgpu::{Color, TextureFormat};
 
-use crate::technique::BtfOptions;
+use crate::gpu::DEPTH;
+use crate::technique::{BtfOptions, DepthFormat};
 
 /// Budget of a renderer, and what it draws to.
 #[derive(Clone, Copy, Debug)]
 pub struct RuntimeOptions {
-    /// Most bytes on the device, those of meshes and materials included; no limit if `None`. The target is the
-    /// caller's, and what [`crate::Renderer::picture`] draws to and reads back is not counted.
+    /// Most bytes on the device, those of meshes and materials included; no limit if `None`. What frames are drawn to is the
+    /// host's, and counts only if it is a [`crate::PictureTarget`].
     pub budget_bytes: Option<u64>,
-    /// Format of the picture. Where it is one of sRGB, the device encodes; else the shader does.
+    /// Format of colour. Where it is one of sRGB, the device encodes; else the shader does, after tone mapping.
     pub format: TextureFormat,
-    /// Samples to a pixel of the picture, 1 or 4.
+    /// Samples to a pixel of colour and depth, 1 or 4.
     pub samples: u32,
+    /// Format of depth, and its direction.
+    pub depth: DepthFormat,
+    /// Whether light is tone-mapped to 0 to 1 (Khronos PBR Neutral); else colour is linear radiance times exposure, Rec. 709.
+    pub tone_mapping: bool,
     /// Texels to a side of what each light sees: a power of two, at least 128.
     pub light_texels: u32,
+    /// Most objects of a frame.
+    pub objects: u32,
     /// Filtering and sampling of BTFs.
     pub btf: BtfOptions,
-    /// Colour behind the mesh, in the values that the target takes.
-    pub background: Color,
 }
 
 impl Default for RuntimeOptions {
     fn default() -> Self {
-        let grey = f64::from(BACKGROUND) / 255.0;
         Self {
             budget_bytes: None,
             format: TextureFormat::Rgba8Unorm,
             samples: 1,
+            depth: DepthFormat { format: DEPTH, is_reversed: false },
+            tone_mapping: true,
             light_texels: 512,
+            objects: 16,
             btf: BtfOptions::default(),
-            background: Color { r: grey, g: grey, b: grey, a: 1.0 },
         }
     }
 }
 
 /// Display value of red, green and blue of the usual background, 0 to 255: a dark grey.
 pub const BACKGROUND: u8 = 46;
+
+/// The usual background as a target takes it that does not encode.
+pub const BACKGROUND_COLOUR: Color = {
+    let grey = BACKGROUND as f64 / 255.0;
+    Color { r: grey, g: grey, b: grey, a: 1.0 }
+};

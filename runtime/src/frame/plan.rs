@@ -1,8 +1,6 @@
 //! Sizes of the buffers of a frame, and the bytes that they take, before any of them is made.
 
-use subsurf_scene::{Camera, MAX_LIGHTS};
-use subsurf_shaders::uniform::Upsampling;
-use wgpu::TextureFormat;
+use subsurf_scene::{MAX_LIGHTS, View};
 
 use crate::error::{Error, Result};
 use crate::gpu::DEPTH;
@@ -18,8 +16,8 @@ pub struct Plan {
     pub lights: u32,
     /// Pixels of the picture to a side of a texel of the maps that scatter light.
     pub divisor: u32,
-    /// Samples to a pixel of the picture, 1 or 4.
-    pub samples: u32,
+    /// Whether lights' views have coarser levels, from which splats are drawn.
+    pub has_light_levels: bool,
 }
 
 /// Bytes of a texel of half floats.
@@ -37,33 +35,23 @@ impl Plan {
     }
 
     /// Texels of the maps that a length spans which is as long as it is far from the eye.
-    pub(crate) fn texels_per_tangent(&self, camera: &Camera) -> f32 {
+    pub(crate) fn texels_per_tangent(&self, view: &View) -> f32 {
         #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
         let height = self.map_size()[1] as f32;
-        0.5 * height / (0.5 * camera.fov_y_rad).tan()
+        0.5 * height * view.focal().y
     }
 
-    /// Block of how pixels of the picture lie on the maps, when the middle of the mesh is `middle_mm` away.
-    pub(crate) fn upsampling(&self, camera: &Camera, middle_mm: f32) -> Upsampling {
-        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-        let [maps, picture] = [self.map_size(), self.size].map(|size| size.map(|side| side as f32));
-        // Surfaces that are not seen at too flat an angle are the same two texels away.
-        let near_mm = 2.0 * middle_mm.max(1e-3) / self.texels_per_tangent(camera);
-        Upsampling { texels_per_pixel: [maps[0] / picture[0], maps[1] / picture[1]], near_mm, pad: 0 }
+    /// Mipmap levels of lights' views.
+    pub(crate) fn light_levels(&self) -> u32 {
+        if self.has_light_levels { self.light_texels.ilog2() } else { 1 }
     }
 
-    /// Bytes of shadow maps with `levels` levels, and of their depth.
-    pub(crate) fn light_bytes(&self, levels: u32) -> u64 {
+    /// Bytes of lights' views, and of their depth.
+    pub(crate) fn light_bytes(&self) -> u64 {
         let texels = |level: u32| u64::from((self.light_texels >> level).max(1)).pow(2);
-        let views = (0..levels).map(texels).sum::<u64>() * u64::from(light_layers(self.lights)) * 3 * HALF4;
-        views + texels(0) * bytes_of(DEPTH)
-    }
-
-    /// Bytes of depth and samples of the picture.
-    pub(crate) fn picture_bytes(&self, format: TextureFormat) -> u64 {
-        let pixels = u64::from(self.size[0]).saturating_mul(self.size[1].into()).saturating_mul(self.samples.into());
-        let coloured = if self.samples > 1 { bytes_of(format) } else { 0 };
-        pixels.saturating_mul(bytes_of(DEPTH) + coloured)
+        let views =
+            (0..self.light_levels()).map(texels).sum::<u64>() * u64::from(light_layers(self.lights)) * 3 * HALF4;
+        views + texels(0) * u64::from(DEPTH.block_copy_size(None).unwrap_or(4))
     }
 
     /// Next cheaper plan, if there is one.
@@ -105,21 +93,14 @@ pub(crate) fn light_layers(lights: u32) -> u32 {
     lights.clamp(2, most)
 }
 
-/// Bytes of a texel.
-fn bytes_of(format: TextureFormat) -> u64 {
-    u64::from(format.block_copy_size(None).unwrap_or(4))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn plans_shrink_until_they_fit_or_nothing_is_left() {
-        let plan = Plan { size: [1280, 720], light_texels: 512, lights: 1, divisor: 1, samples: 4 };
-        let bytes = |plan: &Plan| {
-            plan.light_bytes(1) + plan.picture_bytes(TextureFormat::Rgba8Unorm) + u64::from(plan.map_size()[0]) * 720
-        };
+        let plan = Plan { size: [1280, 720], light_texels: 512, lights: 1, divisor: 1, has_light_levels: false };
+        let bytes = |plan: &Plan| plan.light_bytes() + u64::from(plan.map_size()[0]) * 720;
         assert_eq!(plan.within(None, 0, bytes).unwrap(), plan);
         assert_eq!(plan.within(Some(1 << 30), 0, bytes).unwrap(), plan);
         let smaller = plan.within(Some(bytes(&plan) - 1), 0, bytes).unwrap();

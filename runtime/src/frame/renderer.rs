@@ -1,248 +1,105 @@
-//! Frames: what lights see, light that scatters by a technique, and the picture, recorded one after the other.
+//! Pipelines of the techniques that a host wants; made at load, never in a frame.
 
+use std::fmt::Debug;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
-use subsurf_scene::Scene;
-use subsurf_shaders::{MaterialLayout, uniform};
-use wgpu::{BindGroup, BindingResource, CommandEncoder, CommandEncoderDescriptor, TextureView};
+use subsurf_shaders::{BtfLayout, MaterialLayout};
 
 use super::options::RuntimeOptions;
-use super::plan::{self, LEAST_LIGHT_TEXELS, Plan};
+use super::plan::LEAST_LIGHT_TEXELS;
 use crate::error::{Error, Result};
-use crate::gpu::{DEPTH, Gpu, Surface2d, TextureSpec};
-use crate::technique::common::{Common, Lap, reflection_sampler};
-use crate::technique::drawable::{Drawable, Technique};
-use crate::technique::mesh_pass::{MeshPass, Target};
-use crate::technique::pipelines::{Bindings, Pipelines};
-use crate::technique::tsm::{self, TranslucentShadowMaps};
-use crate::technique::{btf, gather, separable, splat};
+use crate::gpu::Gpu;
+use crate::technique::{MeshPass, Technique, btf, gather, separable, splat, tsm};
 
-/// Bytes that uniform blocks of all passes are sure not to exceed.
-const UNIFORMS: u64 = 32 << 10;
-
-/// Pipelines of one technique; made at load, never in a frame.
+/// Pipelines of the techniques that a host wants; made at load, never in a frame.
 #[derive(Debug)]
 pub struct Renderer {
-    options: RuntimeOptions,
-    technique: Technique,
-    tsm_render: MeshPass,
-    pipelines: Arc<dyn Pipelines>,
+    pub(super) options: RuntimeOptions,
+    pub(super) tsm_render: MeshPass,
+    pub(super) gather: Compiled<MaterialLayout, gather::Passes>,
+    pub(super) splat: Compiled<MaterialLayout, splat::Passes>,
+    pub(super) separable: Compiled<usize, separable::Passes>,
+    pub(super) btf: Compiled<BtfLayout, btf::Passes>,
 }
 
-/// Buffers, maps and bind groups for pictures of one size of one drawable.
+/// Pipelines of one technique, by what they depend on.
 #[derive(Debug)]
-pub struct Frame {
-    plan: Plan,
-    common: Common,
-    lights: TranslucentShadowMaps,
-    scene: BindGroup,
-    depth: Surface2d,
-    /// Target of pixels with several samples.
-    samples: Option<Surface2d>,
-    technique: Technique,
-    bindings: Box<dyn Bindings>,
+pub(super) struct Compiled<K, P>(Vec<(K, Arc<P>)>);
+
+impl<K: PartialEq + Copy + Debug, P> Compiled<K, P> {
+    fn add(&mut self, key: K, compile: impl FnOnce() -> Result<P>) -> Result<()> {
+        if self.0.iter().all(|(of, _)| *of != key) {
+            self.0.push((key, Arc::new(compile()?)));
+        }
+        Ok(())
+    }
+
+    /// Pipelines for a key.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if they were not compiled.
+    pub(super) fn of(&self, key: K) -> Result<&Arc<P>> {
+        let missing = || Error::Usage(format!("no pipelines for {key:?}: call Renderer::compile at load"));
+        self.0.iter().find(|(of, _)| *of == key).map(|(_, passes)| passes).ok_or_else(missing)
+    }
 }
 
 impl Renderer {
-    /// Compiles the passes of a technique.
+    /// Compiles what all techniques share.
     ///
     /// # Errors
-    /// [`Error::Device`] if the driver refuses them; captures are not drawn on meshes. [`Error::NoHalfFloats`] for splats
-    /// where there is nothing to add them up in.
-    pub fn new(gpu: &Gpu, technique: Technique, options: RuntimeOptions) -> Result<Self> {
-        let RuntimeOptions { format, samples, light_texels, .. } = options;
+    /// [`Error::Usage`] if an option is out of range; [`Error::Device`] if the driver refuses a pass.
+    pub fn new(gpu: &Gpu, options: RuntimeOptions) -> Result<Self> {
+        let RuntimeOptions { light_texels, objects, .. } = options;
         if !light_texels.is_power_of_two() || light_texels < LEAST_LIGHT_TEXELS {
-            return Err(Error::Device(format!(
+            return Err(Error::Usage(format!(
                 "light_texels is {light_texels}; it must be a power of two, at least {LEAST_LIGHT_TEXELS}"
             )));
         }
-        if let Technique::Gather(MaterialLayout::Capture) | Technique::Splat(MaterialLayout::Capture) = technique {
-            return Err(Error::Device("captures are drawn flat, not on meshes".to_owned()));
+        if objects == 0 {
+            return Err(Error::Usage("objects is 0: a frame needs room for one at least".to_owned()));
         }
-        let pipelines: Arc<dyn Pipelines> = match technique {
-            Technique::Gather(layout) => Arc::new(gather::Passes::new(gpu, layout, format, samples)?),
-            Technique::Splat(layout) => Arc::new(splat::Passes::new(gpu, layout, format, samples)?),
-            Technique::Separable(terms) => Arc::new(separable::Passes::new(gpu, terms, format, samples)?),
-            Technique::Btf(layout) => Arc::new(btf::Passes::new(gpu, layout, options.btf, format, samples)?),
-        };
-        Ok(Self { options, technique, tsm_render: tsm::pass(gpu)?, pipelines })
-    }
-
-    /// Makes room for pictures of `size` pixels of a drawable, within the budget: shadow maps and maps become coarser until
-    /// everything fits.
-    ///
-    /// # Errors
-    /// [`Error::OverBudget`] if even the coarsest does not, before anything is allocated;
-    /// [`Error::Device`] if the drawable is for another technique.
-    pub fn prepare(&self, gpu: &Gpu, drawable: &Drawable<'_>, scene: &Scene, size: [u32; 2]) -> Result<Frame> {
-        let lights = u32::try_from(scene.lights.len()).unwrap_or(u32::MAX);
-        let plan = Plan {
-            size,
-            light_texels: self.options.light_texels,
-            lights: lights.clamp(1, plan::light_layers(lights)),
-            divisor: self.divisor(drawable, scene, size),
-            samples: self.options.samples,
-        };
-        let placement = &drawable.mesh().placement;
-        let bytes = |plan: &Plan| {
-            let of_picture = plan.picture_bytes(self.options.format);
-            self.pipelines.bytes(plan, placement) + of_picture + Common::BYTES + UNIFORMS
-        };
-        let plan = plan.within(self.options.budget_bytes, gpu.ledger().bytes(), bytes)?;
-        let common = Common::new(gpu)?;
-        let levels = self.pipelines.light_levels(&plan, placement);
-        let lights = TranslucentShadowMaps::new(gpu, &self.tsm_render, &common.block, &plan, levels)?;
-        let bindings = self.pipelines.clone().bind(gpu, drawable, &common, &lights, &plan)?;
-        let sampler = reflection_sampler(gpu);
-        let of_scene = [
-            common.block.as_entire_binding(),
-            BindingResource::TextureView(&lights.all[0]),
-            BindingResource::TextureView(&common.reflections.view),
-            BindingResource::Sampler(&sampler),
-        ];
-        let attachment = |label, format, samples| {
-            gpu.texture(&TextureSpec { samples, ..TextureSpec::attachment(label, size, format) })
-        };
-        Ok(Frame {
-            scene: self.pipelines.shade().bind(gpu, 0, &of_scene)?,
-            depth: attachment("depth", DEPTH, plan.samples)?,
-            samples: match plan.samples {
-                1 => None,
-                samples => Some(attachment("samples", self.options.format, samples)?),
-            },
-            plan,
-            common,
-            lights,
-            technique: self.technique,
-            bindings,
+        Ok(Self {
+            options,
+            tsm_render: tsm::pass(gpu)?,
+            gather: Compiled(Vec::new()),
+            splat: Compiled(Vec::new()),
+            separable: Compiled(Vec::new()),
+            btf: Compiled(Vec::new()),
         })
     }
 
-    /// Pixels of the picture to a side of a texel of the maps.
-    fn divisor(&self, drawable: &Drawable<'_>, scene: &Scene, size: [u32; 2]) -> u32 {
-        let distance_mm = scene.camera.eye_mm.distance(drawable.mesh().placement.bounds.centre_mm);
-        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-        let pixels_per_mm = 0.5 * size[1] as f32 / (0.5 * scene.camera.fov_y_rad).tan() / distance_mm;
-        self.pipelines.divisor(drawable, self.options.light_texels, pixels_per_mm)
-    }
-
-    /// Draws a scene to a view of the format and size that were agreed on.
+    /// Compiles what all techniques share, and one technique.
     ///
     /// # Errors
-    /// [`Error::Device`] if frame or drawable are for another technique, or the device is lost.
-    pub fn draw(
-        &self,
-        gpu: &Gpu,
-        frame: &mut Frame,
-        drawable: &Drawable<'_>,
-        scene: &Scene,
-        target: &TextureView,
-    ) -> Result<()> {
-        self.update(gpu, frame, drawable, scene)?;
-        gpu.checked(|| {
-            let encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-            let encoder = self.record(encoder, frame, drawable, scene, target, &mut |_, encoder| encoder);
-            gpu.queue.submit([encoder.finish()]);
-        })
+    /// As [`Renderer::new`] and [`Renderer::compile`].
+    pub fn for_technique(gpu: &Gpu, technique: Technique, options: RuntimeOptions) -> Result<Self> {
+        let mut renderer = Self::new(gpu, options)?;
+        renderer.compile(gpu, technique)?;
+        Ok(renderer)
     }
 
-    /// Draws pass by pass, and gives the name of each and the time until the device was through with it. The sum is more than
-    /// a frame takes, for nothing overlaps.
+    /// Compiles the passes of a technique, unless they are.
     ///
     /// # Errors
-    /// [`Error::Device`] if frame or drawable are for another technique, or the device is lost.
-    pub fn draw_timed(
-        &self,
-        gpu: &Gpu,
-        frame: &mut Frame,
-        drawable: &Drawable<'_>,
-        scene: &Scene,
-        target: &TextureView,
-    ) -> Result<Vec<(&'static str, Duration)>> {
-        let mut times = Vec::new();
-        let begin = Instant::now();
-        self.update(gpu, frame, drawable, scene)?;
-        gpu.finish()?;
-        times.push(("update", begin.elapsed()));
-        let new = || gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-        let mut failed = Ok(());
-        gpu.checked(|| {
-            let mut begin = Instant::now();
-            let mut lap = |name, encoder: CommandEncoder| {
-                gpu.queue.submit([encoder.finish()]);
-                failed = gpu.finish().and(std::mem::replace(&mut failed, Ok(())));
-                times.push((name, begin.elapsed()));
-                begin = Instant::now();
-                new()
-            };
-            self.record(new(), frame, drawable, scene, target, &mut lap);
-        })?;
-        failed?;
-        Ok(times)
-    }
-
-    /// Uploads what has changed since the last frame.
-    fn update(&self, gpu: &Gpu, frame: &mut Frame, drawable: &Drawable<'_>, scene: &Scene) -> Result<()> {
-        if frame.technique != self.technique {
-            return Err(Error::Device("the frame is for another technique than the renderer".to_owned()));
+    /// [`Error::Device`] if the driver refuses them; [`Error::Usage`] for captures, which are not drawn on meshes;
+    /// [`Error::NoHalfFloats`] for splats where there is nothing to add them up in.
+    pub fn compile(&mut self, gpu: &Gpu, technique: Technique) -> Result<()> {
+        let options = &self.options;
+        match technique {
+            Technique::Gather(MaterialLayout::Capture) | Technique::Splat(MaterialLayout::Capture) => {
+                Err(Error::Usage("captures are drawn flat, not on meshes".to_owned()))
+            }
+            Technique::Gather(layout) => self.gather.add(layout, || gather::Passes::new(gpu, layout, options)),
+            Technique::Splat(layout) => self.splat.add(layout, || splat::Passes::new(gpu, layout, options)),
+            Technique::Separable(terms) => self.separable.add(terms, || separable::Passes::new(gpu, terms, options)),
+            Technique::Btf(layout) => self.btf.add(layout, || btf::Passes::new(gpu, layout, options)),
         }
-        let plan = frame.plan;
-        let mut block = uniform::Scene::new(scene, &drawable.mesh().placement, plan.size, plan.light_texels);
-        // Lights that came after the frame was prepared have no view: they shine once it is prepared anew.
-        block.lights = block.lights.min(plan.lights);
-        gpu.queue.write_buffer(&frame.common.block, 0, bytemuck::bytes_of(&block));
-        frame.common.show(gpu, scene)?;
-        frame.bindings.update(gpu, drawable, scene, &block, &plan)
     }
 
-    /// Records all passes of a frame; `lap` is called after each.
-    fn record(
-        &self,
-        mut encoder: CommandEncoder,
-        frame: &Frame,
-        drawable: &Drawable<'_>,
-        scene: &Scene,
-        target: &TextureView,
-        lap: Lap<'_>,
-    ) -> CommandEncoder {
-        let mesh = drawable.mesh();
-        let lights = scene.lights.len().min(frame.plan.lights as usize);
-        frame.lights.record(&mut encoder, &self.tsm_render, mesh, lights);
-        encoder = lap("shadow maps", encoder);
-        encoder = frame.bindings.record(encoder, mesh, lights, &frame.plan, lap);
-        let (view, resolved) = match &frame.samples {
-            Some(samples) => (&samples.view, Some(target)),
-            None => (target, None),
-        };
-        let target = Target { view, clear: self.options.background, resolved };
-        let groups = [&frame.scene, frame.bindings.shade()];
-        self.pipelines.shade().record(&mut encoder, &[target], &frame.depth.view, &groups, mesh);
-        lap("shade", encoder)
-    }
-
-    /// Draws a scene and reads the picture back: 8-bit rgb, row by row from the top.
-    ///
-    /// # Errors
-    /// [`Error::Device`] as [`Renderer::draw`], or if the format of the renderer has not four bytes.
-    pub fn picture(
-        &self,
-        gpu: &Gpu,
-        frame: &mut Frame,
-        drawable: &Drawable<'_>,
-        scene: &Scene,
-    ) -> Result<Vec<[u8; 3]>> {
-        let target = gpu.target(frame.plan.size, self.options.format)?;
-        self.draw(gpu, frame, drawable, scene, target.view())?;
-        let texels = gpu.read_picture(&target)?;
-        Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect())
-    }
-}
-
-impl Frame {
-    /// Sizes that were chosen within the budget.
+    /// Options that it was made with.
     #[must_use]
-    pub fn plan(&self) -> &Plan {
-        &self.plan
+    pub fn options(&self) -> &RuntimeOptions {
+        &self.options
     }
 }

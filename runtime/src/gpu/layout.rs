@@ -11,6 +11,11 @@ use wgpu::{
 pub(crate) fn layout_entries(bindings: &[Binding], format: TargetFormat) -> Vec<BindGroupLayoutEntry> {
     let texture =
         |sample_type, view_dimension| BindingType::Texture { sample_type, view_dimension, multisampled: false };
+    let uniform = |has_dynamic_offset| BindingType::Buffer {
+        ty: BufferBindingType::Uniform,
+        has_dynamic_offset,
+        min_binding_size: None,
+    };
     let unfiltered = TextureSampleType::Float { filterable: false };
     let target = match format {
         TargetFormat::Half => unfiltered,
@@ -23,11 +28,8 @@ pub(crate) fn layout_entries(bindings: &[Binding], format: TargetFormat) -> Vec<
             binding,
             visibility: ShaderStages::VERTEX_FRAGMENT,
             ty: match kind {
-                Binding::Uniform => BindingType::Buffer {
-                    ty: BufferBindingType::Uniform,
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
+                Binding::Uniform => uniform(false),
+                Binding::Object => uniform(true),
                 Binding::Float => texture(unfiltered, TextureViewDimension::D2),
                 Binding::FloatLayers => texture(unfiltered, TextureViewDimension::D2Array),
                 Binding::Target => texture(target, TextureViewDimension::D2),

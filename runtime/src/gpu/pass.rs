@@ -34,19 +34,46 @@ impl FullscreenPass {
         groups: &[&BindGroup],
         rows: Rows,
     ) {
+        self.record_for(encoder, targets, groups, None, rows);
+    }
+
+    /// The same with the block of an object at an offset, in bind group 2.
+    fn record_for(
+        &self,
+        encoder: &mut CommandEncoder,
+        targets: &[&TextureView],
+        groups: &[&BindGroup],
+        object: Option<(&BindGroup, u32)>,
+        rows: Rows,
+    ) {
         // What stood there before is only wanted by bands after the first: loading it costs a tiler dearly.
         let load = if rows.first == 0 { LoadOp::Clear(Color::TRANSPARENT) } else { LoadOp::Load };
         let attachments: Vec<_> = targets.iter().map(|view| Some(attachment(view, load))).collect();
         let mut pass = self.0.begin(encoder, &attachments, None, groups);
+        if let Some((blocks, offset)) = object {
+            pass.set_bind_group(2, blocks, &[offset]);
+        }
         pass.set_scissor_rect(0, rows.first, rows.width, rows.count);
         pass.draw(0..3, 0..1);
     }
 
     /// Draws `rows` rows of one target, in a submission of its own.
     pub(crate) fn draw(&self, gpu: &Gpu, target: &TextureView, groups: &[&BindGroup], rows: Rows) -> Result<()> {
+        self.draw_for(gpu, target, groups, None, rows)
+    }
+
+    /// The same with the block of an object at an offset, in bind group 2.
+    pub(crate) fn draw_for(
+        &self,
+        gpu: &Gpu,
+        target: &TextureView,
+        groups: &[&BindGroup],
+        object: Option<(&BindGroup, u32)>,
+        rows: Rows,
+    ) -> Result<()> {
         gpu.checked(|| {
             let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-            self.record(&mut encoder, &[target], groups, rows);
+            self.record_for(&mut encoder, &[target], groups, object, rows);
             gpu.queue.submit([encoder.finish()]);
         })
     }

@@ -103,20 +103,20 @@ impl Pipeline {
         gpu.checked(|| gpu.device.create_bind_group(&BindGroupDescriptor { label: None, layout, entries: &entries }))
     }
 
-    /// Begins a pass that draws to `attachments`, with `groups` bound from 0 on. Depth is cleared to 1 and discarded at the end.
+    /// Begins a pass that draws to `attachments`, with `groups` bound from 0 on.
     pub(crate) fn begin<'e>(
         &self,
         encoder: &'e mut CommandEncoder,
         attachments: &[Option<RenderPassColorAttachment<'_>>],
-        depth: Option<&TextureView>,
+        depth: Option<(&TextureView, Operations<f32>)>,
         groups: &[&BindGroup],
     ) -> RenderPass<'e> {
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
             label: None,
             color_attachments: attachments,
-            depth_stencil_attachment: depth.map(|view| RenderPassDepthStencilAttachment {
+            depth_stencil_attachment: depth.map(|(view, operations)| RenderPassDepthStencilAttachment {
                 view,
-                depth_ops: Some(Operations { load: LoadOp::Clear(1.0), store: StoreOp::Discard }),
+                depth_ops: Some(operations),
                 stencil_ops: None,
             }),
             timestamp_writes: None,

@@ -8,11 +8,11 @@ use super::device::Gpu;
 use super::resource::{Surface2d, TextureSpec, extent};
 use crate::error::{Error, Result};
 
-/// Picture on the device.
+/// Colour of a picture on the device.
 #[derive(Debug)]
-pub struct PictureTarget(pub(crate) Surface2d);
+pub struct ColourTarget(pub(crate) Surface2d);
 
-impl PictureTarget {
+impl ColourTarget {
     /// View to draw to.
     #[must_use]
     pub fn view(&self) -> &wgpu::TextureView {
@@ -25,15 +25,15 @@ impl Gpu {
     ///
     /// # Errors
     /// [`Error::Unsupported`] if `size` is more than the device takes.
-    pub fn target(&self, size: [u32; 2], format: wgpu::TextureFormat) -> Result<PictureTarget> {
-        Ok(PictureTarget(self.texture(&TextureSpec::target("picture", size, format))?))
+    pub fn target(&self, size: [u32; 2], format: wgpu::TextureFormat) -> Result<ColourTarget> {
+        Ok(ColourTarget(self.texture(&TextureSpec::target("picture", size, format))?))
     }
 
     /// Texels of a picture, row by row from the top, as they stand in it; the picture must have four bytes to a texel.
     ///
     /// # Errors
     /// [`Error::Device`] if the device is lost.
-    pub fn read_picture(&self, target: &PictureTarget) -> Result<Vec<[u8; 4]>> {
+    pub fn read_picture(&self, target: &ColourTarget) -> Result<Vec<[u8; 4]>> {
         self.read(&target.0.texture)
     }
 

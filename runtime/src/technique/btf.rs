@@ -2,19 +2,16 @@
 
 use std::sync::Arc;
 
-use subsurf_scene::Scene;
 use subsurf_shaders::BtfLayout;
 use subsurf_shaders::passes::{Choice, table};
-use subsurf_shaders::uniform::{self, BtfFiltering};
-use wgpu::{BindGroup, Buffer, TextureFormat};
+use subsurf_shaders::uniform::BtfFiltering;
+use wgpu::{BindGroup, Buffer};
 
-use super::common::Common;
-use super::drawable::Drawable;
+use super::bindings::Bindings;
 use super::mesh_pass::MeshPass;
-use super::pipelines::{Bindings, Pipelines, wrong_drawable};
-use super::tsm::TranslucentShadowMaps;
+use crate::asset::BtfMaterial;
 use crate::error::{Error, Result};
-use crate::frame::plan::Plan;
+use crate::frame::RuntimeOptions;
 use crate::gpu::{Gpu, Tracked};
 
 /// Filtering and sampling of BTFs.
@@ -39,7 +36,6 @@ impl Default for BtfOptions {
 /// Pipeline of BTFs of one layout.
 #[derive(Debug)]
 pub(crate) struct Passes {
-    layout: BtfLayout,
     options: BtfOptions,
     shade: MeshPass,
 }
@@ -47,74 +43,45 @@ pub(crate) struct Passes {
 /// Bind group of one material of a BTF.
 #[derive(Debug)]
 struct Bound {
+    passes: Arc<Passes>,
     #[expect(dead_code, reason = "kept in the ledger as long as the device has it")]
     texture: Tracked<Buffer>,
     shade: BindGroup,
 }
 
 impl Passes {
-    pub(crate) fn new(
-        gpu: &Gpu,
-        layout: BtfLayout,
-        options: BtfOptions,
-        format: TextureFormat,
-        samples: u32,
-    ) -> Result<Self> {
-        let variant = table::SHADE_BTF.with(Choice::LitBtf(layout, options.samples > 0));
-        let shade = MeshPass::textured_picture(gpu, variant, format, samples)?;
-        Ok(Self { layout, options, shade })
-    }
-}
-
-impl Pipelines for Passes {
-    fn shade(&self) -> &MeshPass {
-        &self.shade
+    pub(crate) fn new(gpu: &Gpu, layout: BtfLayout, options: &RuntimeOptions) -> Result<Self> {
+        let variant = table::SHADE_BTF.with(Choice::LitBtf(layout, options.btf.samples > 0));
+        Ok(Self { options: options.btf, shade: MeshPass::textured_picture(gpu, variant, options)? })
     }
 
-    fn bind(
-        self: Arc<Self>,
+    /// Binds one material of a BTF, by its number.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if there is none of that number.
+    pub(crate) fn bind(
+        self: &Arc<Self>,
         gpu: &Gpu,
-        drawable: &Drawable<'_>,
-        _common: &Common,
-        _lights: &TranslucentShadowMaps,
-        _plan: &Plan,
+        material: &BtfMaterial,
+        number: usize,
     ) -> Result<Box<dyn Bindings>> {
-        let Drawable::Btf { mesh, material, number } = drawable else {
-            return Err(wrong_drawable());
-        };
-        mesh.expect_tangents()?;
-        material.expect(self.layout)?;
         let count = material.textures().len();
-        let missing = || Error::Device(format!("material {number} of a BTF of {count}; they are counted from 0"));
+        let missing = || Error::Usage(format!("material {number} of a BTF of {count}; they are counted from 0"));
         let samples = self.options.samples.min(MAX_SAMPLES)
-            * match self.layout {
+            * match material.layout() {
                 BtfLayout::Nested => 1,
                 BtfLayout::Images => 4,
             };
-        let block = material.textures().get(*number).ok_or_else(missing)?.drawn(self.options.filtering, samples);
+        let block = material.textures().get(number).ok_or_else(missing)?.drawn(self.options.filtering, samples);
         let texture = gpu.uniform("BTF texture", &block);
         let [of_material, pixels] = material.resources();
         let shade = self.shade.bind(gpu, 1, &[of_material, pixels, texture.as_entire_binding()])?;
-        Ok(Box::new(Bound { texture, shade }))
+        Ok(Box::new(Bound { passes: self.clone(), texture, shade }))
     }
 }
 
 impl Bindings for Bound {
-    fn update(
-        &mut self,
-        _gpu: &Gpu,
-        drawable: &Drawable<'_>,
-        _scene: &Scene,
-        _block: &uniform::Scene,
-        _plan: &Plan,
-    ) -> Result<()> {
-        match drawable {
-            Drawable::Btf { mesh, .. } => mesh.expect_tangents(),
-            _ => Err(wrong_drawable()),
-        }
-    }
-
-    fn shade(&self) -> &BindGroup {
-        &self.shade
+    fn shade(&self) -> (&MeshPass, &BindGroup) {
+        (&self.passes.shade, &self.shade)
     }
 }

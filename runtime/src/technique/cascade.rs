@@ -1,5 +1,7 @@
 //! Cascade of Gaussian blurs over weighted irradiance maps.
 
+use std::sync::Arc;
+
 use subsurf_shaders::passes::{Choice, Pass};
 use wgpu::{BindGroup, BindingResource, CommandEncoder, TextureView};
 
@@ -41,7 +43,6 @@ impl Maps {
 /// Passes of the cascade, for maps that lie on a patch or on the screen.
 #[derive(Debug)]
 pub(crate) struct BlurPasses {
-    terms: usize,
     rows: FullscreenPass,
     columns: FullscreenPass,
 }
@@ -51,75 +52,89 @@ impl BlurPasses {
     pub(crate) fn new(gpu: &Gpu, [rows, columns]: [&'static Pass; 2], terms: usize) -> Result<Self> {
         let targets = vec![gpu.target_texture_format(); 2 * terms];
         Ok(Self {
-            terms,
             rows: FullscreenPass::new(gpu, rows.with(Choice::Terms(terms)), &targets[..terms])?,
             columns: FullscreenPass::new(gpu, columns.with(Choice::Terms(terms)), &targets)?,
         })
     }
 }
 
-/// Maps of one size, and bind groups of the passes that blur them.
+/// Maps of one size that a cascade blurs.
 #[derive(Debug)]
-pub(crate) struct Cascade {
+pub(crate) struct CascadeMaps {
     size: [u32; 2],
     /// Maps c_l E, blurred in place stage by stage; and the same between rows and columns.
-    pub(crate) maps: [Maps; 2],
+    pub(crate) irradiance: [Maps; 2],
     /// Sums S_m of the stages before and with this one, by turns.
     sums: [Maps; 2],
+}
+
+impl CascadeMaps {
+    pub(crate) fn new(gpu: &Gpu, size: [u32; 2], terms: usize) -> Result<Self> {
+        let map = |label| Maps::new(gpu, label, size, terms);
+        Ok(Self {
+            size,
+            irradiance: [map("weighted irradiance")?, map("irradiance blurred along rows")?],
+            sums: [map("sums of stages")?, map("sums of stages, by turns")?],
+        })
+    }
+
+    /// Bytes on the device.
+    pub(crate) fn bytes_of(size: [u32; 2], terms: usize) -> u64 {
+        4 * Maps::bytes_of(size, terms)
+    }
+}
+
+/// Bind groups of the passes that blur maps by the Gaussians of a material.
+#[derive(Debug)]
+pub(crate) struct Cascade {
+    pub(crate) maps: Arc<CascadeMaps>,
     groups: Vec<[BindGroup; 2]>,
 }
 
 impl Cascade {
-    /// Makes the maps of `size`. `domain` is the binding of the [`Domain`]: the block of the screen, or a sampler that wraps as the patch does.
+    /// Binds a material to maps. `domain` is the block of the screen, or a sampler that wraps as the patch does.
     pub(crate) fn new(
         gpu: &Gpu,
         passes: &BlurPasses,
         material: &SeparableMaterial,
         domain: &BindingResource<'_>,
-        size: [u32; 2],
+        maps: &Arc<CascadeMaps>,
     ) -> Result<Self> {
-        let map = |label| Maps::new(gpu, label, size, passes.terms);
-        let maps = [map("weighted irradiance")?, map("irradiance blurred along rows")?];
-        let sums = [map("sums of stages")?, map("sums of stages, by turns")?];
+        let CascadeMaps { irradiance, sums, .. } = &**maps;
         let texture = BindingResource::TextureView;
         let groups = material.stages().iter().enumerate().map(|(a, [rows, columns])| {
-            let of_rows = [rows.as_entire_binding(), domain.clone(), texture(&maps[0].all)];
+            let of_rows = [rows.as_entire_binding(), domain.clone(), texture(&irradiance[0].all)];
             let so_far = texture(&sums[(a + 1) % 2].all);
-            let of_columns = [columns.as_entire_binding(), domain.clone(), texture(&maps[1].all), so_far];
+            let of_columns = [columns.as_entire_binding(), domain.clone(), texture(&irradiance[1].all), so_far];
             Ok([passes.rows.bind(gpu, 0, &of_rows)?, passes.columns.bind(gpu, 0, &of_columns)?])
         });
         let groups = groups.collect::<Result<_>>()?;
-        Ok(Self { size, maps, sums, groups })
-    }
-
-    /// Bytes on the device of all maps of a cascade.
-    pub(crate) fn bytes_of(size: [u32; 2], terms: usize) -> u64 {
-        4 * Maps::bytes_of(size, terms)
+        Ok(Self { maps: maps.clone(), groups })
     }
 
     pub(crate) fn bytes(&self) -> u64 {
-        self.maps.iter().chain(&self.sums).map(Maps::bytes).sum()
+        self.maps.irradiance.iter().chain(&self.maps.sums).map(Maps::bytes).sum()
     }
 
     /// Sums S_m before the first stage: light of the pass that makes the maps, on the screen.
     pub(crate) fn begun_sums(&self) -> &Maps {
-        &self.sums[1]
+        &self.maps.sums[1]
     }
 
     /// Sums S_m after the last stage.
     pub(crate) fn sums(&self) -> &Maps {
-        &self.sums[(self.groups.len() + 1) % 2]
+        &self.maps.sums[(self.groups.len() + 1) % 2]
     }
 
     /// Sums S_m before the last stage.
     pub(crate) fn sums_before_last(&self) -> &Maps {
-        &self.sums[self.groups.len() % 2]
+        &self.maps.sums[self.groups.len() % 2]
     }
 
     /// Records all stages, from the maps to the sums; with `ends`, other passes take the place of the first and the last.
     pub(crate) fn record(&self, encoder: &mut CommandEncoder, passes: &BlurPasses, ends: Option<Ends<'_>>) {
-        let [maps, between] = &self.maps;
-        let all = Rows::all(self.size);
+        let CascadeMaps { size, irradiance: [maps, between], sums } = &*self.maps;
+        let all = Rows::all(*size);
         let last = self.groups.len() - 1;
         for (a, [of_rows, of_columns]) in self.groups.iter().enumerate() {
             let to: Vec<&TextureView> = between.layers.iter().collect();
@@ -127,7 +142,7 @@ impl Cascade {
                 Some(Ends { first: (rows, of_rows), .. }) if a == 0 => rows.record(encoder, &to, &[of_rows], all),
                 _ => passes.rows.record(encoder, &to, &[of_rows], all),
             }
-            let to: Vec<&TextureView> = maps.layers.iter().chain(&self.sums[a % 2].layers).collect();
+            let to: Vec<&TextureView> = maps.layers.iter().chain(&sums[a % 2].layers).collect();
             match ends {
                 Some(Ends { last: (columns, of_columns), target, .. }) if a == last => {
                     columns.record(encoder, &[target], &[of_columns], all);

@@ -1,62 +1,72 @@
-//! What all techniques bind of a scene: its block, what lights see, and the environment that coats reflect.
+//! What all techniques bind of a frame: its blocks, and the environment that coats reflect.
 
 use half::f16;
-use subsurf_scene::{REFLECTION_LEVELS, REFLECTION_SIZE, Scene};
+use subsurf_scene::{Environment, REFLECTION_LEVELS, REFLECTION_SIZE};
 use subsurf_shaders::uniform;
 use wgpu::{
-    AddressMode, Buffer, CommandEncoder, FilterMode, MipmapFilterMode, Sampler, SamplerDescriptor, TextureFormat,
+    AddressMode, BindGroup, BindingResource, Buffer, BufferBinding, BufferSize, BufferUsages, FilterMode,
+    MipmapFilterMode, Sampler, SamplerDescriptor, TextureFormat,
 };
 
+use super::mesh_pass::MeshPass;
 use crate::error::Result;
 use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked};
 
-/// Callback after each pass: is told its name, and gives back an encoder to go on with.
-pub(crate) type Lap<'a> = &'a mut dyn FnMut(&'static str, CommandEncoder) -> CommandEncoder;
+/// Distance of blocks of objects in their buffer, in bytes: what every device takes.
+pub(crate) const OBJECT_STRIDE: u32 = 256;
 
-/// Block and reflections of a scene on the device.
+/// Blocks and reflections of a frame on the device.
 #[derive(Debug)]
 pub(crate) struct Common {
-    pub(crate) block: Tracked<Buffer>,
+    pub(crate) scene: Tracked<Buffer>,
+    pub(crate) objects: Tracked<Buffer>,
+    /// Bind group 2 of passes over meshes: the block at an offset of `objects`.
+    pub(crate) object: BindGroup,
     pub(crate) reflections: Surface2d,
     /// Levels of the environment that `reflections` shows.
     shown: Vec<Vec<[f32; 3]>>,
 }
 
 impl Common {
-    /// Bytes on the device.
-    pub(crate) const BYTES: u64 = {
-        let (mut bytes, mut level) = (size_of::<uniform::Scene>() as u64, 0);
-        while level < REFLECTION_LEVELS {
-            bytes += (REFLECTION_SIZE[0] as u64 >> level) * (REFLECTION_SIZE[1] as u64 >> level) * 8;
-            level += 1;
-        }
-        bytes
-    };
+    /// Bytes on the device for so many objects.
+    pub(crate) fn bytes_of(objects: u32) -> u64 {
+        let texels = |level: u32| u64::from(REFLECTION_SIZE[0] >> level) * u64::from(REFLECTION_SIZE[1] >> level);
+        let reflections = 8 * (0..REFLECTION_LEVELS).map(texels).sum::<u64>();
+        size_of::<uniform::Scene>() as u64 + u64::from(objects) * u64::from(OBJECT_STRIDE) + reflections
+    }
 
-    pub(crate) fn new(gpu: &Gpu) -> Result<Self> {
+    /// Makes room for so many objects; `pass` is any over meshes.
+    pub(crate) fn new(gpu: &Gpu, pass: &MeshPass, objects: u32) -> Result<Self> {
         let spec = TextureSpec::table("reflections", REFLECTION_SIZE, TextureFormat::Rgba16Float);
+        let blocks = vec![0; objects as usize * OBJECT_STRIDE as usize];
+        let objects = gpu.buffer("objects", &blocks, BufferUsages::UNIFORM);
+        let one = BindingResource::Buffer(BufferBinding {
+            buffer: &objects,
+            offset: 0,
+            size: BufferSize::new(size_of::<uniform::Object>() as u64),
+        });
         Ok(Self {
-            block: gpu.uniform("scene", &<uniform::Scene as bytemuck::Zeroable>::zeroed()),
+            scene: gpu.uniform("scene", &<uniform::Scene as bytemuck::Zeroable>::zeroed()),
+            object: pass.bind(gpu, 2, &[one])?,
+            objects,
             reflections: gpu.texture(&TextureSpec { levels: REFLECTION_LEVELS, ..spec })?,
             shown: Vec::new(),
         })
     }
 
     /// Uploads the reflections of the environment if they are others than before.
-    pub(crate) fn show(&mut self, gpu: &Gpu, scene: &Scene) -> Result<()> {
-        let levels = scene.environment.reflections();
+    pub(crate) fn show(&mut self, gpu: &Gpu, environment: &Environment) {
+        let levels = environment.reflections();
         if self.shown == levels {
-            return Ok(());
+            return;
         }
         for (pixels, level) in levels.iter().zip(0..) {
             // Half floats hold no more.
             let texels = pixels.iter().flat_map(|[r, g, b]| [*r, *g, *b, 1.0].map(|value| value.min(65_504.0)));
             let texels: Vec<u16> = texels.map(|value| f16::from_f32(value).to_bits()).collect();
-            let bytes = bytemuck::cast_slice(&texels);
-            gpu.checked(|| gpu.fill_level(&self.reflections.texture, 0, level, bytes))?;
+            gpu.fill_level(&self.reflections.texture, 0, level, bytemuck::cast_slice(&texels));
         }
         self.shown = levels.to_vec();
-        Ok(())
     }
 }
 

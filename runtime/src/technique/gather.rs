@@ -2,19 +2,17 @@
 
 use std::sync::Arc;
 
-use subsurf_scene::Scene;
 use subsurf_shaders::passes::{Choice, table};
 use subsurf_shaders::uniform::ROW;
 use subsurf_shaders::{MaterialLayout, uniform};
-use wgpu::{BindGroup, BindingResource, TextureFormat};
+use wgpu::{BindGroup, BindingResource};
 
+use super::bindings::{Bindings, Group};
 use super::common::Common;
-use super::drawable::Drawable;
 use super::mesh_pass::MeshPass;
-use super::pipelines::{Bindings, Pipelines, wrong_drawable};
-use super::tsm::TranslucentShadowMaps;
-use crate::error::Result;
-use crate::frame::plan::Plan;
+use crate::asset::GatherMaterial;
+use crate::error::{Error, Result};
+use crate::frame::RuntimeOptions;
 use crate::gpu::{FullscreenPass, Gpu, Rows, array_size};
 
 /// Points within reach of a point, seldom more.
@@ -23,7 +21,6 @@ const NEIGHBOURS: u64 = 4_096;
 /// Pipelines for materials of one layout.
 #[derive(Debug)]
 pub(crate) struct Passes {
-    layout: MaterialLayout,
     irradiance: FullscreenPass,
     gather: FullscreenPass,
     shade: MeshPass,
@@ -33,47 +30,34 @@ pub(crate) struct Passes {
 #[derive(Debug)]
 struct Bound {
     passes: Arc<Passes>,
+    material: Arc<GatherMaterial>,
     irradiance: [BindGroup; 2],
     gather: [BindGroup; 2],
     shade: BindGroup,
-    /// Number of points that are bound.
-    points: usize,
-    /// Lights and environment of the exitance; none before the first gather.
-    lit_by: Option<uniform::Scene>,
+    /// Lights, environment and transform of the exitance; none before the first gather.
+    lit_by: Option<(uniform::Scene, glam::Mat4)>,
 }
 
 impl Passes {
-    pub(crate) fn new(gpu: &Gpu, layout: MaterialLayout, format: TextureFormat, samples: u32) -> Result<Self> {
+    pub(crate) fn new(gpu: &Gpu, layout: MaterialLayout, options: &RuntimeOptions) -> Result<Self> {
         let targets = [gpu.target_texture_format()];
         let gather = table::SURFACE_GATHER.with(Choice::Material(layout));
         Ok(Self {
-            layout,
             irradiance: FullscreenPass::new(gpu, table::IRRADIANCE.only(), &targets)?,
             gather: FullscreenPass::new(gpu, gather, &targets)?,
-            shade: MeshPass::picture(gpu, table::SHADE_VERTEX.only(), format, samples)?,
+            shade: MeshPass::picture(gpu, table::SHADE_VERTEX.only(), options)?,
         })
     }
-}
 
-impl Pipelines for Passes {
-    fn shade(&self) -> &MeshPass {
-        &self.shade
-    }
-
-    fn bind(
-        self: Arc<Self>,
+    /// Binds a material and its points.
+    pub(crate) fn bind(
+        self: &Arc<Self>,
         gpu: &Gpu,
-        drawable: &Drawable<'_>,
+        material: &Arc<GatherMaterial>,
         common: &Common,
-        _lights: &TranslucentShadowMaps,
-        _plan: &Plan,
     ) -> Result<Box<dyn Bindings>> {
-        let Drawable::Gather { mesh, points, material } = drawable else {
-            return Err(wrong_drawable());
-        };
-        material.expect(self.layout)?;
-        points.expect(mesh, points.count)?;
         let texture = BindingResource::TextureView;
+        let GatherMaterial { planes, points } = &**material;
         let of_irradiance =
             [texture(&points.positions.view), texture(&points.normals.view), texture(&points.visibilities.view)];
         let of_points = [
@@ -86,14 +70,14 @@ impl Pipelines for Passes {
         let of_shade = [texture(&points.exitance.view), texture(&points.visibilities.view)];
         Ok(Box::new(Bound {
             irradiance: [
-                self.irradiance.bind(gpu, 0, &[common.block.as_entire_binding()])?,
+                self.irradiance.bind(gpu, 0, &[common.scene.as_entire_binding()])?,
                 self.irradiance.bind(gpu, 1, &of_irradiance)?,
             ],
-            gather: [self.gather.bind(gpu, 0, &material.resources())?, self.gather.bind(gpu, 1, &of_points)?],
+            gather: [self.gather.bind(gpu, 0, &planes.resources())?, self.gather.bind(gpu, 1, &of_points)?],
             shade: self.shade.bind(gpu, 1, &of_shade)?,
-            points: points.count,
+            material: material.clone(),
             lit_by: None,
-            passes: self,
+            passes: self.clone(),
         }))
     }
 }
@@ -101,25 +85,26 @@ impl Pipelines for Passes {
 impl Bindings for Bound {
     /// Light that leaves the mesh: irradiance at every point, then Σ Rd(x_i, x_o) E(x_i) dA over their neighbours, unless
     /// it is known already.
-    fn update(
-        &mut self,
-        gpu: &Gpu,
-        drawable: &Drawable<'_>,
-        _scene: &Scene,
-        block: &uniform::Scene,
-        _plan: &Plan,
-    ) -> Result<()> {
-        let Drawable::Gather { mesh, points, .. } = drawable else {
-            return Err(wrong_drawable());
+    fn compute(&mut self, gpu: &Gpu, group: &Group<'_>, objects: &BindGroup) -> Result<()> {
+        let mut of_group = group.input.objects.iter().zip(group.placed).filter(|(_, placed)| placed.slot == group.slot);
+        let (Some((object, placed)), None) = (of_group.next(), of_group.next()) else {
+            return Err(Error::Usage("a material for the gather is that of one object".to_owned()));
         };
-        points.expect(mesh, self.points)?;
-        let lit_by = lighting(block);
-        if self.lit_by.is_some_and(|before| bytemuck::bytes_of(&before) == bytemuck::bytes_of(&lit_by)) {
+        if (object.world_from_mesh.x_axis.truncate().length() - 1.0).abs() > 1e-3 {
+            return Err(Error::Usage("the gather draws meshes in their own size: no scale in a transform".to_owned()));
+        }
+        let lit_by = (lighting(group.block), object.world_from_mesh);
+        let is_same = |(block, transform): &(uniform::Scene, glam::Mat4)| {
+            bytemuck::bytes_of(block) == bytemuck::bytes_of(&lit_by.0) && *transform == lit_by.1
+        };
+        if self.lit_by.as_ref().is_some_and(is_same) {
             return Ok(());
         }
+        let points = &self.material.points;
         let size = array_size(points.count);
         let [scene, of_points] = &self.irradiance;
-        self.passes.irradiance.draw(gpu, &points.irradiance.view, &[scene, of_points], Rows::all(size))?;
+        let object = Some((objects, placed.offset));
+        self.passes.irradiance.draw_for(gpu, &points.irradiance.view, &[scene, of_points], object, Rows::all(size))?;
         let [material, of_points] = &self.gather;
         for rows in Rows::bands(size, u64::from(ROW) * NEIGHBOURS) {
             self.passes.gather.draw(gpu, &points.exitance.view, &[material, of_points], rows)?;
@@ -128,8 +113,8 @@ impl Bindings for Bound {
         Ok(())
     }
 
-    fn shade(&self) -> &BindGroup {
-        &self.shade
+    fn shade(&self) -> (&MeshPass, &BindGroup) {
+        (&self.passes.shade, &self.shade)
     }
 }
 
@@ -140,5 +125,5 @@ fn lighting(block: &uniform::Scene) -> uniform::Scene {
     for source in &mut light {
         source.clip_from_world = [[0.0; 4]; 4];
     }
-    uniform::Scene { eta: block.eta, lights: block.lights, sky: block.sky, light, ..none }
+    uniform::Scene { lights: block.lights, sky: block.sky, light, ..none }
 }

@@ -1,66 +1,109 @@
 //! Passes that draw meshes.
 
 use subsurf_shaders::passes::Variant;
-use subsurf_shaders::passes::table::ENCODE_SRGB;
+use subsurf_shaders::passes::table::{ENCODE_SRGB, TONE_MAP};
 use wgpu::{
     BindGroup, BindingResource, Color, CommandEncoder, CompareFunction, DepthStencilState, LoadOp, MultisampleState,
-    RenderPassColorAttachment, TextureFormat, TextureView, VertexBufferLayout,
+    Operations, RenderPassColorAttachment, StoreOp, TextureFormat, TextureView, VertexBufferLayout,
 };
 
 use crate::asset::{GpuMesh, TANGENTS, VERTICES};
 use crate::error::Result;
-use crate::gpu::{DEPTH, Drawing, Gpu, Pipeline, Program, attachment};
+use crate::frame::RuntimeOptions;
+use crate::gpu::{Drawing, Gpu, Pipeline, Program, attachment};
 
-/// Pass that draws a mesh, with depth.
+/// Pass that draws meshes, with depth.
 #[derive(Debug)]
 pub(crate) struct MeshPass(Pipeline);
 
-/// Colour target of a pass, and what it is cleared to. With several samples to a texel, `resolved` gets their mean.
-pub(crate) struct Target<'a> {
-    pub(crate) view: &'a TextureView,
-    pub(crate) clear: Color,
-    pub(crate) resolved: Option<&'a TextureView>,
+/// Depth of a pass: its format, and whether what is nearer has the larger value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DepthFormat {
+    /// Format of the texture.
+    pub format: TextureFormat,
+    /// Whether depth falls from 1 at the near plane to 0 at the far one.
+    pub is_reversed: bool,
 }
 
-impl<'a> Target<'a> {
-    fn cleared(&self) -> RenderPassColorAttachment<'a> {
-        let plain = attachment(self.view, LoadOp::Clear(self.clear));
-        RenderPassColorAttachment { resolve_target: self.resolved, ..plain }
+impl DepthFormat {
+    /// Value of what is furthest away.
+    #[must_use]
+    pub fn furthest(&self) -> f32 {
+        if self.is_reversed { 0.0 } else { 1.0 }
+    }
+
+    /// Operations that begin with what is furthest away, and drop all of it at the end.
+    pub(crate) fn own(&self) -> Operations<f32> {
+        Operations { load: LoadOp::Clear(self.furthest()), store: StoreOp::Discard }
+    }
+
+    fn state(&self) -> DepthStencilState {
+        DepthStencilState {
+            format: self.format,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(if self.is_reversed { CompareFunction::Greater } else { CompareFunction::Less }),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }
     }
 }
+
+/// Attachments of a pass over meshes.
+pub(crate) struct Attachments<'a> {
+    pub(crate) colours: &'a [Option<RenderPassColorAttachment<'a>>],
+    pub(crate) depth: &'a TextureView,
+    pub(crate) depth_ops: Operations<f32>,
+    /// First pixel and size of what is drawn; all if `None`.
+    pub(crate) viewport: Option<([u32; 2], [u32; 2])>,
+}
+
+/// Colour target that is cleared.
+pub(crate) fn cleared(view: &TextureView, colour: Color) -> Option<RenderPassColorAttachment<'_>> {
+    Some(attachment(view, LoadOp::Clear(colour)))
+}
+
+/// Mesh of a pass, and the offset of its object's block.
+pub(crate) type Draw<'a> = (&'a GpuMesh, u32);
 
 impl MeshPass {
     /// Compiles a variant of a pass for targets of these formats, of one sample to a texel.
-    pub(crate) fn new(gpu: &Gpu, variant: Variant, targets: &[TextureFormat]) -> Result<Self> {
-        let program = Program { variant, constants: &[], targets };
-        Self::with(gpu, &program, &[VERTICES], 1)
+    pub(crate) fn new(gpu: &Gpu, variant: Variant, targets: &[TextureFormat], depth: DepthFormat) -> Result<Self> {
+        Self::with(gpu, &Program { variant, constants: &[], targets }, &[VERTICES], depth, 1)
     }
 
-    /// Compiles a variant of a pass that draws a picture of `format`, with so many samples to a pixel.
-    pub(crate) fn picture(gpu: &Gpu, variant: Variant, format: TextureFormat, samples: u32) -> Result<Self> {
-        let program = Program { variant, constants: &display_constants(format), targets: &[format] };
-        Self::with(gpu, &program, &[VERTICES], samples)
+    /// Compiles a variant of a pass that draws pictures.
+    pub(crate) fn picture(gpu: &Gpu, variant: Variant, options: &RuntimeOptions) -> Result<Self> {
+        Self::picture_of(gpu, variant, options, &[VERTICES])
     }
 
     /// The same for a pass that takes tangents; it draws meshes that have them.
-    pub(crate) fn textured_picture(gpu: &Gpu, variant: Variant, format: TextureFormat, samples: u32) -> Result<Self> {
-        let program = Program { variant, constants: &display_constants(format), targets: &[format] };
-        Self::with(gpu, &program, &[VERTICES, TANGENTS], samples)
+    pub(crate) fn textured_picture(gpu: &Gpu, variant: Variant, options: &RuntimeOptions) -> Result<Self> {
+        Self::picture_of(gpu, variant, options, &[VERTICES, TANGENTS])
     }
 
-    fn with(gpu: &Gpu, program: &Program<'_>, vertices: &[VertexBufferLayout<'_>], samples: u32) -> Result<Self> {
-        let drawing = Drawing {
-            vertices,
-            depth: Some(DepthStencilState {
-                format: DEPTH,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(CompareFunction::Less),
-                stencil: Default::default(),
-                bias: Default::default(),
-            }),
-            multisample: MultisampleState { count: samples, ..Default::default() },
-            ..Default::default()
-        };
+    fn picture_of(
+        gpu: &Gpu,
+        variant: Variant,
+        options: &RuntimeOptions,
+        vertices: &[VertexBufferLayout<'_>],
+    ) -> Result<Self> {
+        let RuntimeOptions { format, samples, depth, tone_mapping, .. } = *options;
+        // Linear light that is not tone-mapped stays linear.
+        let encodes = tone_mapping && !format.is_srgb();
+        let constants = [(TONE_MAP, f64::from(tone_mapping)), (ENCODE_SRGB, f64::from(encodes))];
+        let program = Program { variant, constants: &constants, targets: &[format] };
+        Self::with(gpu, &program, vertices, depth, samples)
+    }
+
+    fn with(
+        gpu: &Gpu,
+        program: &Program<'_>,
+        vertices: &[VertexBufferLayout<'_>],
+        depth: DepthFormat,
+        samples: u32,
+    ) -> Result<Self> {
+        let multisample = MultisampleState { count: samples, ..Default::default() };
+        let drawing = Drawing { vertices, depth: Some(depth.state()), multisample, ..Default::default() };
         Ok(Self(Pipeline::new(gpu, program, drawing)?))
     }
 
@@ -69,22 +112,26 @@ impl MeshPass {
         self.0.bind(gpu, group, resources)
     }
 
-    /// Records the pass.
-    pub(crate) fn record(
+    /// Records the pass, with the blocks of all objects in bind group 2.
+    pub(crate) fn record<'m>(
         &self,
         encoder: &mut CommandEncoder,
-        targets: &[Target<'_>],
-        depth: &TextureView,
-        groups: &[&BindGroup],
-        mesh: &GpuMesh,
+        attachments: &Attachments<'_>,
+        [first, second]: [&BindGroup; 2],
+        objects: &BindGroup,
+        draws: impl Iterator<Item = Draw<'m>>,
     ) {
-        let attachments: Vec<_> = targets.iter().map(|target| Some(target.cleared())).collect();
-        let mut pass = self.0.begin(encoder, &attachments, Some(depth), groups);
-        mesh.draw(&mut pass);
+        let depth = Some((attachments.depth, attachments.depth_ops));
+        let mut pass = self.0.begin(encoder, attachments.colours, depth, &[first, second]);
+        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
+        if let Some((origin, size)) = attachments.viewport {
+            let [x, y, width, height] = [origin[0], origin[1], size[0], size[1]];
+            pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
+            pass.set_scissor_rect(x, y, width, height);
+        }
+        for (mesh, offset) in draws {
+            pass.set_bind_group(2, objects, &[offset]);
+            mesh.draw(&mut pass);
+        }
     }
-}
-
-/// Values of the overrides of a picture: the shader encodes for the display, unless the target does.
-fn display_constants(format: TextureFormat) -> [(&'static str, f64); 1] {
-    [(ENCODE_SRGB, f64::from(!format.is_srgb()))]
 }

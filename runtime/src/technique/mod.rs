@@ -1,24 +1,29 @@
 //! Techniques: the ways to draw scattering light and BTFs, each with its pipelines and what is bound to them.
 //!
-//! A technique implements [`pipelines::Pipelines`], and has its arms in [`drawable`] and in `Renderer::new`.
+//! A technique implements [`bindings::Bindings`]; `frame/renderer.rs` compiles it, and `frame/prepare.rs` binds its materials.
 
+mod bindings;
 pub(crate) mod btf;
 mod btf_query;
 mod cascade;
-pub(crate) mod common;
-pub(crate) mod drawable;
+mod common;
 pub(crate) mod gather;
-pub(crate) mod mesh_pass;
+mod kind;
+mod mesh_pass;
 mod patch;
-pub(crate) mod pipelines;
 pub(crate) mod separable;
 pub(crate) mod splat;
 pub(crate) mod tsm;
 
+pub(crate) use bindings::{Bindings, Group, Lap, group_number};
 pub use btf::BtfOptions;
 pub use btf_query::{BtfAnswer, BtfQueries, BtfQuery};
-pub use drawable::{Drawable, Technique};
+pub(crate) use common::{Common, OBJECT_STRIDE, reflection_sampler};
+pub use kind::Technique;
+pub use mesh_pass::DepthFormat;
+pub(crate) use mesh_pass::{Attachments, MeshPass};
 pub use patch::{
     Exitance, HomogeneousPatch, HomogeneousRenderer, PatchLight, PatchRenderer, Region, SeparablePatch,
     SeparableRenderer,
 };
+pub(crate) use tsm::TranslucentShadowMaps;

@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::fresnel_transmittance;
 use crate::rgb::Rgb;
-use crate::uniform::Scene;
+use crate::uniform::Object;
 
 /// Environment prefiltered by GGX of rising roughness: equirectangular pictures, each half as large as the one before.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +51,7 @@ impl Reflections<'_> {
 
 /// Specular BRDF of microfacets times cosine for one light, in sr⁻¹: D V F (Walter et al. 2007, eq. 33; Heitz 2014, eq. 99), α = roughness².
 #[must_use]
-pub fn specular_direct(scene: &Scene, normal: Vec3, to_eye: Vec3, towards: Vec3) -> f32 {
+pub fn specular_direct(object: &Object, normal: Vec3, to_eye: Vec3, towards: Vec3) -> f32 {
     let nl = normal.dot(towards);
     let nv = normal.dot(to_eye).max(1e-3);
     if nl <= 0.0 {
@@ -60,19 +60,19 @@ pub fn specular_direct(scene: &Scene, normal: Vec3, to_eye: Vec3, towards: Vec3)
     let h = (to_eye + towards).normalize();
     let nh = normal.dot(h).clamp(0.0, 1.0);
     // A mirror of no roughness would show a light as a point: never less than a light of its own size does.
-    let alpha = (scene.roughness * scene.roughness).max(2e-3);
+    let alpha = (object.roughness * object.roughness).max(2e-3);
     let a2 = alpha * alpha;
     let d = nh * nh * (a2 - 1.0) + 1.0;
     let shadowing = nl * (nv * nv * (1.0 - a2) + a2).sqrt() + nv * (nl * nl * (1.0 - a2) + a2).sqrt();
-    let reflected = 1.0 - fresnel_transmittance(h.dot(to_eye).clamp(0.0, 1.0), scene.eta);
+    let reflected = 1.0 - fresnel_transmittance(h.dot(to_eye).clamp(0.0, 1.0), object.eta);
     a2 / (PI * d * d) * 0.5 / shadowing * reflected * nl
 }
 
 /// Reflectance of a rough coat under the environment, 0 to 1: Fresnel reflectance, which roughness flattens at grazing angles
 /// (after Karis 2014, "Physically based shading on mobile").
 #[must_use]
-pub fn specular_ambient(scene: &Scene, cosine: f32) -> f32 {
-    let facing = 1.0 - fresnel_transmittance(1.0, scene.eta);
-    let at_angle = 1.0 - fresnel_transmittance(cosine, scene.eta);
-    facing + (at_angle - facing) * (1.0 - scene.roughness) * (1.0 - 0.5 * scene.roughness)
+pub fn specular_ambient(object: &Object, cosine: f32) -> f32 {
+    let facing = 1.0 - fresnel_transmittance(1.0, object.eta);
+    let at_angle = 1.0 - fresnel_transmittance(cosine, object.eta);
+    facing + (at_angle - facing) * (1.0 - object.roughness) * (1.0 - 0.5 * object.roughness)
 }

@@ -5,25 +5,27 @@
 
 mod coat;
 mod fresnel;
+#[cfg(feature = "gather")]
 mod gather;
 mod irradiance;
 mod present;
 mod raster;
 mod scene;
-mod separable;
 mod shade_btf;
 mod shade_vertex;
+#[cfg(feature = "gather")]
 mod surface_gather;
 mod tone;
 
 pub use coat::{Reflections, specular_ambient, specular_direct};
 pub use fresnel::{diffuse_transmittance, fresnel_transmittance};
+#[cfg(feature = "gather")]
 pub use gather::{Reflectance, gather};
 pub use irradiance::irradiance;
 pub use present::present;
 pub use scene::{entering, incident, sky_irradiance};
-pub use separable::separable;
 pub use shade_btf::{BtfSurface, BtfTriangles, shade_btf};
 pub use shade_vertex::{Triangles, shade_vertex};
+#[cfg(feature = "gather")]
 pub use surface_gather::surface_gather;
 pub use tone::{display, linear, neutral, srgb};

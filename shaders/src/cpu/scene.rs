@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::fresnel_transmittance;
 use crate::rgb::Rgb;
-use crate::uniform::Scene;
+use crate::uniform::{Blocks, Object, Scene};
 
 /// Light of one source at a point: unit vector towards it, and irradiance on a plane that faces it.
 #[must_use]
@@ -25,17 +25,17 @@ pub fn incident(scene: &Scene, light: usize, position_mm: Vec3) -> (Vec3, Vec3) 
 
 /// Share of an incident light's irradiance that enters: F_t(cos) max(cos, 0).
 #[must_use]
-pub fn entering(scene: &Scene, normal: Vec3, towards: Vec3) -> f32 {
+pub fn entering(object: &Object, normal: Vec3, towards: Vec3) -> f32 {
     let cosine = normal.dot(towards).clamp(0.0, 1.0);
-    fresnel_transmittance(cosine, scene.eta) * cosine
+    fresnel_transmittance(cosine, object.eta) * cosine
 }
 
 /// Irradiance of the environment that enters (Ramamoorthi and Hanrahan 2001, eq. 13).
 #[must_use]
-pub fn sky_irradiance(scene: &Scene, n: Vec3) -> Rgb {
+pub fn sky_irradiance(blocks: &Blocks, n: Vec3) -> Rgb {
     let basis = [1.0, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3.0 * n.z * n.z - 1.0, n.x * n.z, n.x * n.x - n.y * n.y];
     [0, 1, 2].map(|c| {
-        let sum: f32 = basis.iter().zip(&scene.sky).map(|(value, coefficients)| value * coefficients[c]).sum();
-        sum.max(0.0) * scene.sky_transmittance
+        let sum: f32 = basis.iter().zip(&blocks.scene.sky).map(|(value, coefficients)| value * coefficients[c]).sum();
+        sum.max(0.0) * blocks.object.sky_transmittance
     })
 }

@@ -6,7 +6,7 @@ use subsurf_scene::MAX_LIGHTS;
 use super::raster::rasterise;
 use super::{Reflections, display, fresnel_transmittance, incident, neutral, specular_ambient, specular_direct, srgb};
 use crate::rgb::Rgb;
-use crate::uniform::Scene;
+use crate::uniform::Blocks;
 
 /// Mesh with the exitance of its vertices.
 #[derive(Clone, Copy, Debug)]
@@ -30,21 +30,21 @@ pub struct Triangles<'a> {
 #[must_use]
 pub fn shade_vertex(
     mesh: &Triangles<'_>,
-    scene: &Scene,
+    blocks: &Blocks,
     reflections: &Reflections<'_>,
     size: [u32; 2],
     background: [u8; 3],
 ) -> Vec<[u8; 3]> {
     let exitances: Vec<Vec3> = mesh.exitances.iter().map(|exitance| Vec3::from(*exitance)).collect();
     let visibilities: Vec<Vec4> = mesh.visibilities.iter().map(|seen| Vec4::from(*seen)).collect();
-    rasterise(mesh.positions, mesh.triangles, &scene.clip_from_world, size, background, |covered| {
+    rasterise(mesh.positions, mesh.triangles, &blocks.scene.clip_from_world, size, background, |covered| {
         let point = Point {
             position_mm: covered.blend(mesh.positions),
             normal: covered.blend(mesh.normals),
             exitance: covered.blend(&exitances),
             visibility: covered.blend(&visibilities).to_array(),
         };
-        let light = radiance(scene, reflections, &point) * scene.exposure;
+        let light = radiance(blocks, reflections, &point) * blocks.scene.exposure;
         display(srgb(neutral(light.into())))
     })
 }
@@ -58,19 +58,20 @@ struct Point {
 }
 
 /// Radiance that leaves towards the eye.
-fn radiance(scene: &Scene, reflections: &Reflections<'_>, point: &Point) -> Vec3 {
-    let to_eye = (Vec3::from(scene.eye_mm) - point.position_mm).normalize();
+fn radiance(blocks: &Blocks, reflections: &Reflections<'_>, point: &Point) -> Vec3 {
+    let object = &blocks.object;
+    let to_eye = (Vec3::from(blocks.scene.eye_mm) - point.position_mm).normalize();
     let normal = point.normal.normalize();
     // Scattered light, by Lambert's law with Fresnel transmission on the way out: L = M F_t / (π (1 − F_dr)).
     let cosine = normal.dot(to_eye).abs().clamp(0.0, 1.0);
-    let transmittance = fresnel_transmittance(cosine, scene.eta);
-    let scattered = point.exitance * transmittance / (scene.sky_transmittance * std::f32::consts::PI);
+    let transmittance = fresnel_transmittance(cosine, object.eta);
+    let scattered = point.exitance * transmittance / (object.sky_transmittance * std::f32::consts::PI);
     // Light that the coat reflects.
     let mirrored = (-to_eye).reflect(normal);
-    let sky = specular_ambient(scene, cosine) * reflections.radiance(mirrored, scene.roughness);
-    let lights = (0..scene.lights as usize).map(|light| {
-        let (towards, irradiance) = incident(scene, light, point.position_mm);
-        irradiance * specular_direct(scene, normal, to_eye, towards) * point.visibility[light]
+    let sky = specular_ambient(object, cosine) * reflections.radiance(mirrored, object.roughness);
+    let lights = (0..blocks.scene.lights as usize).map(|light| {
+        let (towards, irradiance) = incident(&blocks.scene, light, point.position_mm);
+        irradiance * specular_direct(object, normal, to_eye, towards) * point.visibility[light]
     });
     scattered + sky + lights.sum::<Vec3>()
 }

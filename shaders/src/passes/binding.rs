@@ -5,6 +5,8 @@
 pub enum Binding {
     /// Uniform block.
     Uniform,
+    /// Uniform block of one of many objects, at an offset that is set when it is drawn.
+    Object,
     /// Float texture that is loaded and never filtered.
     Float,
     /// Array of float textures that are loaded and never filtered.

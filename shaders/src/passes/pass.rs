@@ -3,7 +3,7 @@
 use super::binding::Binding;
 use super::file::File;
 use super::layout::{BtfLayout, MaterialLayout, TargetFormat, ambient, terms};
-use crate::separable::MAX_TERMS;
+use subsurf_decoder::bssrdf::basis::MAX_TERMS;
 
 /// Pass of the renderers: WGSL files that are joined, entry points and bindings. The fragment entry point is named as the
 /// file.

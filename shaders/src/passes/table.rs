@@ -8,6 +8,7 @@ use super::pass::{Group, Part, Pass};
 
 const FULLSCREEN: Part = Part::File(wgsl!("lib/fullscreen"));
 const FRESNEL: Part = Part::File(wgsl!("lib/fresnel"));
+const OBJECT: Part = Part::File(wgsl!("lib/mesh/object"));
 const SCENE: Part = Part::File(wgsl!("lib/scene"));
 const COAT: Part = Part::File(wgsl!("lib/coat"));
 const TONE: Part = Part::File(wgsl!("lib/tone"));
@@ -36,9 +37,14 @@ const STAGE_SUM: Part = Part::File(wgsl!("lib/blur/stage_sum"));
 
 /// Whether the shader encodes for the display; an override of passes that draw pictures of meshes.
 pub const ENCODE_SRGB: &str = "ENCODE_SRGB";
+/// Whether light is tone-mapped; an override of the same passes.
+pub const TONE_MAP: &str = "TONE_MAP";
 
 /// Bind group 0 of pictures of meshes: scene, positions of the translucent shadow maps, reflections and their sampler.
 const LIT: Group = Group::Fixed(&[Uniform, TargetLayers, Filtered, Sampler]);
+
+/// Bind group 2 of passes that draw meshes: the object.
+const OF_OBJECT: Group = Group::Fixed(&[Binding::Object]);
 
 /// Row of a pass without overrides.
 const fn pass(file: File, parts: &'static [Part], vertex: &'static str, groups: &'static [Group]) -> Pass {
@@ -52,7 +58,7 @@ const fn fullscreen(file: File, parts: &'static [Part], groups: &'static [Group]
 
 /// Row of a picture of a mesh.
 const fn picture(file: File, parts: &'static [Part], groups: &'static [Group]) -> Pass {
-    Pass { overrides: &[ENCODE_SRGB], ..pass(file, parts, "project", groups) }
+    Pass { overrides: &[TONE_MAP, ENCODE_SRGB], ..pass(file, parts, "project", groups) }
 }
 
 /// Exitance of a flat patch, by the reference sum.
@@ -104,8 +110,8 @@ pub static BLUR_PATCH_LAST: Pass = fullscreen(
 /// Irradiance that enters a surface at each of its points.
 pub static IRRADIANCE: Pass = fullscreen(
     wgsl!("pass/surface/irradiance"),
-    &[Part::TargetFormat, FRESNEL, SCENE, FULLSCREEN],
-    &[Group::Fixed(&[Uniform]), Group::Fixed(&[Float, Float, Float])],
+    &[Part::TargetFormat, FRESNEL, OBJECT, SCENE, FULLSCREEN],
+    &[Group::Fixed(&[Uniform]), Group::Fixed(&[Float, Float, Float]), OF_OBJECT],
 );
 
 /// Exitance at the points of a surface, by the reference sum.
@@ -118,16 +124,16 @@ pub static SURFACE_GATHER: Pass = fullscreen(
 /// Picture of a mesh from the exitance of its vertices.
 pub static SHADE_VERTEX: Pass = picture(
     wgsl!("pass/surface/shade_vertex"),
-    &[Part::TargetFormat, TONE, DISPLAY, FRESNEL, SCENE, COAT, EXITANCE_VERTEX, VERTEX, SHADING],
-    &[LIT, Group::Fixed(&[Target, Float])],
+    &[Part::TargetFormat, TONE, DISPLAY, FRESNEL, OBJECT, SCENE, COAT, EXITANCE_VERTEX, VERTEX, SHADING],
+    &[LIT, Group::Fixed(&[Target, Float]), OF_OBJECT],
 );
 
 /// Translucent shadow map of a light.
 pub static TSM_RENDER: Pass = pass(
     wgsl!("pass/tsm/tsm_render"),
-    &[Part::TargetFormat, FRESNEL, SCENE, MAPPING, TSM],
+    &[Part::TargetFormat, FRESNEL, OBJECT, SCENE, MAPPING, TSM],
     "project",
-    &[Group::Fixed(&[Uniform]), Group::Fixed(&[Uniform])],
+    &[Group::Fixed(&[Uniform]), Group::Fixed(&[Uniform]), OF_OBJECT],
 );
 
 /// Next mipmap level of a translucent shadow map.
@@ -140,9 +146,9 @@ pub static TSM_REDUCE: Pass = fullscreen(
 /// G-buffer of a mesh for splats: positions, texture coordinates, albedo.
 pub static SURFACE_GBUFFER: Pass = pass(
     wgsl!("pass/splat/surface_gbuffer"),
-    &[FRESNEL, SCENE, MAPPING, PATCH_LAYERS, VERTEX_NONE, VERTEX],
+    &[FRESNEL, OBJECT, SCENE, MAPPING, PATCH_LAYERS, VERTEX_NONE, VERTEX],
     "project",
-    &[Group::Fixed(&[Uniform]), Group::Fixed(&[FilteredLayers, Sampler])],
+    &[Group::Fixed(&[Uniform]), Group::Fixed(&[FilteredLayers, Sampler]), OF_OBJECT],
 );
 
 /// Light of samples of a translucent shadow map, spread over what lies around them.
@@ -168,6 +174,7 @@ pub static SHADE_SPLAT: Pass = picture(
         TONE,
         DISPLAY,
         FRESNEL,
+        OBJECT,
         SCENE,
         COAT,
         MAPPING,
@@ -179,7 +186,7 @@ pub static SHADE_SPLAT: Pass = picture(
         UPSAMPLING,
         SHADING,
     ],
-    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, Float])],
+    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, Float]), OF_OBJECT],
 );
 
 /// G-buffer for the separable blurs on the screen: L weighted irradiance maps, and transmitted light.
@@ -189,6 +196,7 @@ pub static SEPARABLE_GBUFFER: Pass = pass(
         Part::TargetFormat,
         Part::Terms,
         FRESNEL,
+        OBJECT,
         SCENE,
         MAPPING,
         TSM_VISIBILITY,
@@ -202,6 +210,7 @@ pub static SEPARABLE_GBUFFER: Pass = pass(
     &[
         Group::Fixed(&[Uniform, TargetLayers]),
         Group::Fixed(&[FilteredLayers, Sampler, Uniform, TargetLayers, TargetLayers]),
+        OF_OBJECT,
     ],
 );
 
@@ -228,6 +237,7 @@ pub static SHADE_SEPARABLE: Pass = picture(
         TONE,
         DISPLAY,
         FRESNEL,
+        OBJECT,
         SCENE,
         COAT,
         MAPPING,
@@ -240,7 +250,7 @@ pub static SHADE_SEPARABLE: Pass = picture(
         UPSAMPLING,
         SHADING,
     ],
-    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, TargetLayers])],
+    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, TargetLayers]), OF_OBJECT],
 );
 
 /// Values and light samples of a BTF for lists of directions.
@@ -259,6 +269,7 @@ pub static SHADE_BTF: Pass = picture(
         TONE,
         DISPLAY,
         FRESNEL,
+        OBJECT,
         SCENE,
         COAT,
         TSM_VISIBILITY,
@@ -267,7 +278,7 @@ pub static SHADE_BTF: Pass = picture(
         BTF_TANGENTS,
         Part::Ambient,
     ],
-    &[LIT, Group::Btf(&[Uniform])],
+    &[LIT, Group::Btf(&[Uniform]), OF_OBJECT],
 );
 
 /// All passes.

@@ -1,68 +1,163 @@
-//! The basis of a material: coefficients, widths and weights.
+//! The basis of a material, with the coefficients of every pixel.
 
-use subsurf_decoder::bssrdf::BssrdfHeader;
+use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::basis::{BasisSize, Cascade};
+use subsurf_decoder::bssrdf::{BssrdfHeader, SeparableBasis};
 
+use super::project::coefficients;
 use crate::rgb::Rgb;
 
-/// Largest L: two maps and the two sums of them fit the four targets that every device draws to at once.
-pub const MAX_TERMS: usize = 2;
-/// Largest A.
-pub const MAX_GAUSSIANS: usize = 8;
-
-/// Number of terms of a separable basis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BasisSize {
-    /// L, the number of radial functions, 1 to [`MAX_TERMS`].
-    pub terms: usize,
-    /// A, the number of Gaussians, 1 to [`MAX_GAUSSIANS`].
-    pub gaussians: usize,
-}
-
-impl Default for BasisSize {
-    fn default() -> Self {
-        Self { terms: 2, gaussians: 4 }
-    }
-}
-
-/// Separable basis of a material; lengths are in pixels of the patch.
+/// Separable basis of a material, with the coefficients of every pixel; lengths are in pixels of the patch.
 #[derive(Clone, Debug)]
-pub struct SeparableBasis {
-    /// Size, pitch, window and addressing of the material.
-    pub header: BssrdfHeader,
-    /// L and A.
-    pub size: BasisSize,
-    /// Coefficients c_l of every pixel; shape `[L][height][width]`, linear Rec. 709, mm⁻¹.
-    pub coefficients: Vec<Rgb>,
-    /// Standard deviations σ_a in pixels, by rising width; shape `[A]`.
-    pub sigmas: Vec<f32>,
-    /// Weights w_lma, symmetric in l and m; shape `[L][L][A]`. G_a sums to 1.
-    pub weights: Vec<Rgb>,
+pub struct ProjectedBasis {
+    header: BssrdfHeader,
+    size: BasisSize,
+    /// Coefficients c_l, shape `[L][height][width]`.
+    coefficients: Vec<Rgb>,
+    sigmas: Vec<f32>,
+    /// Weights w_lma, shape `[L][L][A]`.
+    weights: Vec<Rgb>,
 }
 
-impl SeparableBasis {
-    /// Whether there are as many numbers as L, A and the size of the patch say, and L and A are in range.
+impl ProjectedBasis {
+    /// Basis of a file, whose coefficients are computed of its planes: c_l(x) = Σ_h d_lh f_x(r_h). `None` where the file has
+    /// no basis.
     #[must_use]
-    pub fn is_whole(&self) -> bool {
-        let BasisSize { terms, gaussians } = self.size;
-        let pixels = self.header.width as usize * self.header.height as usize;
-        (1..=MAX_TERMS).contains(&terms)
-            && (1..=MAX_GAUSSIANS).contains(&gaussians)
-            && self.sigmas.len() == gaussians
-            && self.weights.len() == terms * terms * gaussians
-            && self.coefficients.len() == terms * pixels
+    pub fn of(material: &Bssrdf<'_>) -> Option<Self> {
+        material.basis().map(|basis| Self::with(material, basis))
     }
 
-    /// Weights w_lma of all Gaussians for one l and m; shape `[A]`.
+    /// Basis of a material by numbers of another file or of a fit.
+    fn with(material: &Bssrdf<'_>, basis: &SeparableBasis<'_>) -> Self {
+        let size = basis.size();
+        let pairs = (0..size.terms).flat_map(|l| (0..size.terms).map(move |m| (l, m)));
+        let weights = pairs.flat_map(|(l, m)| (0..size.gaussians).map(move |a| basis.weight(l, m, a)));
+        Self {
+            header: *material.header(),
+            size,
+            coefficients: coefficients(material, basis),
+            sigmas: basis.sigmas().collect(),
+            weights: weights.collect(),
+        }
+    }
+
+    /// Basis of the mean profile, the same for all pixels: what a renderer draws that knows no heterogeneity. One term, as many
+    /// Gaussians.
+    #[must_use]
+    pub fn homogeneous(&self) -> Self {
+        let BasisSize { terms, gaussians } = self.size;
+        let pixels = self.coefficients_of(0).len();
+        let mut weights = vec![[0.0; 3]; gaussians];
+        for (l, m) in (0..terms).flat_map(|l| (0..terms).map(move |m| (l, m))) {
+            // The mean of f_x² has Σ_lm mean(c_l c_m) w_lma of Gaussian a.
+            let mut mean = [0.0_f64; 3];
+            for (a, b) in self.coefficients_of(l).iter().zip(self.coefficients_of(m)) {
+                for c in 0..3 {
+                    mean[c] += f64::from(a[c]) * f64::from(b[c]);
+                }
+            }
+            #[allow(
+                clippy::cast_precision_loss,
+                clippy::cast_possible_truncation,
+                reason = "a mean of numbers around 1"
+            )]
+            let mean = mean.map(|sum| (sum / pixels as f64) as f32);
+            for (sum, weight) in weights.iter_mut().zip(self.weights_of(l, m)) {
+                for c in 0..3 {
+                    sum[c] += mean[c] * weight[c];
+                }
+            }
+        }
+        Self {
+            header: self.header,
+            size: BasisSize { terms: 1, gaussians },
+            coefficients: vec![[1.0; 3]; pixels],
+            sigmas: self.sigmas.clone(),
+            weights,
+        }
+    }
+
+    /// Size, pitch, window and addressing of the material.
+    #[must_use]
+    pub fn header(&self) -> &BssrdfHeader {
+        &self.header
+    }
+
+    /// L and A.
+    #[must_use]
+    pub fn size(&self) -> BasisSize {
+        self.size
+    }
+
+    /// Standard deviations σ_a in pixels, by rising width; shape `[A]`.
+    #[must_use]
+    pub fn sigmas(&self) -> &[f32] {
+        &self.sigmas
+    }
+
+    /// Stages of the blurs.
+    #[must_use]
+    pub fn cascade(&self) -> Cascade {
+        Cascade::new(self.sigmas.iter().copied())
+    }
+
+    /// Weights w_lma of all Gaussians for one l and m, symmetric in them, linear Rec. 709; shape `[A]`. G_a sums to 1.
     #[must_use]
     pub fn weights_of(&self, l: usize, m: usize) -> &[Rgb] {
         let count = self.size.gaussians;
         &self.weights[(l * self.size.terms + m) * count..][..count]
     }
 
-    /// Coefficients c_l of all pixels for one l; shape `[height][width]`.
+    /// Coefficients c_l of all pixels for one l, linear Rec. 709; shape `[height][width]`.
     #[must_use]
     pub fn coefficients_of(&self, l: usize) -> &[Rgb] {
         let pixels = self.coefficients.len() / self.size.terms;
         &self.coefficients[l * pixels..][..pixels]
+    }
+
+    /// Exitance of the whole patch, row by row, for `irradiance` of the whole patch: what the passes `blur_patch_*.wgsl` draw.
+    ///
+    /// # Panics
+    /// If `irradiance` is shorter than the patch.
+    #[must_use]
+    pub fn exitance(&self, irradiance: &[Rgb]) -> Vec<Rgb> {
+        assert!(irradiance.len() >= self.coefficients_of(0).len(), "irradiance of every pixel");
+        self.lit(|pixel| irradiance[pixel])
+    }
+
+    /// Exitance of the whole patch, row by row, for an irradiance of 1 everywhere.
+    #[must_use]
+    pub fn albedo(&self) -> Vec<Rgb> {
+        self.lit(|_| [1.0; 3])
+    }
+
+    /// Exitance for an irradiance by the number of the pixel.
+    fn lit(&self, irradiance: impl Fn(usize) -> Rgb) -> Vec<Rgb> {
+        let terms = self.size.terms;
+        let pixels = self.coefficients_of(0).len();
+        let mut exitance = vec![[0.0; 3]; pixels];
+        let mut between = vec![0.0; pixels];
+        let cascade = self.cascade();
+        for c in 0..3 {
+            // S_m = Σ_la w_lma G_a * c_l E.
+            let mut sums = vec![vec![0.0_f32; pixels]; terms];
+            for l in 0..terms {
+                let weighted = self.coefficients_of(l).iter().enumerate();
+                let mut map: Vec<f32> = weighted.map(|(pixel, rgb)| rgb[c] * irradiance(pixel)[c]).collect();
+                for (a, stage) in cascade.stages().iter().enumerate() {
+                    stage.blur(&mut map, &mut between, [self.header.width, self.header.height], self.header.addressing);
+                    for (m, sum) in sums.iter_mut().enumerate() {
+                        let weight = self.weights_of(l, m)[a][c];
+                        sum.iter_mut().zip(&map).for_each(|(sum, blurred)| *sum += weight * blurred);
+                    }
+                }
+            }
+            for (m, sum) in sums.iter().enumerate() {
+                for ((exitance, rgb), sum) in exitance.iter_mut().zip(self.coefficients_of(m)).zip(sum) {
+                    exitance[c] += rgb[c] * sum;
+                }
+            }
+        }
+        exitance
     }
 }

@@ -1,14 +1,15 @@
 //! Blocks of separable blurs and of what is put together from them.
 
 use bytemuck::{Pod, Zeroable};
+use subsurf_decoder::bssrdf::basis::{MAX_GAUSSIANS, MAX_TERMS};
 
-use crate::separable::{CascadeStage, MAX_GAUSSIANS, MAX_TERMS, SeparableBasis};
+use crate::separable::ProjectedBasis;
 
 /// `BlurStage` of `blur.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct BlurStage {
-    /// Weights w_lma pitch² of the a of this stage; shape `[l][m]`, linear Rec. 709.
+    /// Weights w_lma of the a of this stage; shape `[l][m]`, linear Rec. 709.
     pub weights: [[f32; 4]; MAX_TERMS * MAX_TERMS],
     /// Axis of the blur, (1, 0) or (0, 1).
     pub axis: [i32; 2],
@@ -29,14 +30,13 @@ pub struct BlurStage {
 impl BlurStage {
     /// Blocks of all stages for the basis of a material, along rows and along columns; shape `[a][2]`.
     #[must_use]
-    pub fn cascade(basis: &SeparableBasis) -> Vec<[Self; 2]> {
-        let area = basis.header.pitch_mm * basis.header.pitch_mm;
-        let terms = basis.size.terms;
-        let stages = CascadeStage::cascade(&basis.sigmas);
-        let blocks = stages.iter().enumerate().map(|(a, stage)| {
+    pub fn cascade(basis: &ProjectedBasis) -> Vec<[Self; 2]> {
+        let terms = basis.size().terms;
+        let cascade = basis.cascade();
+        let blocks = cascade.stages().iter().enumerate().map(|(a, stage)| {
             let mut weights = [[0.0; 4]; MAX_TERMS * MAX_TERMS];
             for (l, m) in (0..terms).flat_map(|l| (0..terms).map(move |m| (l, m))) {
-                let [r, g, b] = basis.weights_of(l, m)[a].map(|weight| weight * area);
+                let [r, g, b] = basis.weights_of(l, m)[a];
                 weights[l * MAX_TERMS + m] = [r, g, b, 0.0];
             }
             [[1, 0], [0, 1]].map(|axis| Self {
@@ -60,21 +60,23 @@ impl BlurStage {
 pub struct ScreenDomain {
     /// Texels of the maps, columns and rows.
     pub size: [u32; 2],
-    /// Texels that the pitch of the material covers at a distance of 1 mm.
+    /// Texels that the pitch of the material covers at a distance of 1 mm, or at any.
     pub focal_texels: f32,
-    /// Distance from the eye to depth 0 in mm.
+    /// Distance from the eye to depth 0 in mm; 1 where the projection is parallel.
     pub middle_mm: f32,
     /// Pitch of the pixels of the material in mm.
     pub pitch_mm: f32,
+    /// 1 in perspective, where things further away are smaller; 0 where the projection is parallel.
+    pub perspective: f32,
     #[doc(hidden)]
-    pub pad: [u32; 3],
+    pub pad: [u32; 2],
 }
 
 /// `Transmission` of `transmission.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Transmission {
-    /// Weights w_lma pitch², shape `[a][l][m]`, linear Rec. 709; σ_a in mm in the fourth channel.
+    /// Weights w_lma, shape `[a][l][m]`, linear Rec. 709; σ_a in mm in the fourth channel.
     pub weights: [[f32; 4]; MAX_GAUSSIANS * MAX_TERMS * MAX_TERMS],
     /// A, the number of Gaussians.
     pub gaussians: u32,
@@ -85,13 +87,13 @@ pub struct Transmission {
 impl Transmission {
     /// Block for the basis of a material.
     #[must_use]
-    pub fn new(basis: &SeparableBasis) -> Self {
+    pub fn new(basis: &ProjectedBasis) -> Self {
         let mut weights = [[0.0; 4]; MAX_GAUSSIANS * MAX_TERMS * MAX_TERMS];
         let stages = BlurStage::cascade(basis);
-        for (a, ([rows, _], sigma)) in stages.iter().zip(&basis.sigmas).enumerate() {
+        for (a, ([rows, _], sigma)) in stages.iter().zip(basis.sigmas()).enumerate() {
             let of_stage = &mut weights[a * rows.weights.len()..][..rows.weights.len()];
             for (to, [r, g, b, _]) in of_stage.iter_mut().zip(&rows.weights) {
-                *to = [*r, *g, *b, sigma * basis.header.pitch_mm];
+                *to = [*r, *g, *b, sigma * basis.header().pitch_mm];
             }
         }
         let gaussians = u32::try_from(stages.len()).unwrap_or(0);
@@ -105,8 +107,10 @@ impl Transmission {
 pub struct Upsampling {
     /// Texels of the maps to a pixel of the picture, along rows and columns.
     pub texels_per_pixel: [f32; 2],
+    /// Pixel of the target where the picture begins.
+    pub origin: [f32; 2],
     /// Difference of depth in mm by which the weight of a texel falls to a half.
     pub near_mm: f32,
     #[doc(hidden)]
-    pub pad: u32,
+    pub pad: [u32; 3],
 }

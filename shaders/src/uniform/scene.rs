@@ -4,13 +4,14 @@ use bytemuck::{Pod, Zeroable};
 use glam::camera::rh::proj::directx::{orthographic, perspective};
 use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec3};
-use subsurf_scene::{Light, LightShape, MAX_LIGHTS, Mapping, Placement, SurfacePoints};
+use subsurf_scene::{BoundingSphere, Light, LightShape, Lighting, MAX_LIGHTS, SurfacePoints, View};
 
 use super::material::ROW;
-use crate::cpu::diffuse_transmittance;
 
 /// Widest half angle of a light's view.
 const WIDEST: f32 = 75.0 * std::f32::consts::PI / 180.0;
+/// Eye of a parallel projection: so many radii of the scene away.
+const FAR_AWAY: f32 = 1e4;
 /// Views are this much wider than the scene: filters look beyond the last texel.
 const MARGIN: f32 = 1.03;
 
@@ -60,32 +61,18 @@ pub struct LightSource {
 pub struct Scene {
     /// Projection of the camera; column-major, depth 0 to 1.
     pub clip_from_world: [[f32; 4]; 4],
-    /// Position of the eye in mm.
+    /// Position of the eye in mm; very far away where the projection is parallel.
     pub eye_mm: [f32; 3],
     /// Factor of radiance before tone mapping.
     pub exposure: f32,
     /// Unit vector along which the eye looks.
     pub forward: [f32; 3],
-    /// Distance along it to depth 0 in mm.
-    pub middle_mm: f32,
+    /// Number of lights.
+    pub lights: u32,
     /// Middle of the scene in mm, where depth is 0.
     pub centre_mm: [f32; 3],
-    /// Refractive index of the material against air.
-    pub eta: f32,
-    /// 1 − F_dr from outside: share of light from all around that enters.
-    pub sky_transmittance: f32,
-    /// GGX roughness of the coat, 0 to 1.
-    pub roughness: f32,
-    /// Number of lights, 0 to 4.
-    pub lights: u32,
     /// Texels to a row of textures that hold plain arrays.
     pub row: u32,
-    /// Box mapping: copies of the patch to a mm, in x and y.
-    pub patches_per_mm: [f32; 2],
-    /// Pitch of the pixels of the material in mm.
-    pub pitch_mm: f32,
-    /// 0 texture coordinates, 1 box mapping.
-    pub is_boxed: u32,
     /// Irradiance of the environment on a normal (x, y, z): coefficients of 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y².
     pub sky: [[f32; 4]; 9],
     /// Lights, of which the first `lights` count.
@@ -102,54 +89,43 @@ impl PointGrid {
 }
 
 impl Scene {
-    /// The uniform block for a picture of `size` of one mesh, when lights have views of `light_texels` to a side.
+    /// Block of what lies within a sphere, when lights have views of `light_texels` to a side.
     #[must_use]
-    pub fn new(scene: &subsurf_scene::Scene, placement: &Placement, size: [u32; 2], light_texels: u32) -> Self {
-        #[allow(clippy::cast_precision_loss, reason = "pictures and patches are a few thousand pixels wide")]
-        let [aspect, width, height] =
-            [size[0] as f32 / size[1] as f32, placement.size[0] as f32, placement.size[1] as f32];
-        let camera = &scene.camera;
-        let bounds = placement.bounds;
-        let forward = (camera.target_mm - camera.eye_mm).normalize_or(Vec3::NEG_Z);
-        let middle_mm = (bounds.centre_mm - camera.eye_mm).dot(forward);
-        // Near and far hold the mesh; an eye within it still sees what is further away than a hundredth of its size.
-        let near = (middle_mm - bounds.radius_mm).max(0.01 * bounds.radius_mm);
-        let far = (middle_mm + bounds.radius_mm).max(2.0 * near);
-        let clip_from_view = perspective(camera.fov_y_rad, aspect, near, far);
-        let up = if forward.y.abs() > 0.999 { Vec3::Z } else { Vec3::Y };
-        let view_from_world = look_at_mat4(camera.eye_mm, camera.eye_mm + forward, up);
-        let pitch_mm = placement.pitch_mm;
+    pub fn new(
+        view: &View,
+        exposure: f32,
+        lighting: &Lighting<'_>,
+        bounds: &BoundingSphere,
+        light_texels: u32,
+    ) -> Self {
+        let forward = view.forward();
+        let eye_mm =
+            if view.is_parallel() { bounds.centre_mm - FAR_AWAY * bounds.radius_mm * forward } else { view.eye_mm() };
         let mut block = Self {
-            clip_from_world: (clip_from_view * view_from_world).to_cols_array_2d(),
-            eye_mm: camera.eye_mm.into(),
-            exposure: camera.exposure,
+            clip_from_world: view.clip_from_world().to_cols_array_2d(),
+            eye_mm: eye_mm.into(),
+            exposure,
             forward: forward.into(),
-            middle_mm,
+            lights: u32::try_from(lighting.lights.len().min(MAX_LIGHTS)).unwrap_or(0),
             centre_mm: bounds.centre_mm.into(),
-            eta: placement.eta,
-            sky_transmittance: diffuse_transmittance(placement.eta),
-            roughness: scene.roughness.clamp(0.0, 1.0),
-            lights: u32::try_from(scene.lights.len().min(MAX_LIGHTS)).unwrap_or(0),
             row: ROW,
-            patches_per_mm: [1.0 / (pitch_mm * width), 1.0 / (pitch_mm * height)],
-            pitch_mm,
-            is_boxed: u32::from(placement.mapping == Mapping::Box),
             sky: [[0.0; 4]; 9],
             light: [LightSource::default(); MAX_LIGHTS],
         };
-        for (to, [r, g, b]) in block.sky.iter_mut().zip(scene.environment.irradiance_coefficients()) {
+        for (to, [r, g, b]) in block.sky.iter_mut().zip(lighting.environment.irradiance_coefficients()) {
             *to = [*r, *g, *b, 0.0];
         }
-        for (to, light) in block.light.iter_mut().zip(&scene.lights) {
-            *to = LightSource::of(light, bounds.centre_mm, bounds.radius_mm, light_texels);
+        for (to, light) in block.light.iter_mut().zip(lighting.lights) {
+            *to = LightSource::of(light, lighting.reference_mm, bounds, light_texels);
         }
         block
     }
 }
 
 impl LightSource {
-    /// The uniform block for a scene within a sphere, when the light's view has `texels` to a side.
-    fn of(light: &Light, centre_mm: Vec3, radius_mm: f32, texels: u32) -> Self {
+    /// Block for a scene within a sphere, when the light's view has `texels` to a side.
+    fn of(light: &Light, reference_mm: Vec3, bounds: &BoundingSphere, texels: u32) -> Self {
+        let BoundingSphere { centre_mm, radius_mm } = *bounds;
         #[allow(clippy::cast_precision_loss, reason = "a thousand")]
         let texels = texels as f32;
         match light.shape {
@@ -171,43 +147,41 @@ impl LightSource {
                 let to_centre = centre_mm - position_mm;
                 let share = (MARGIN * radius_mm / to_centre.length().max(1e-6)).min(1.0);
                 // All around: no cosine is below these.
-                Self::local(light, position_mm, to_centre, share.asin(), [-3.0, -2.0], (centre_mm, radius_mm, texels))
+                Self::local(light, reference_mm, [position_mm, to_centre], share.asin(), [-3.0, -2.0], bounds, texels)
             }
             LightShape::Spot { position_mm, target_mm, half_angle_rad } => {
                 let half_angle = half_angle_rad.clamp(0.01, WIDEST);
                 let cone = [half_angle.cos(), (0.9 * half_angle).cos()];
-                Self::local(
-                    light,
-                    position_mm,
-                    target_mm - position_mm,
-                    half_angle,
-                    cone,
-                    (centre_mm, radius_mm, texels),
-                )
+                let ray = [position_mm, target_mm - position_mm];
+                Self::local(light, reference_mm, ray, half_angle, cone, bounds, texels)
             }
         }
     }
 
+    /// Block of a light that shines from a position along a vector.
     fn local(
         light: &Light,
-        position_mm: Vec3,
-        along: Vec3,
+        reference_mm: Vec3,
+        [position_mm, along]: [Vec3; 2],
         half_angle: f32,
         [cos_outer, cos_inner]: [f32; 2],
-        (centre_mm, radius_mm, texels): (Vec3, f32, f32),
+        bounds: &BoundingSphere,
+        texels: f32,
     ) -> Self {
+        let BoundingSphere { centre_mm, radius_mm } = *bounds;
         let axis = along.normalize_or(Vec3::NEG_Y);
         let half_angle = half_angle.clamp(0.01, WIDEST);
         let distance = position_mm.distance(centre_mm);
         let middle_mm = (centre_mm - position_mm).dot(axis).max(1e-3 * radius_mm);
         let near = (distance - MARGIN * radius_mm).max(0.02 * radius_mm);
+        let squared_mm2 = position_mm.distance_squared(reference_mm);
         let clip = perspective(2.0 * half_angle, 1.0, near * half_angle.cos(), distance + 2.0 * radius_mm);
         let view = looking(position_mm, axis);
         Self {
             clip_from_world: (clip * view).to_cols_array_2d(),
             position_or_direction: position_mm.into(),
             is_local: 1,
-            irradiance: light.irradiance.map(|value| value * distance * distance),
+            irradiance: light.irradiance.map(|value| value * squared_mm2),
             cos_outer,
             axis: axis.into(),
             cos_inner,

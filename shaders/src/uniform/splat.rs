@@ -8,8 +8,12 @@ use bytemuck::{Pod, Zeroable};
 pub struct TsmLight {
     /// Number of the light, from 0.
     pub light: u32,
+    /// Number of the group whose light the coarser levels have.
+    pub group: f32,
+    /// Level that is made from the one before, from 1 on; 0 for the finest.
+    pub level: u32,
     #[doc(hidden)]
-    pub pad: [u32; 3],
+    pub pad: u32,
 }
 
 /// `Splat` of `splat.wgsl`.
@@ -43,8 +47,10 @@ pub struct Splat {
     pub stride: u32,
     /// Pitch of the pixels of the material in mm.
     pub pitch_mm: f32,
-    #[doc(hidden)]
-    pub pad: [u32; 2],
+    /// Number of the group whose light is spread.
+    pub group: f32,
+    /// 1 where the projection is parallel.
+    pub is_parallel: u32,
 }
 
 /// Largest number of rings of `splat_resolve.wgsl`.

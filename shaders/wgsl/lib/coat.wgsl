@@ -26,18 +26,18 @@ fn specular_direct(normal: vec3<f32>, to_eye: vec3<f32>, towards: vec3<f32>) -> 
     let h = normalize(to_eye + towards);
     let nh = clamp(dot(normal, h), 0.0, 1.0);
     // A mirror of no roughness would show a light as a point: never less than a light of its own size does.
-    let alpha = max(scene.roughness * scene.roughness, 2e-3);
+    let alpha = max(object.roughness * object.roughness, 2e-3);
     let a2 = alpha * alpha;
     let d = nh * nh * (a2 - 1.0) + 1.0;
     let shadowing = nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2);
-    let reflected = 1.0 - fresnel_transmittance(clamp(dot(h, to_eye), 0.0, 1.0), scene.eta);
+    let reflected = 1.0 - fresnel_transmittance(clamp(dot(h, to_eye), 0.0, 1.0), object.eta);
     return a2 / (PI * d * d) * 0.5 / shadowing * reflected * nl;
 }
 
 // Reflectance of a rough coat under the environment, 0 to 1: Fresnel reflectance, which roughness flattens at grazing angles
 // (after Karis 2014, "Physically based shading on mobile").
 fn specular_ambient(cosine: f32) -> f32 {
-    let facing = 1.0 - fresnel_transmittance(1.0, scene.eta);
-    let at_angle = 1.0 - fresnel_transmittance(cosine, scene.eta);
-    return facing + (at_angle - facing) * (1.0 - scene.roughness) * (1.0 - 0.5 * scene.roughness);
+    let facing = 1.0 - fresnel_transmittance(1.0, object.eta);
+    let at_angle = 1.0 - fresnel_transmittance(cosine, object.eta);
+    return facing + (at_angle - facing) * (1.0 - object.roughness) * (1.0 - 0.5 * object.roughness);
 }

@@ -25,31 +25,18 @@ struct LightSource {
 struct Scene {
     // Projection of the camera; column-major, depth 0 to 1.
     clip_from_world: mat4x4<f32>,
-    // Position of the eye in mm.
+    // Position of the eye in mm; very far away where the projection is parallel.
     eye_mm: vec3<f32>,
     // Multiplies radiance before tone mapping.
     exposure: f32,
-    // Unit vector along which the eye looks, and the distance along it to depth 0, in mm.
+    // Unit vector along which the eye looks.
     forward: vec3<f32>,
-    middle_mm: f32,
+    // Number of lights.
+    lights: u32,
     // Middle of the scene in mm: depth is 0 there, and half-float positions are finest.
     centre_mm: vec3<f32>,
-    // Refractive index of the material against air.
-    eta: f32,
-    // 1 - F_dr from outside: share of light from all around that enters. F_t divided by it has the mean 1 on the way out.
-    sky_transmittance: f32,
-    // GGX roughness of the coat, 0 to 1.
-    roughness: f32,
-    // Number of lights, 0 to 4.
-    lights: u32,
     // Texels to a row of textures that hold plain arrays.
     row: u32,
-    // Box mapping: copies of the patch to a mm, in x and y.
-    patches_per_mm: vec2<f32>,
-    // Pitch of the pixels of the material in mm.
-    pitch_mm: f32,
-    // 0 texture coordinates, 1 box mapping.
-    is_boxed: u32,
     // Irradiance of the environment on a normal (x, y, z): coefficients of 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2.
     sky: array<vec4<f32>, 9>,
     light: array<LightSource, 4>,
@@ -85,7 +72,7 @@ fn incident(i: u32, position_mm: vec3<f32>) -> Incident {
 // Share of the irradiance of a light that enters the surface, 0 to 1: F_t(cos) max(cos, 0).
 fn entering(normal: vec3<f32>, towards: vec3<f32>) -> f32 {
     let cosine = clamp(dot(normal, towards), 0.0, 1.0);
-    return fresnel_transmittance(cosine, scene.eta) * cosine;
+    return fresnel_transmittance(cosine, object.eta) * cosine;
 }
 
 // Irradiance of the environment that enters a surface of unit normal n (Ramamoorthi and Hanrahan 2001, eq. 13).
@@ -93,7 +80,7 @@ fn sky_irradiance(n: vec3<f32>) -> vec3<f32> {
     let linear = scene.sky[0].xyz + scene.sky[1].xyz * n.y + scene.sky[2].xyz * n.z + scene.sky[3].xyz * n.x;
     let mixed = scene.sky[4].xyz * n.x * n.y + scene.sky[5].xyz * n.y * n.z + scene.sky[7].xyz * n.x * n.z;
     let square = scene.sky[6].xyz * (3.0 * n.z * n.z - 1.0) + scene.sky[8].xyz * (n.x * n.x - n.y * n.y);
-    return max(linear + mixed + square, vec3<f32>(0.0)) * scene.sky_transmittance;
+    return max(linear + mixed + square, vec3<f32>(0.0)) * object.sky_transmittance;
 }
 
 // Depth of a position along the axis of light `i`, from the middle of the scene, in mm.

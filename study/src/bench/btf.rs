@@ -232,11 +232,10 @@ impl Setting<'_> {
         let options = RuntimeOptions { btf: BtfOptions { filtering, samples: 0 }, ..RuntimeOptions::default() };
         let asset = GpuAsset::btf(gpu, &self.test_mesh.mesh, self.copies, material, number)?;
         let mut scene = self.scene.clone();
-        let RenderSession { asset, renderer, mut frame } = RenderSession::new(gpu, asset, &scene, size, options)?;
-        let target = gpu.target(size, options.format)?;
+        let mut session = RenderSession::new(gpu, asset, &scene, size, options)?;
         let times = timed(self.args.frames, self.bars, || {
             turn(&mut scene);
-            renderer.draw(gpu, &mut frame, &asset.drawable(), &scene, target.view())?;
+            session.with(&scene, |renderer, frame, input, target| renderer.draw_now(gpu, frame, input, target))?;
             Ok(gpu.finish()?)
         })?;
         Ok(Row { device: self.backend.to_string(), layout, filtering, times, material_bytes })
@@ -264,8 +263,8 @@ fn on_cpu(
     let mut scene = scene.clone();
     let times = timed(args.frames, bars, || {
         turn(&mut scene);
-        let block = uniform::Scene::new(&scene, &placement, args.size.0, RuntimeOptions::default().light_texels);
-        let picture = cpu::shade_btf(&triangles, &surface, &block, &reflections, args.size.0, [BACKGROUND; 3]);
+        let block = uniform::Blocks::new(&scene, &placement, args.size.0, RuntimeOptions::default().light_texels);
+        let picture = cpu::shade_btf(&triangles, &surface, &block.scene, &reflections, args.size.0, [BACKGROUND; 3]);
         std::hint::black_box(picture);
         Ok(())
     })?;

@@ -7,14 +7,13 @@ use glam::{Quat, Vec3};
 use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::Progress as _;
-use subsurf_runtime::{Gpu, PictureTarget, RuntimeOptions};
+use subsurf_runtime::{Gpu, RuntimeOptions};
 use subsurf_scene::{LightShape, Mesh, Scene};
 use subsurf_viewer::{Asset, RenderRequest, RenderSession};
 
 /// Case of a benchmark: one technique on one mesh, on a device.
 pub(super) struct BenchCase {
     session: RenderSession,
-    target: PictureTarget,
     pub(super) times: Times,
 }
 
@@ -44,7 +43,6 @@ impl BenchCase {
         let asset = asset.upload(gpu, material, mesh)?;
         let [material_bytes, mesh_bytes] = [asset.material_bytes(), asset.mesh_bytes()];
         let session = RenderSession::new(gpu, asset, &RenderRequest::usual(size).scene(mesh), size, options)?;
-        let target = gpu.target(size, options.format)?;
         let times = Times {
             frames: Vec::new(),
             passes: BTreeMap::new(),
@@ -52,7 +50,7 @@ impl BenchCase {
             material_bytes,
             buffer_bytes: gpu.ledger().bytes() - before - material_bytes - mesh_bytes,
         };
-        Ok(Self { session, target, times })
+        Ok(Self { session, times })
     }
 
     /// Its picture of a scene of the size that it was made for.
@@ -61,16 +59,16 @@ impl BenchCase {
     }
 
     fn draw(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<f64> {
-        let RenderSession { asset, renderer, frame } = &mut self.session;
         let begin = Instant::now();
-        renderer.draw(gpu, frame, &asset.drawable(), scene, self.target.view())?;
+        self.session.with(scene, |renderer, frame, input, target| renderer.draw_now(gpu, frame, input, target))?;
         gpu.finish()?;
         Ok(ms(begin.elapsed()))
     }
 
     fn draw_timed(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<()> {
-        let RenderSession { asset, renderer, frame } = &mut self.session;
-        let passes = renderer.draw_timed(gpu, frame, &asset.drawable(), scene, self.target.view())?;
+        let passes = self
+            .session
+            .with(scene, |renderer, frame, input, target| renderer.draw_timed(gpu, frame, input, target))?;
         self.times.order = passes.iter().map(|(name, _)| *name).collect();
         for (name, time) in passes {
             self.times.passes.entry(name).or_default().push(ms(time));

@@ -1,5 +1,6 @@
 //! `subsurf-study bench`: how long things take on this machine.
 
+mod basis;
 mod btf;
 mod case;
 mod devices;
@@ -16,6 +17,7 @@ pub(crate) enum Command {
     Load(load::Args),
     Frames(frames::Args),
     Patch(patch::Args),
+    Basis(basis::Args),
     Btf(btf::Args),
     Render(render::Args),
     #[command(hide = true)]
@@ -27,6 +29,7 @@ pub(crate) fn run(command: &Command) -> anyhow::Result<()> {
         Command::Load(args) => load::run(args),
         Command::Frames(args) => frames::run(args),
         Command::Patch(args) => patch::run(args),
+        Command::Basis(args) => basis::run(args),
         Command::Btf(args) => btf::run(args),
         Command::Render(args) => render::run(args),
         Command::LoadOne(args) => load::run_one(args),

@@ -7,13 +7,15 @@ use subsurf_cli::outln;
 use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
+use subsurf_decoder::bssrdf::basis::BasisSize;
+use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, add_basis};
 use subsurf_encoder::synthetic::Shape;
 use subsurf_runtime::{
-    Backend, Gpu, HomogeneousRenderer, Material, PatchLight, PatchRenderer, Region, SeparableMaterial,
+    Backend, BssrdfPlanes, Gpu, HomogeneousRenderer, PatchLight, PatchRenderer, Region, SeparableMaterial,
     SeparableRenderer, layout_of,
 };
-use subsurf_shaders::fit::mean_kernel;
-use subsurf_shaders::separable::{BasisSize, CascadeStage, SeparableBasis};
+use subsurf_shaders::mean_kernel;
+use subsurf_viewer::{Scattering, basis};
 
 use super::devices::to_compare;
 use super::timing::median;
@@ -62,18 +64,21 @@ fn measure(gpu: &Gpu, backend: Backend, side: u32, args: &Args) -> anyhow::Resul
     let radius = args.window / 2;
     let shape =
         Shape { size: [side; 2], radius, samples: radius + 1, base_materials: 128, addressing: Addressing::Clamp };
-    let file = shape.bmpp();
+    // Usual numbers, from the start of the fit: only their count matters.
+    let size = BasisSize { terms: 2, gaussians: 4 };
+    let options = BasisOptions { choice: BasisChoice::Size(size), steps: 0 };
+    let file = add_basis(&shape.bmpp(), &options, &())?;
     let material = Bssrdf::parse(&file)?;
     let light = PatchLight::upload(gpu, [side; 2], &vec![[1.0; 3]; (side * side) as usize])?;
 
-    let uploaded = Material::upload(gpu, &material)?;
+    let uploaded = BssrdfPlanes::upload(gpu, &material)?;
     let renderer = PatchRenderer::new(gpu, layout_of(&material))?;
     let whole = Region { origin: [0, 0], size: [side; 2] };
     // A gather takes long enough to be timed a few times only.
     let gather = times(gpu, args.frames.min(3), || renderer.gather(gpu, &uploaded, &light, whole).map(|_| ()))?;
 
-    let factors = SeparableBasis::of(&material, BasisSize::default());
-    let uploaded = SeparableMaterial::upload(gpu, &factors)?;
+    let basis = basis(&material, Scattering::Separable)?;
+    let uploaded = SeparableMaterial::upload(gpu, &basis)?;
     let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
     let patch = renderer.prepare(gpu, &uploaded, &light)?;
     let separable = times(gpu, args.frames, || renderer.draw(gpu, &patch).map(|_| ()))?;
@@ -83,7 +88,7 @@ fn measure(gpu: &Gpu, backend: Backend, side: u32, args: &Args) -> anyhow::Resul
     let patch = renderer.prepare(gpu, material.header(), &kernel, &light)?;
     let homogeneous = times(gpu, args.frames, || renderer.draw(gpu, &patch).map(|_| ()))?;
 
-    let taps: i32 = CascadeStage::cascade(&factors.sigmas).iter().map(|stage| 2 * stage.taps + 1).sum();
+    let taps: i32 = basis.cascade().stages().iter().map(|stage| 2 * stage.taps + 1).sum();
     let [gather, separable, homogeneous] = [gather, separable, homogeneous].map(|times| median(&times));
     outln!(
         "  {side}x{side}: gather {gather:.1} ms, separable {separable:.2} ms ({taps} taps an axis), one kernel \

@@ -4,9 +4,11 @@ use std::process::Stdio;
 use std::time::Duration;
 
 use crate::common::{assert_refused, command, files, json, run, succeed};
+use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::capture::{FolderWriter, Pixels};
 use subsurf_encoder::simulate::relief::{Sample, simulate};
 use subsurf_encoder::synthetic::{NestedShape, Shape};
+use subsurf_tests::drawable;
 
 /// The images of a BTF are as many bytes as they have pixels.
 #[test]
@@ -74,13 +76,7 @@ fn loading_is_timed() {
 fn files_of_ones_own_are_timed() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let shape = Shape {
-        size: [12, 10],
-        radius: 2,
-        samples: 4,
-        base_materials: 6,
-        addressing: subsurf_decoder::bssrdf::Addressing::Clamp,
-    };
+    let shape = Shape { size: [12, 10], radius: 2, samples: 4, base_materials: 6, addressing: Addressing::Clamp };
     std::fs::write(folder.join("a.subsurf"), shape.bmpp()).unwrap();
     std::fs::write(folder.join("p.subsurf"), shape.per_pixel()).unwrap();
     let told = succeed(folder, "bench load --files p.subsurf p.subsurf a.subsurf --runs 1 --backend cpu -o .");
@@ -90,4 +86,20 @@ fn files_of_ones_own_are_timed() {
         serde_json::from_slice(&std::fs::read(folder.join("loading.json")).unwrap()).unwrap();
     assert_eq!(numbers["cases"][0]["storage"]["bmpp"]["bytes"], shape.bmpp().len());
     assert_refused(&run(folder, "bench load --files p.subsurf p.subsurf p.npy"), &["p.npy"]);
+}
+
+/// Bases are told apart by what the fit began with and what it came to.
+#[test]
+fn bases_are_compared() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("a.subsurf"), drawable([13, 11], 3, Addressing::Clamp)).unwrap();
+    let told = succeed(folder, "bench basis a.subsurf").out;
+    let joint = told.lines().find(|line| line.contains("L = 2, A = 4, joint")).expect("a line for every fit");
+    let uniform = joint
+        .split(" dB")
+        .next()
+        .and_then(|line| line.split(" / ").next())
+        .and_then(|line| line.split(' ').next_back());
+    assert!(uniform.and_then(|db| db.parse::<f64>().ok()).unwrap() > 25.0, "{told}");
 }

@@ -5,8 +5,9 @@ use std::path::Path;
 
 use subsurf_decoder::bssrdf::{Addressing, Coding};
 use subsurf_decoder::container::crc32;
+use subsurf_encoder::bssrdf::basis::{FittedBasis, with_basis};
 use subsurf_encoder::synthetic::Shape;
-use subsurf_tests::{fingerprint, format_example, shape};
+use subsurf_tests::{fingerprint, format_basis, format_example, shape};
 
 fn main() -> std::io::Result<()> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("vectors");
@@ -38,6 +39,8 @@ fn main() -> std::io::Result<()> {
     write("one_pixel.subsurf", &one.bmpp())?;
     let full = Shape { base_materials: 255, ..shape([16, 16], 2, Addressing::Repeat) };
     write("many_bases.subsurf", &full.bmpp())?;
+    let based = with_basis(&example, &format_basis()).expect("a basis in range");
+    write("separable_basis.subsurf", &based)?;
 
     // Broken, each in one way.
     let broken = |at: usize, value: u8| {
@@ -55,18 +58,35 @@ fn main() -> std::io::Result<()> {
     write("x_ratio.subsurf", &reseal(broken(207, 0x40)))?;
     write("x_profile_infinite.subsurf", &reseal(broken(159, 0xFF)))?;
     write("x_overlap.subsurf", &reseal(broken(24 + 24 + 8, 150)))?;
+    let wrong = |change: &dyn Fn(&mut FittedBasis)| {
+        let mut basis = format_basis();
+        change(&mut basis);
+        // Written as the writer would, which reads it again: so by hand, over a sound one.
+        let mut file = based.clone();
+        let start = file.len() - basis.to_bytes().len();
+        file.truncate(start);
+        file.extend(basis.to_bytes());
+        reseal(file)
+    };
+    write("x_basis_width.subsurf", &wrong(&|basis| basis.sigmas[0] = 0.0))?;
+    write("x_basis_widths_fall.subsurf", &wrong(&|basis| basis.sigmas[1] = 0.25))?;
+    write("x_basis_nan.subsurf", &wrong(&|basis| basis.weights[3][1] = f32::NAN))?;
+    write("x_basis_huge.subsurf", &wrong(&|basis| basis.projection[2][0] = 2e15))?;
+    write("x_basis_terms.subsurf", &wrong(&|basis| basis.size.terms = 3))?;
     std::fs::write(folder.join("results.txt"), results)
 }
 
 /// Makes the CRCs right again, so that only what was changed is wrong.
 fn reseal(mut file: Vec<u8>) -> Vec<u8> {
-    for entry in (0..4).map(|k| 24 + 24 * k) {
+    let sections = usize::from(file[12]);
+    for entry in (0..sections).map(|k| 24 + 24 * k) {
         let at = |offset: usize| usize::from(u16::from_le_bytes([file[offset], file[offset + 1]]));
         let (offset, length) = (at(entry + 8), at(entry + 16));
         let crc = crc32(&file[offset..(offset + length).min(file.len())]);
         file[entry + 4..entry + 8].copy_from_slice(&crc.to_le_bytes());
     }
-    let crc = crc32(&file[..120]);
-    file[120..124].copy_from_slice(&crc.to_le_bytes());
+    let end = 24 + 24 * sections;
+    let crc = crc32(&file[..end]);
+    file[end..end + 4].copy_from_slice(&crc.to_le_bytes());
     file
 }

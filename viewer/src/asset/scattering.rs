@@ -4,18 +4,16 @@ use std::sync::Arc;
 
 use subsurf_decoder::Bssrdf;
 use subsurf_runtime::{
-    AmbientTransfer, Gpu, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial, VertexData,
+    BssrdfPlanes, GatherMaterial, Gpu, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial, VertexData,
 };
-use subsurf_scene::{Mapping, Mesh, Placement, Scene, SurfacePoints, visibility};
-use subsurf_shaders::separable::{BasisSize, SeparableBasis};
+use subsurf_scene::{AmbientTransfer, Mapping, Mesh, Scene, SurfacePoints, visibility};
+use subsurf_shaders::separable::ProjectedBasis;
 
 use super::gpu::GpuAsset;
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Longest edge of the mesh between whose vertices light is gathered, in pixels of the material.
 const LONGEST_EDGE: f32 = 1.5;
-/// How close to the gather the separable path has to come on a flat patch, in dB.
-const LEAST_DB: f32 = 40.0;
 
 /// Technique by which a translucent material is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,8 +36,8 @@ pub struct Asset {
 
 enum Parts {
     Gather { fine: Mesh, surface: SurfacePoints },
-    Splat { sky: Arc<Vec<AmbientTransfer>>, factors: SeparableBasis },
-    Separable { sky: Arc<Vec<AmbientTransfer>>, factors: SeparableBasis },
+    Splat { sky: Arc<Vec<AmbientTransfer>> },
+    Separable { sky: Arc<Vec<AmbientTransfer>>, basis: ProjectedBasis },
 }
 
 impl Asset {
@@ -48,7 +46,7 @@ impl Asset {
     /// `sky`, where it is known already for this mesh and material, is not computed again.
     ///
     /// # Errors
-    /// The mesh is broken, or too fine a one would be needed.
+    /// The mesh is broken, or too fine a one would be needed; the file has no separable basis, and the technique needs one.
     pub fn compute(
         material: &Bssrdf<'_>,
         mesh: &Mesh,
@@ -66,11 +64,9 @@ impl Asset {
                 let (fine, surface) = points(mesh, mapping, material, scene)?;
                 Parts::Gather { fine, surface }
             }
-            Scattering::Splat => {
-                Parts::Splat { sky: sky()?, factors: SeparableBasis::of(material, BasisSize::default()) }
-            }
+            Scattering::Splat => Parts::Splat { sky: sky()? },
             Scattering::Separable | Scattering::Homogeneous => {
-                Parts::Separable { sky: sky()?, factors: factors(material, technique) }
+                Parts::Separable { basis: basis(material, technique)?, sky: sky()? }
             }
         };
         Ok(Self { mapping, parts })
@@ -80,7 +76,7 @@ impl Asset {
     #[must_use]
     pub fn sky(&self) -> Option<&Arc<Vec<AmbientTransfer>>> {
         match &self.parts {
-            Parts::Splat { sky, .. } | Parts::Separable { sky, .. } => Some(sky),
+            Parts::Splat { sky } | Parts::Separable { sky, .. } => Some(sky),
             Parts::Gather { .. } => None,
         }
     }
@@ -90,31 +86,35 @@ impl Asset {
     /// # Errors
     /// The device cannot draw it, or has no room for it.
     pub fn upload(&self, gpu: &Gpu, material: &Bssrdf<'_>, mesh: &Mesh) -> Result<GpuAsset> {
-        let placement = Placement::new(mesh, self.mapping, material.header());
-        let shared = |sky: &[AmbientTransfer]| GpuMesh::upload(gpu, mesh, &placement, VertexData::Ambient(sky));
-        Ok(match &self.parts {
-            Parts::Gather { fine, surface } => GpuAsset::Gather {
-                mesh: GpuMesh::upload(gpu, fine, &placement, VertexData::Points(&surface.point_of))?,
-                points: GpuPoints::upload(gpu, surface)?,
-                material: Material::upload(gpu, material)?,
-            },
-            Parts::Splat { sky, factors } => {
-                GpuAsset::Splat { mesh: shared(sky)?, material: SplatMaterial::upload(gpu, material, factors)? }
+        let shared = |sky: &[AmbientTransfer]| {
+            GpuMesh::upload(gpu, mesh, VertexData { ambient: Some(sky), ..Default::default() })
+        };
+        let (mesh, material): (_, Material) = match &self.parts {
+            Parts::Gather { fine, surface } => {
+                let known = VertexData { points: Some(&surface.point_of), ..Default::default() };
+                let planes = BssrdfPlanes::upload(gpu, material)?;
+                let material = GatherMaterial { planes, points: GpuPoints::upload(gpu, surface)? };
+                (GpuMesh::upload(gpu, fine, known)?, material.into())
             }
-            Parts::Separable { sky, factors } => {
-                GpuAsset::Separable { mesh: shared(sky)?, material: SeparableMaterial::upload(gpu, factors)? }
-            }
-        })
+            Parts::Splat { sky } => (shared(sky)?, SplatMaterial::upload(gpu, material)?.into()),
+            Parts::Separable { sky, basis } => (shared(sky)?, SeparableMaterial::upload(gpu, basis)?.into()),
+        };
+        Ok(GpuAsset { mesh, material, mapping: self.mapping })
     }
 }
 
-/// Factors of a material, or of its mean for [`Scattering::Homogeneous`].
-#[must_use]
-pub fn factors(material: &Bssrdf<'_>, technique: Scattering) -> SeparableBasis {
-    match technique {
-        Scattering::Homogeneous => SeparableBasis::homogeneous(material, BasisSize::default().gaussians),
-        Scattering::Gather | Scattering::Splat | Scattering::Separable => SeparableBasis::within(material, LEAST_DB),
-    }
+/// Separable basis of a file with the coefficients of every pixel, or that of its mean for [`Scattering::Homogeneous`].
+///
+/// # Errors
+/// The file has no basis.
+pub fn basis(material: &Bssrdf<'_>, technique: Scattering) -> Result<ProjectedBasis> {
+    let basis = ProjectedBasis::of(material).ok_or_else(|| {
+        Error::Request(
+            "the file has no separable basis: draw it by splat or gather, or add one with `subsurf encode --add-basis FILE`"
+                .to_owned(),
+        )
+    })?;
+    Ok(if technique == Scattering::Homogeneous { basis.homogeneous() } else { basis })
 }
 
 /// The mesh with vertices close enough to gather light at, and them as points that exchange light.

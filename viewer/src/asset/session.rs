@@ -1,6 +1,6 @@
 //! Session: pictures of one size, of one asset.
 
-use subsurf_runtime::{Frame, Gpu, Renderer, RuntimeOptions};
+use subsurf_runtime::{Frame, Gpu, Input, PictureTarget, Renderer, RuntimeOptions, Target};
 use subsurf_scene::Scene;
 
 use super::exposure::exposure_of;
@@ -15,6 +15,9 @@ pub struct RenderSession {
     pub renderer: Renderer,
     /// Buffers for pictures of the size.
     pub frame: Frame,
+    /// Picture of the size.
+    pub picture: PictureTarget,
+    size: [u32; 2],
 }
 
 impl RenderSession {
@@ -23,9 +26,11 @@ impl RenderSession {
     /// # Errors
     /// What the device cannot do, or has no room for.
     pub fn new(gpu: &Gpu, asset: GpuAsset, scene: &Scene, size: [u32; 2], options: RuntimeOptions) -> Result<Self> {
-        let renderer = Renderer::new(gpu, asset.technique(), options)?;
-        let frame = renderer.prepare(gpu, &asset.drawable(), scene, size)?;
-        Ok(Self { asset, renderer, frame })
+        let renderer = Renderer::for_technique(gpu, asset.technique(), options)?;
+        let picture = PictureTarget::new(gpu, size, &options)?;
+        let objects = [asset.object(scene.roughness)];
+        let frame = renderer.prepare(gpu, &Input::new(scene, &objects, size), size)?;
+        Ok(Self { asset, renderer, frame, picture, size })
     }
 
     /// Draws a picture: sRGB bytes, row by row from the top.
@@ -33,7 +38,23 @@ impl RenderSession {
     /// # Errors
     /// The device failed.
     pub fn picture(&mut self, gpu: &Gpu, scene: &Scene) -> Result<Vec<[u8; 3]>> {
-        Ok(self.renderer.picture(gpu, &mut self.frame, &self.asset.drawable(), scene)?)
+        let objects = [self.asset.object(scene.roughness)];
+        let input = Input::new(scene, &objects, self.size);
+        Ok(self.renderer.picture(gpu, &mut self.frame, &input, &self.picture)?)
+    }
+
+    /// Hands everything that a frame takes to `draw`.
+    ///
+    /// # Errors
+    /// Those of `draw`.
+    pub fn with<T>(
+        &mut self,
+        scene: &Scene,
+        draw: impl FnOnce(&Renderer, &mut Frame, &Input<'_>, &Target<'_>) -> subsurf_runtime::Result<T>,
+    ) -> Result<T> {
+        let objects = [self.asset.object(scene.roughness)];
+        let input = Input::new(scene, &objects, self.size);
+        Ok(draw(&self.renderer, &mut self.frame, &input, &self.picture.target())?)
     }
 
     /// The exposure that suits a picture of a scene.
@@ -41,23 +62,24 @@ impl RenderSession {
     /// # Errors
     /// The device failed.
     pub fn exposure(&mut self, gpu: &Gpu, scene: &Scene) -> Result<f32> {
-        chosen_exposure(gpu, &self.renderer, &mut self.frame, &self.asset, scene)
+        let objects = [self.asset.object(scene.roughness)];
+        let input = Input::new(scene, &objects, self.size);
+        chosen_exposure(gpu, &self.renderer, &mut self.frame, &input, &self.picture)
     }
 }
 
-/// The exposure that suits a picture of an asset.
+/// The exposure that suits a picture.
 pub(crate) fn chosen_exposure(
     gpu: &Gpu,
     renderer: &Renderer,
     frame: &mut Frame,
-    asset: &GpuAsset,
-    scene: &Scene,
+    input: &Input<'_>,
+    picture: &PictureTarget,
 ) -> Result<f32> {
-    let mut scene = scene.clone();
     let mut failed = Ok(());
     let exposure = exposure_of(|dark| {
-        scene.camera.exposure = dark;
-        renderer.picture(gpu, frame, &asset.drawable(), &scene).unwrap_or_else(|error| {
+        let input = Input { exposure: dark, ..*input };
+        renderer.picture(gpu, frame, &input, picture).unwrap_or_else(|error| {
             failed = Err(error);
             Vec::new()
         })

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use glam::Vec3;
-use subsurf_runtime::{AmbientTransfer, BtfMaterial, Gpu};
-use subsurf_scene::{Mesh, Scene};
+use subsurf_runtime::{BtfMaterial, Gpu};
+use subsurf_scene::{AmbientTransfer, Mesh, Scene};
 
 use super::assets::MaterialFile;
 use super::config::LoadImages;

@@ -162,8 +162,7 @@ fn plan_line(plan: &Plan) -> String {
         1 => "maps in full size".to_owned(),
         divisor => format!("maps 1/{divisor}"),
     };
-    let samples = if plan.samples == 1 { "1 sample".to_owned() } else { format!("{} samples", plan.samples) };
-    format!("plan: {maps}, light view {0} × {0}, {samples}", plan.light_texels)
+    format!("plan: {maps}, light view {0} × {0}", plan.light_texels)
 }
 
 #[cfg(test)]
@@ -172,9 +171,9 @@ mod tests {
 
     #[test]
     fn plans_in_words() {
-        let plan = Plan { size: [640, 480], light_texels: 512, lights: 1, divisor: 1, samples: 4 };
-        assert_eq!(plan_line(&plan), "plan: maps in full size, light view 512 × 512, 4 samples");
-        let coarse = Plan { divisor: 3, samples: 1, ..plan };
-        assert_eq!(plan_line(&coarse), "plan: maps 1/3, light view 512 × 512, 1 sample");
+        let plan = Plan { size: [640, 480], light_texels: 512, lights: 1, divisor: 1, has_light_levels: false };
+        assert_eq!(plan_line(&plan), "plan: maps in full size, light view 512 × 512");
+        let coarse = Plan { divisor: 3, light_texels: 256, ..plan };
+        assert_eq!(plan_line(&coarse), "plan: maps 1/3, light view 256 × 256");
     }
 }

@@ -5,7 +5,7 @@ use subsurf_shaders::{MaterialLayout, uniform};
 use wgpu::{BindingResource, TextureFormat};
 
 use super::surface::{Exitance, PatchLight, Region};
-use crate::asset::Material;
+use crate::asset::BssrdfPlanes;
 use crate::error::Result;
 use crate::gpu::{FullscreenPass, Gpu, Rows, TextureSpec};
 
@@ -35,7 +35,7 @@ impl PatchRenderer {
     ///
     /// # Errors
     /// [`crate::Error::Device`] if material or light are for another layout or size, or the device is lost.
-    pub fn gather(&self, gpu: &Gpu, material: &Material, light: &PatchLight, region: Region) -> Result<Exitance> {
+    pub fn gather(&self, gpu: &Gpu, material: &BssrdfPlanes, light: &PatchLight, region: Region) -> Result<Exitance> {
         material.expect(self.layout)?;
         light.expect([material.header().width, material.header().height])?;
         let spec = TextureSpec::target("exitance", region.size, gpu.target_texture_format());

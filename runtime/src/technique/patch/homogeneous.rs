@@ -34,7 +34,7 @@ impl HomogeneousRenderer {
         Ok(Self { pass: FullscreenPass::new(gpu, table::HOMOGENEOUS.only(), &[HALF])? })
     }
 
-    /// Makes room for a patch; `kernel` as [`subsurf_shaders::fit::mean_kernel`] has it.
+    /// Makes room for a patch; `kernel` as [`subsurf_shaders::mean_kernel`] has it.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if it is too large, or the kernel.

@@ -1,5 +1,7 @@
 //! Separable blurs on flat patches: a cascade of Gaussians from weighted irradiance to exitance.
 
+use std::sync::Arc;
+
 use subsurf_shaders::passes::{Choice, table};
 use wgpu::{BindGroup, BindingResource, CommandEncoderDescriptor};
 
@@ -7,7 +9,7 @@ use super::surface::{Exitance, PatchLight, nearest};
 use crate::asset::SeparableMaterial;
 use crate::error::Result;
 use crate::gpu::{FullscreenPass, Gpu, HALF, TextureSpec};
-use crate::technique::cascade::{BlurPasses, Cascade, Ends};
+use crate::technique::cascade::{BlurPasses, Cascade, CascadeMaps, Ends};
 
 /// Pipelines of separable blurs on flat patches of L terms; made once.
 #[derive(Debug)]
@@ -46,7 +48,7 @@ impl SeparableRenderer {
     /// Makes room for the maps of a patch.
     ///
     /// # Errors
-    /// [`Error::Device`](crate::Error::Device) if the material has another number of terms, [`Error::Unsupported`](crate::Error::Unsupported) if it is too large.
+    /// [`Error::Usage`](crate::Error::Usage) if the material has another number of terms, [`Error::Unsupported`](crate::Error::Unsupported) if it is too large.
     pub fn prepare(&self, gpu: &Gpu, material: &SeparableMaterial, light: &PatchLight) -> Result<SeparablePatch> {
         material.expect(self.terms)?;
         let header = material.header();
@@ -54,7 +56,8 @@ impl SeparableRenderer {
         light.expect(size)?;
         let nearest = nearest(gpu, header.addressing);
         let nearest = BindingResource::Sampler(&nearest);
-        let cascade = Cascade::new(gpu, &self.blur, material, &nearest, size)?;
+        let maps = Arc::new(CascadeMaps::new(gpu, size, self.terms)?);
+        let cascade = Cascade::new(gpu, &self.blur, material, &nearest, &maps)?;
         let texture = BindingResource::TextureView;
         let [rows, _] = &material.stages()[0];
         let [_, columns] = &material.stages()[material.stages().len() - 1];
@@ -63,7 +66,7 @@ impl SeparableRenderer {
         let of_last = [
             columns.as_entire_binding(),
             nearest.clone(),
-            texture(&cascade.maps[1].all),
+            texture(&maps.irradiance[1].all),
             texture(&cascade.sums_before_last().all),
             basis,
         ];

@@ -48,7 +48,7 @@ impl PatchLight {
         if have == size {
             return Ok(());
         }
-        Err(Error::Device(format!("light for a patch of {have:?} pixels, the material has {size:?}")))
+        Err(Error::Usage(format!("light for a patch of {have:?} pixels, the material has {size:?}")))
     }
 }
 

@@ -1,53 +1,63 @@
-//! Maps and bind groups of splats for one size of picture, and their passes, recorded.
+//! Maps and bind groups of splats, and their passes, recorded.
 
 use std::sync::Arc;
 
 use glam::{Mat4, Vec3};
-use subsurf_scene::{Placement, Scene};
-use subsurf_shaders::uniform::{self, MAX_RINGS, Splat, SplatRings, TsmLight, Upsampling};
+use subsurf_decoder::bssrdf::BssrdfHeader;
+use subsurf_shaders::uniform::{MAX_RINGS, Splat, SplatRings, TsmLight, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureView};
 
-use super::levels::{FADE, Levels, RING, divisor, ring_size};
+use super::levels::{FADE, Levels, RING, ring_size};
 use super::passes::Passes;
-use crate::asset::{GpuMesh, SplatMaterial};
+use crate::asset::SplatMaterial;
 use crate::error::Result;
-use crate::frame::plan::Plan;
-use crate::gpu::{DEPTH, Gpu, HALF, Rows, Surface2d, TextureSpec, Tracked, layers_of_level, level_of};
-use crate::technique::common::{Common, Lap};
-use crate::technique::drawable::Drawable;
-use crate::technique::mesh_pass::{MeshPass, Target};
-use crate::technique::pipelines::{Bindings, Pipelines, wrong_drawable};
+use crate::frame::{Plan, RuntimeOptions};
+use crate::gpu::{Gpu, HALF, Rows, Surface2d, TextureSpec, Tracked, layers_of_level, level_of};
+use crate::technique::bindings::{Bindings, Group, Lap, group_number};
+use crate::technique::common::Common;
+use crate::technique::mesh_pass::{Attachments, MeshPass, cleared};
 use crate::technique::tsm::{FAR, TranslucentShadowMaps};
 
-/// Maps, blocks and bind groups for one size of picture.
+/// Number of rings that there is room for.
+#[allow(clippy::cast_possible_truncation, reason = "five")]
+const RINGS: u32 = MAX_RINGS as u32;
+
+/// Maps for one size of picture, which materials use one after the other.
 #[derive(Debug)]
-struct Bound {
-    passes: Arc<Passes>,
-    levels: Levels,
+pub(crate) struct Maps {
+    size: [u32; 2],
     visible: [Surface2d; 3],
     depth: Surface2d,
     rings: Vec<Surface2d>,
     resolved: Surface2d,
+}
+
+/// Blocks and bind groups of one material.
+#[derive(Debug)]
+struct Bound {
+    passes: Arc<Passes>,
+    maps: Arc<Maps>,
+    header: BssrdfHeader,
+    softening_gain: [[f32; 4]; 8],
+    /// Levels of the last frame.
+    levels: Levels,
     gbuffer: [BindGroup; 2],
     reductions: Vec<Reduction>,
-    material: BindGroup,
+    planes: BindGroup,
     draws: Vec<Draw>,
     resolve: BindGroup,
     rings_block: Tracked<Buffer>,
     upsampling: Tracked<Buffer>,
-    /// Blocks of the reductions.
-    #[expect(dead_code, reason = "kept in the ledger as long as the device has them")]
-    numbers: Vec<Tracked<Buffer>>,
     shade: BindGroup,
-    softening_gain: [[f32; 4]; 8],
-    pitch_mm: f32,
-    size: [u32; 2],
 }
 
 /// Pass that makes one level of one light's view from the level before.
 #[derive(Debug)]
 struct Reduction {
     light: u32,
+    level: u32,
+    #[expect(dead_code, reason = "kept in the ledger as long as the device has it")]
+    block: Tracked<Buffer>,
     group: BindGroup,
     targets: [TextureView; 3],
     size: [u32; 2],
@@ -58,53 +68,115 @@ struct Reduction {
 struct Draw {
     light: u32,
     ring: u32,
-    level: u32,
     refines: bool,
     block: Tracked<Buffer>,
     group: BindGroup,
 }
 
-impl Bound {
-    fn new(
-        gpu: &Gpu,
-        passes: Arc<Passes>,
-        material: &SplatMaterial,
-        common: &Common,
-        lights: &TranslucentShadowMaps,
-        plan: &Plan,
-        placement: &Placement,
-    ) -> Result<Self> {
-        material.planes.expect(passes.layout)?;
-        let levels = Levels::new(placement, plan.light_texels);
+impl Draw {
+    fn level(&self, levels: &Levels) -> u32 {
+        levels.first + self.ring - u32::from(self.refines)
+    }
+}
+
+impl Maps {
+    /// Bytes on the device.
+    pub(crate) fn bytes_of(plan: &Plan, options: &RuntimeOptions) -> u64 {
+        let size = plan.map_size();
+        let half = |size| TextureSpec::target("", size, HALF).bytes();
+        let rings: u64 = (0..RINGS).map(|ring| half(ring_size(size, ring))).sum();
+        4 * half(size) + TextureSpec::attachment("", size, options.depth.format).bytes() + rings
+    }
+
+    pub(crate) fn new(gpu: &Gpu, plan: &Plan, options: &RuntimeOptions) -> Result<Self> {
         let size = plan.map_size();
         let target = |label, size| gpu.texture(&TextureSpec::target(label, size, HALF));
-        let visible = [target("positions", size)?, target("places", size)?, target("albedos", size)?];
-        let rings = (0..levels.rings).map(|ring| target("ring", ring_size(size, ring)));
-        let rings: Vec<Surface2d> = rings.collect::<Result<_>>()?;
-        let resolved = target("rings together", size)?;
+        let rings = (0..RINGS).map(|ring| target("ring", ring_size(size, ring)));
+        Ok(Self {
+            size,
+            visible: [target("positions", size)?, target("places", size)?, target("albedos", size)?],
+            depth: gpu.texture(&TextureSpec::attachment("map depth", size, options.depth.format))?,
+            rings: rings.collect::<Result<_>>()?,
+            resolved: target("rings together", size)?,
+        })
+    }
+}
+
+impl Passes {
+    /// Binds a material, number `slot` of a frame, to its maps.
+    pub(crate) fn bind(
+        self: &Arc<Self>,
+        gpu: &Gpu,
+        (material, slot): (&SplatMaterial, usize),
+        common: &Common,
+        lights: &TranslucentShadowMaps,
+        maps: &Arc<Maps>,
+        plan: &Plan,
+    ) -> Result<Box<dyn Bindings>> {
         let texture = BindingResource::TextureView;
         let of_albedo = [texture(&material.albedo.all), BindingResource::Sampler(&material.albedo.sampler)];
+        let rings_block = gpu.uniform("rings", &SplatRings::default());
+        let mut of_resolve =
+            vec![rings_block.as_entire_binding(), texture(&maps.visible[0].view), texture(&maps.visible[2].view)];
+        of_resolve.extend(maps.rings.iter().map(|ring| texture(&ring.view)));
+        let upsampling = gpu.uniform("upsampling", &Upsampling::default());
+        let of_shade =
+            [of_albedo[0].clone(), of_albedo[1].clone(), upsampling.as_entire_binding(), texture(&maps.resolved.view)];
+        Ok(Box::new(Bound {
+            gbuffer: [
+                self.gbuffer.bind(gpu, 0, &[common.scene.as_entire_binding()])?,
+                self.gbuffer.bind(gpu, 1, &of_albedo)?,
+            ],
+            planes: self.splat.bind(gpu, 0, &material.planes.resources())?,
+            resolve: self.resolve.bind(gpu, 0, &of_resolve)?,
+            shade: self.shade.bind(gpu, 1, &of_shade)?,
+            reductions: self.reductions(gpu, slot, lights, plan)?,
+            draws: self.draws(gpu, lights, maps, plan)?,
+            levels: Levels { first: 1, rings: 1 },
+            softening_gain: material.softening_gain.map(|[r, g, b]| [r, g, b, 0.0]),
+            header: *material.planes.header(),
+            rings_block,
+            upsampling,
+            maps: maps.clone(),
+            passes: self.clone(),
+        }))
+    }
 
-        let numbers: Vec<Tracked<Buffer>> = (0..plan.lights)
-            .map(|light| gpu.uniform("light of a shadow map", &TsmLight { light, pad: [0; 3] }))
-            .collect();
+    /// Passes from every level of every light to the next, of light that enters group number `slot`.
+    fn reductions(
+        &self,
+        gpu: &Gpu,
+        slot: usize,
+        lights: &TranslucentShadowMaps,
+        plan: &Plan,
+    ) -> Result<Vec<Reduction>> {
         let mut reductions = Vec::new();
-        for (block, light) in numbers.iter().zip(0..) {
-            for level in 1..levels.count() {
-                let from = lights.surfaces().each_ref().map(|surface| layers_of_level(surface, level - 1));
-                let mut group = vec![block.as_entire_binding()];
-                group.extend(from.iter().map(BindingResource::TextureView));
-                reductions.push(Reduction {
-                    light,
-                    group: passes.tsm_reduce.bind(gpu, 0, &group)?,
-                    targets: lights.surfaces().each_ref().map(|surface| level_of(surface, light, level)),
-                    size: [(plan.light_texels >> level).max(1); 2],
-                });
-            }
+        for (light, level) in
+            (0..plan.lights).flat_map(|light| (1..plan.light_levels()).map(move |level| (light, level)))
+        {
+            let block = TsmLight { light, group: group_number(slot), level, pad: 0 };
+            let block = gpu.uniform("level of a shadow map", &block);
+            let from = lights.surfaces().each_ref().map(|surface| layers_of_level(surface, level - 1));
+            let mut resources = vec![block.as_entire_binding()];
+            resources.extend(from.iter().map(BindingResource::TextureView));
+            let group = self.tsm_reduce.bind(gpu, 0, &resources)?;
+            reductions.push(Reduction {
+                light,
+                level,
+                block,
+                group,
+                targets: lights.surfaces().each_ref().map(|surface| level_of(surface, light, level)),
+                size: [(plan.light_texels >> level).max(1); 2],
+            });
         }
+        Ok(reductions)
+    }
 
+    /// Splats of every light and ring.
+    fn draws(&self, gpu: &Gpu, lights: &TranslucentShadowMaps, maps: &Maps, plan: &Plan) -> Result<Vec<Draw>> {
+        let texture = BindingResource::TextureView;
         let mut draws = Vec::new();
-        for (light, ring) in (0..plan.lights).flat_map(|light| (0..levels.rings).map(move |ring| (light, ring))) {
+        for (light, ring) in (0..plan.lights).flat_map(|light| (0..RINGS).map(move |ring| (light, ring))) {
             for refines in [false, true] {
                 let block = gpu.uniform("splat", &Splat::default());
                 let group = [
@@ -112,109 +184,37 @@ impl Bound {
                     texture(&lights.all[0]),
                     texture(&lights.all[1]),
                     texture(&lights.all[2]),
-                    texture(&visible[0].view),
-                    texture(&visible[1].view),
+                    texture(&maps.visible[0].view),
+                    texture(&maps.visible[1].view),
                 ];
-                let group = passes.splat.bind(gpu, 1, &group)?;
-                let level = levels.first + ring - u32::from(refines);
-                draws.push(Draw { light, ring, level, refines, block, group });
+                let group = self.splat.bind(gpu, 1, &group)?;
+                draws.push(Draw { light, ring, refines, block, group });
             }
         }
-
-        let rings_block = gpu.uniform("rings", &SplatRings::default());
-        let mut of_resolve =
-            vec![rings_block.as_entire_binding(), texture(&visible[0].view), texture(&visible[2].view)];
-        // SplatRings that do not exist are never read.
-        of_resolve.extend((0..MAX_RINGS).map(|ring| texture(&rings[ring.min(rings.len() - 1)].view)));
-        let upsampling = gpu.uniform("upsampling", &Upsampling::default());
-        let of_shade =
-            [of_albedo[0].clone(), of_albedo[1].clone(), upsampling.as_entire_binding(), texture(&resolved.view)];
-        Ok(Self {
-            gbuffer: [
-                passes.gbuffer.bind(gpu, 0, &[common.block.as_entire_binding()])?,
-                passes.gbuffer.bind(gpu, 1, &of_albedo)?,
-            ],
-            material: passes.splat.bind(gpu, 0, &material.planes.resources())?,
-            resolve: passes.resolve.bind(gpu, 0, &of_resolve)?,
-            shade: passes.shade.bind(gpu, 1, &of_shade)?,
-            depth: gpu.texture(&TextureSpec::attachment("map depth", size, DEPTH))?,
-            levels,
-            visible,
-            rings,
-            resolved,
-            reductions,
-            draws,
-            rings_block,
-            upsampling,
-            numbers,
-            softening_gain: material.softening_gain.map(|[r, g, b]| [r, g, b, 0.0]),
-            pitch_mm: placement.pitch_mm,
-            size,
-            passes,
-        })
+        Ok(draws)
     }
 }
 
-impl Pipelines for Passes {
-    fn bytes(&self, plan: &Plan, placement: &Placement) -> u64 {
-        let levels = Levels::new(placement, plan.light_texels);
-        let size = plan.map_size();
-        let half = |size| TextureSpec::target("", size, HALF).bytes();
-        let rings: u64 = (0..levels.rings).map(|ring| half(ring_size(size, ring))).sum();
-        4 * half(size) + TextureSpec::target("", size, DEPTH).bytes() + rings + plan.light_bytes(levels.count())
-    }
-
-    fn light_levels(&self, plan: &Plan, placement: &Placement) -> u32 {
-        Levels::new(placement, plan.light_texels).count()
-    }
-
-    fn divisor(&self, drawable: &Drawable<'_>, light_texels: u32, pixels_per_mm: f32) -> u32 {
-        divisor(&drawable.mesh().placement, light_texels, pixels_per_mm)
-    }
-
-    fn shade(&self) -> &MeshPass {
-        &self.shade
-    }
-
-    fn bind(
-        self: Arc<Self>,
-        gpu: &Gpu,
-        drawable: &Drawable<'_>,
-        common: &Common,
-        lights: &TranslucentShadowMaps,
-        plan: &Plan,
-    ) -> Result<Box<dyn Bindings>> {
-        let Drawable::Splat { mesh, material } = drawable else {
-            return Err(wrong_drawable());
-        };
-        Ok(Box::new(Bound::new(gpu, self, material, common, lights, plan, &mesh.placement)?))
+impl Bound {
+    /// Draws of a frame.
+    fn drawn(&self, lights: u32) -> impl Iterator<Item = &Draw> {
+        self.draws.iter().filter(move |draw| draw.light < lights && draw.ring < self.levels.rings)
     }
 }
 
 impl Bindings for Bound {
     /// Tells the passes where lights and eye are.
-    fn update(
-        &mut self,
-        gpu: &Gpu,
-        drawable: &Drawable<'_>,
-        scene: &Scene,
-        block: &uniform::Scene,
-        plan: &Plan,
-    ) -> Result<()> {
-        let Drawable::Splat { .. } = drawable else {
-            return Err(wrong_drawable());
-        };
-        let upsampling = plan.upsampling(&scene.camera, block.middle_mm);
+    fn update(&mut self, gpu: &Gpu, group: &Group<'_>) {
+        self.levels = Levels::new(&self.header, group.radius_mm, group.plan.light_texels);
+        let upsampling = group.upsampling();
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&upsampling));
         let rings = SplatRings { count: self.levels.rings, near_mm: upsampling.near_mm, pad: [0; 2] };
         gpu.queue.write_buffer(&self.rings_block, 0, bytemuck::bytes_of(&rings));
 
-        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-        let [width, height] = plan.size.map(|side| side as f32);
-        let cotangent = 1.0 / (0.5 * scene.camera.fov_y_rad).tan();
+        let block = group.block;
         let clip_from_world = Mat4::from_cols_array_2d(&block.clip_from_world);
         let clip_from_centre = clip_from_world * Mat4::from_translation(Vec3::from(block.centre_mm));
-        for draw in &self.draws {
+        for draw in self.drawn(group.lights) {
             let light = &block.light[draw.light as usize];
             #[allow(clippy::cast_precision_loss, reason = "small")]
             let texel_at = |level: u32| light.texel_mm * (1_u32 << level) as f32;
@@ -222,58 +222,59 @@ impl Bindings for Bound {
             let end = |ring: u32| RING * texel_at(self.levels.first + ring);
             let fade = |ring: u32| [end(ring), FADE * end(ring)];
             let beyond = [1e6, 2e6];
+            let level = draw.level(&self.levels);
             let splat = Splat {
                 softening_gain: self.softening_gain,
                 clip_from_centre: clip_from_centre.to_cols_array_2d(),
                 fade_in: if draw.ring == 0 { [0.0; 2] } else { fade(draw.ring - 1) },
                 fade_out: if draw.ring + 1 == self.levels.rings { beyond } else { fade(draw.ring) },
-                focal: [cotangent * height / width, cotangent],
+                focal: group.input.view.focal().into(),
                 middle_mm: light.middle_mm,
-                texel_mm: texel_at(draw.level),
+                texel_mm: texel_at(level),
                 light: draw.light,
-                level: draw.level,
-                side: (plan.light_texels >> draw.level).max(1),
+                level,
+                side: (group.plan.light_texels >> level).max(1),
                 refines: u32::from(draw.refines),
                 stride: 1 << draw.ring,
-                pitch_mm: self.pitch_mm,
-                pad: [0; 2],
+                pitch_mm: self.header.pitch_mm,
+                group: group.number(),
+                is_parallel: u32::from(group.input.view.is_parallel()),
             };
             gpu.queue.write_buffer(&draw.block, 0, bytemuck::bytes_of(&splat));
         }
-        Ok(())
     }
 
-    fn record(
-        &self,
-        mut encoder: CommandEncoder,
-        mesh: &GpuMesh,
-        lights: usize,
-        plan: &Plan,
-        lap: Lap<'_>,
-    ) -> CommandEncoder {
-        let lit = |light: u32| (light as usize) < lights;
-        for reduction in self.reductions.iter().filter(|reduction| lit(reduction.light)) {
+    fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, objects: &BindGroup, lap: Lap<'_>) {
+        let is_wanted =
+            |reduction: &&Reduction| reduction.light < group.lights && reduction.level < self.levels.count();
+        for reduction in self.reductions.iter().filter(is_wanted) {
             let targets = reduction.targets.each_ref();
-            self.passes.tsm_reduce.record(&mut encoder, &targets, &[&reduction.group], Rows::all(reduction.size));
+            self.passes.tsm_reduce.record(encoder, &targets, &[&reduction.group], Rows::all(reduction.size));
         }
-        encoder = lap("tsm mipmaps", encoder);
+        lap("tsm mipmaps", encoder);
         let clears = [FAR, Color::TRANSPARENT, Color::TRANSPARENT];
-        let targets = [0, 1, 2].map(|k| Target { view: &self.visible[k].view, clear: clears[k], resolved: None });
+        let attachments = Attachments {
+            colours: &[0, 1, 2].map(|k| cleared(&self.maps.visible[k].view, clears[k])),
+            depth: &self.maps.depth.view,
+            depth_ops: self.passes.depth.own(),
+            viewport: None,
+        };
         let [scene, albedo] = &self.gbuffer;
-        self.passes.gbuffer.record(&mut encoder, &targets, &self.depth.view, &[scene, albedo], mesh);
-        encoder = lap("gbuffer", encoder);
-        for (ring, number) in self.rings.iter().zip(0..) {
-            let draws = self.draws.iter().filter(|draw| draw.ring == number && lit(draw.light));
-            let squares = |draw: &Draw| (plan.light_texels >> draw.level).max(1).pow(2);
+        self.passes.gbuffer.record(encoder, &attachments, [scene, albedo], objects, group.draws());
+        lap("gbuffer", encoder);
+        for (ring, number) in self.maps.rings.iter().zip(0..self.levels.rings) {
+            let draws = self.drawn(group.lights).filter(|draw| draw.ring == number);
+            let squares = |draw: &Draw| (group.plan.light_texels >> draw.level(&self.levels)).max(1).pow(2);
             let draws: Vec<_> = draws.map(|draw| (&draw.group, squares(draw))).collect();
-            self.passes.splat.record(&mut encoder, &ring.view, &self.material, &draws);
+            self.passes.splat.record(encoder, &ring.view, &self.planes, &draws);
         }
-        encoder = lap("splat", encoder);
-        self.passes.resolve.record(&mut encoder, &[&self.resolved.view], &[&self.resolve], Rows::all(self.size));
-        lap("resolve", encoder)
+        lap("splat", encoder);
+        let resolved = [&self.maps.resolved.view];
+        self.passes.resolve.record(encoder, &resolved, &[&self.resolve], Rows::all(self.maps.size));
+        lap("resolve", encoder);
     }
 
-    fn shade(&self) -> &BindGroup {
-        &self.shade
+    fn shade(&self) -> (&MeshPass, &BindGroup) {
+        (&self.passes.shade, &self.shade)
     }
 }

@@ -1,6 +1,6 @@
 //! How the samples that lights see are cut into levels and rings.
 
-use subsurf_scene::Placement;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 use subsurf_shaders::uniform::MAX_RINGS;
 
 /// Edge of samples of the first ring, in pixels of the material.
@@ -21,16 +21,16 @@ pub(super) struct Levels {
 }
 
 impl Levels {
-    /// Levels for views of `light_texels` to a side.
-    pub(super) fn new(placement: &Placement, light_texels: u32) -> Self {
+    /// Levels for views of `light_texels` to a side, of what lies within `radius_mm`.
+    pub(super) fn new(header: &BssrdfHeader, radius_mm: f32, light_texels: u32) -> Self {
         #[allow(clippy::cast_precision_loss, reason = "a thousand")]
-        let texel_mm = 2.0 * placement.bounds.radius_mm / light_texels as f32;
-        let sample_mm = SAMPLE_PIXELS * placement.pitch_mm;
+        let texel_mm = 2.0 * radius_mm / light_texels as f32;
+        let sample_mm = SAMPLE_PIXELS * header.pitch_mm;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
         let first = (sample_mm / texel_mm).log2().round().clamp(1.0, 5.0) as u32;
         #[allow(clippy::cast_precision_loss, reason = "small")]
         let first_mm = texel_mm * (1_u32 << first) as f32;
-        let reach = placement.r_max_mm / (RING * first_mm);
+        let reach = header.r_max_mm / (RING * first_mm);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
         let rings = (reach.log2().ceil() + 1.0).clamp(1.0, MAX_RINGS as f32) as u32;
         Self { first, rings: rings.min(light_texels.ilog2().saturating_sub(first).max(1)) }
@@ -42,11 +42,11 @@ impl Levels {
     }
 }
 
-/// Pixels of the picture to a side of a texel of the finest target.
-pub(super) fn divisor(placement: &Placement, light_texels: u32, pixels_per_mm: f32) -> u32 {
-    let levels = Levels::new(placement, light_texels);
+/// Pixels of the picture to a side of a texel of the finest target, when a mm of the material covers `pixels_per_mm`.
+pub(crate) fn divisor(header: &BssrdfHeader, radius_mm: f32, light_texels: u32, pixels_per_mm: f32) -> u32 {
+    let levels = Levels::new(header, radius_mm, light_texels);
     #[allow(clippy::cast_precision_loss, reason = "small")]
-    let sample_mm = 2.0 * placement.bounds.radius_mm / light_texels as f32 * (1_u32 << levels.first) as f32;
+    let sample_mm = 2.0 * radius_mm / light_texels as f32 * (1_u32 << levels.first) as f32;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
     let divisor = (sample_mm * pixels_per_mm / TEXELS_PER_SAMPLE).clamp(1.0, 8.0) as u32;
     // Of what is no number nothing is left.

@@ -8,4 +8,6 @@ mod bound;
 mod levels;
 mod passes;
 
+pub(crate) use bound::Maps;
+pub(crate) use levels::divisor;
 pub(crate) use passes::Passes;

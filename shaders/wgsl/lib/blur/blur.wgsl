@@ -1,7 +1,7 @@
 // Blur of all irradiance maps by one stage of the cascade of Gaussians, along one axis.
 
 struct BlurStage {
-    // w_lma pitch^2 of this stage's a, shape [l][m]; linear Rec. 709.
+    // w_lma of this stage's a, shape [l][m]; linear Rec. 709.
     weights: array<vec4<f32>, 4>,
     // (1, 0) or (0, 1).
     axis: vec2<i32>,

@@ -18,6 +18,8 @@ fn project(
     @location(2) uv: vec2<f32>,
     @location(6) tangent: vec4<f32>,
 ) -> Varying {
-    let clip = scene.clip_from_world * vec4<f32>(position_mm, 1.0);
-    return Varying(clip, position_mm, normal, uv, tangent);
+    let position = world_position(position_mm);
+    let clip = scene.clip_from_world * vec4<f32>(position, 1.0);
+    let along = vec4<f32>(world_direction(tangent.xyz), tangent.w * object.handedness);
+    return Varying(clip, position, world_direction(normal), material_uv(uv), along);
 }

@@ -19,27 +19,31 @@ fn derivatives(position_mm: vec3<f32>, uv: vec2<f32>) -> Derivatives {
     return Derivatives(dpdx(position_mm), dpdy(position_mm), dpdx(uv), dpdy(uv));
 }
 
-// Layer l at a point p in mm of normal n: by texture coordinates, or by box mapping, its sides blended by their shares.
-fn layer_at(l: u32, p: vec3<f32>, n: vec3<f32>, uv: vec2<f32>, slopes: Derivatives) -> vec3<f32> {
-    if scene.is_boxed == 0u {
+// Layer l at a point in mm of the world, of a unit normal: by texture coordinates, or by box mapping, its sides blended by their shares.
+fn layer_at(l: u32, position_mm: vec3<f32>, normal: vec3<f32>, uv: vec2<f32>, slopes: Derivatives) -> vec3<f32> {
+    if object.is_boxed == 0u {
         return textureSampleGrad(layers, layer_sampler, uv, l, slopes.uv_dx, slopes.uv_dy).xyz;
     }
+    let p = place_of(position_mm);
+    let n = place_direction(normal);
+    let dx = place_direction(slopes.dx);
+    let dy = place_direction(slopes.dy);
     let sides = sides_of(n);
-    let scale = scene.patches_per_mm;
+    let scale = object.patches_per_mm;
     var sum = vec3<f32>(0.0);
     if sides.x > LEAST_SIDE {
         let place = on_side_x(p, n);
-        let value = textureSampleGrad(layers, layer_sampler, place, l, slopes.dx.zy * scale, slopes.dy.zy * scale);
+        let value = textureSampleGrad(layers, layer_sampler, place, l, dx.zy * scale, dy.zy * scale);
         sum += sides.x * value.xyz;
     }
     if sides.y > LEAST_SIDE {
         let place = on_side_y(p, n);
-        let value = textureSampleGrad(layers, layer_sampler, place, l, slopes.dx.xz * scale, slopes.dy.xz * scale);
+        let value = textureSampleGrad(layers, layer_sampler, place, l, dx.xz * scale, dy.xz * scale);
         sum += sides.y * value.xyz;
     }
     if sides.z > LEAST_SIDE {
         let place = on_side_z(p, n);
-        let value = textureSampleGrad(layers, layer_sampler, place, l, slopes.dx.xy * scale, slopes.dy.xy * scale);
+        let value = textureSampleGrad(layers, layer_sampler, place, l, dx.xy * scale, dy.xy * scale);
         sum += sides.z * value.xyz;
     }
     return sum;

@@ -1,15 +1,15 @@
 // Shading of a translucent mesh under a dielectric coat. The pass has `exitance` and `light_visibility`.
 
-// Radiance towards the eye, tone-mapped, as the target takes it.
+// Radiance towards the eye, as the target takes it.
 fn shaded(in: Varying) -> vec4<f32> {
     let to_eye = normalize(scene.eye_mm - in.position_mm);
     let normal = normalize(in.normal);
     // Scattered light, by Lambert's law with Fresnel transmission on the way out: L = M F_t / (pi (1 - F_dr)).
     let cosine = clamp(abs(dot(normal, to_eye)), 0.0, 1.0);
-    let transmittance = fresnel_transmittance(cosine, scene.eta);
-    var radiance = exitance(in, normal) * transmittance / (scene.sky_transmittance * PI);
+    let transmittance = fresnel_transmittance(cosine, object.eta);
+    var radiance = exitance(in, normal) * transmittance / (object.sky_transmittance * PI);
     // Light that the coat reflects.
-    radiance += specular_ambient(cosine) * sky_radiance(reflect(-to_eye, normal), scene.roughness);
+    radiance += specular_ambient(cosine) * sky_radiance(reflect(-to_eye, normal), object.roughness);
     for (var i = 0u; i < scene.lights; i++) {
         let from_light = incident(i, in.position_mm);
         let mirrored = specular_direct(normal, to_eye, from_light.towards);
@@ -17,5 +17,5 @@ fn shaded(in: Varying) -> vec4<f32> {
             radiance += from_light.irradiance * mirrored * light_visibility(i, in, normal);
         }
     }
-    return vec4<f32>(display_value(neutral(radiance * scene.exposure)), 1.0);
+    return vec4<f32>(display_value(radiance * scene.exposure), 1.0);
 }

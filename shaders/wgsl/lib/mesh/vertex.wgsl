@@ -24,12 +24,12 @@ fn project(
     @location(4) sky_front: vec4<f32>,
     @location(5) sky_back: vec4<f32>,
 ) -> Varying {
-    let clip = scene.clip_from_world * vec4<f32>(position_mm, 1.0);
+    let position = world_position(position_mm);
     var out: Varying;
-    out.clip = clip;
-    out.position_mm = position_mm;
-    out.normal = normal;
-    out.uv = uv;
+    out.clip = scene.clip_from_world * vec4<f32>(position, 1.0);
+    out.position_mm = position;
+    out.normal = world_direction(normal);
+    out.uv = material_uv(uv);
     out.exitance = vertex_exitance(point);
     out.visibility = vertex_visibility(point);
     out.sky_front = 2.0 * sky_front.xyz;
@@ -42,7 +42,7 @@ fn scattered_sky(in: Varying, normal: vec3<f32>) -> vec3<f32> {
     return in.sky_front * sky_irradiance(normal) + in.sky_back * sky_irradiance(-normal);
 }
 
-// Depth of a position along the axis of the camera, from the middle of the scene, in mm.
+// Depth of a position along the axis of the camera, from the middle of the group, in mm.
 fn depth_of(position_mm: vec3<f32>) -> f32 {
-    return dot(position_mm - scene.eye_mm, scene.forward) - scene.middle_mm;
+    return dot(position_mm - scene.centre_mm, scene.forward) + object.depth_offset_mm;
 }

@@ -1,7 +1,7 @@
 // Light that is transmitted through thin parts, from the translucent shadow maps.
 
 struct Transmission {
-    // w_lma pitch^2, shape [a][l][m] with room for two terms; linear Rec. 709, and sigma_a in mm in the fourth place.
+    // w_lma, shape [a][l][m] with room for two terms; linear Rec. 709, and sigma_a in mm in the fourth place.
     weights: array<vec4<f32>, 32>,
     // A, the number of Gaussians, 1 to 8.
     gaussians: u32,
@@ -48,8 +48,8 @@ fn transmitted(i: u32, position_mm: vec3<f32>) -> array<vec3<f32>, TERMS> {
         let flux = unpack(textureLoad(tsm_fluxes, texel, i, 0));
         let d = abs(depth - unpack(textureLoad(tsm_positions, texel, i, 0)).w);
         let uv = unpack(textureLoad(tsm_uvs, texel, i, 0)).xy;
-        // Binomial weights. The fourth value is 0 where there is no surface.
-        let e = flux.xyz * flux.w * f32((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
+        // Binomial weights. Light that enters other groups does not come out of this one.
+        let e = flux.xyz * select(0.0, 1.0, is_of_group(flux.w)) * f32((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
         var light: array<vec3<f32>, TERMS>;
         for (var l = 0u; l < TERMS; l++) {
             light[l] = e * textureSampleLevel(layers, layer_sampler, uv, l, 1.0).xyz;

@@ -3,9 +3,13 @@
 struct Upsampling {
     // Texels of the maps to a pixel of the picture.
     texels_per_pixel: vec2<f32>,
+    // Pixel of the target where the picture begins.
+    origin: vec2<f32>,
     // Difference of depth in mm by which the weight of a texel falls to a half.
     near_mm: f32,
-    pad: u32,
+    pad_0: u32,
+    pad_1: u32,
+    pad_2: u32,
 }
 
 @group(1) @binding(2) var<uniform> upsampling: Upsampling;
@@ -18,6 +22,6 @@ struct BilinearCoord {
 
 // Of a pixel of the picture.
 fn bilinear_coord(pixel: vec2<f32>) -> BilinearCoord {
-    let corner = pixel * upsampling.texels_per_pixel - 0.5;
+    let corner = (pixel - upsampling.origin) * upsampling.texels_per_pixel - 0.5;
     return BilinearCoord(vec2<i32>(floor(corner)), corner - floor(corner));
 }

@@ -1,5 +1,5 @@
-// Needs: <target format>, <BTF layout>, tone, display, fresnel, scene, coat, tsm_visibility, btf_vertex, btf_texture, btf_tangents, <ambient>.
-// Picture of a mesh of a BTF: light of the sources and of the environment that it reflects, tone-mapped.
+// Needs: <target format>, <BTF layout>, tone, display, fresnel, object, scene, coat, tsm_visibility, btf_vertex, btf_texture, btf_tangents, <ambient>.
+// Picture of a mesh of a BTF: light of the sources and of the environment that it reflects.
 
 @fragment
 fn shade_btf(in: Varying) -> @location(0) vec4<f32> {
@@ -16,5 +16,5 @@ fn shade_btf(in: Varying) -> @location(0) vec4<f32> {
             light += reached * filtered_btf(in.uv, lod, into_material(tangents, from_light.towards), eye);
         }
     }
-    return vec4<f32>(display_value(neutral(light / PI * scene.exposure)), 1.0);
+    return vec4<f32>(display_value(light / PI * scene.exposure), 1.0);
 }

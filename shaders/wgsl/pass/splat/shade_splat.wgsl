@@ -1,4 +1,4 @@
-// Needs: <target format>, tone, display, fresnel, scene, coat, mapping, tsm_visibility, patch_layers, vertex_none, vertex, neighbours, upsampling, shading.
+// Needs: <target format>, tone, display, fresnel, object, scene, coat, mapping, tsm_visibility, patch_layers, vertex_none, vertex, neighbours, upsampling, shading.
 // Picture of a mesh from the resolved splats, and the scattered light of the environment.
 
 // Exitance divided by the albedo; depth in mm in the fourth channel.

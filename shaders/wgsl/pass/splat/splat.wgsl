@@ -28,8 +28,10 @@ struct Splat {
     stride: u32,
     // Pitch of the pixels of the material in mm.
     pitch_mm: f32,
-    pad_0: u32,
-    pad_1: u32,
+    // Number of the group whose light is spread.
+    group: f32,
+    // 1 where the projection is parallel.
+    is_parallel: u32,
 }
 
 @group(1) @binding(0) var<uniform> splat_block: Splat;
@@ -64,10 +66,15 @@ fn softening_gain(softening_mm: f32) -> vec3<f32> {
     return mix(splat_block.softening_gain[min(k, 7u)].xyz, splat_block.softening_gain[min(k + 1u, 7u)].xyz, at - f32(k));
 }
 
+// Share of a texel where there is a surface of the group, 0 to 1, by the fourth channel of its flux.
+fn share_of(stored: f32, level: u32) -> f32 {
+    return select(stored, select(0.0, 1.0, abs(stored - splat_block.group) < 0.5), level == 0u);
+}
+
 // Whether a texel is full, and flat along the axis of the light.
 fn is_smooth(texel: vec2<u32>, level: u32, texel_mm: f32) -> bool {
     let range = textureLoad(tsm_uvs, texel, splat_block.light, level).zw;
-    let share = textureLoad(tsm_fluxes, texel, splat_block.light, level).w;
+    let share = share_of(textureLoad(tsm_fluxes, texel, splat_block.light, level).w, level);
     return share > 0.99 && range.y - range.x < STEEP * texel_mm;
 }
 
@@ -94,7 +101,7 @@ fn splat_quad(@builtin(vertex_index) corner: u32, @builtin(instance_index) insta
     if splat_block.middle_mm > 0.0 {
         texel_mm *= 1.0 + position.w / splat_block.middle_mm;
     }
-    var wanted = flux.w > 0.0 && max(flux.x, max(flux.y, flux.z)) > 0.0;
+    var wanted = share_of(flux.w, splat_block.level) > 0.0 && max(flux.x, max(flux.y, flux.z)) > 0.0;
     if splat_block.refines != 0u {
         wanted = wanted && !is_smooth(texel / 2u, splat_block.level + 1u, 2.0 * texel_mm);
     } else {
@@ -106,8 +113,8 @@ fn splat_quad(@builtin(vertex_index) corner: u32, @builtin(instance_index) insta
     if !wanted || centre.w < -radius {
         return Sample(vec4<f32>(2.0, 2.0, 2.0, 1.0), vec3<f32>(0.0), vec3<f32>(0.0), vec4<u32>(0u), 0.0);
     }
-    // A sphere of that radius, seen in perspective; close to the eye it may be everywhere.
-    let distance = max(centre.w - radius, 0.02 * radius);
+    // A sphere of that radius; in perspective, close to the eye it may be everywhere.
+    let distance = select(max(centre.w - radius, 0.02 * radius), 1.0, splat_block.is_parallel != 0u);
     let half_size = splat_block.focal * radius / distance;
     let side = vec2<f32>(vec2<u32>(corner & 1u, corner >> 1u)) * 2.0 - 1.0;
     let clip = centre.xy / max(centre.w, distance) + side * half_size;

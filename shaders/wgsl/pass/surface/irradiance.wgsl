@@ -1,7 +1,7 @@
-// Needs: <target format>, fresnel, scene, fullscreen.
+// Needs: <target format>, fresnel, object, scene, fullscreen.
 // Irradiance that enters a surface at each of its points: E = sum over lights of F_t(cos) max(cos, 0) V E_light + T_sky E_sky.
 
-// Positions in mm.
+// Positions in mm of the mesh.
 @group(1) @binding(0) var positions: texture_2d<f32>;
 // Unit normals.
 @group(1) @binding(1) var normals: texture_2d<f32>;
@@ -11,8 +11,8 @@
 @fragment
 fn irradiance(@builtin(position) at: vec4<f32>) -> @location(0) TargetTexel {
     let texel = vec2<u32>(at.xy);
-    let position = textureLoad(positions, texel, 0).xyz;
-    let normal = textureLoad(normals, texel, 0).xyz;
+    let position = world_position(textureLoad(positions, texel, 0).xyz);
+    let normal = normalize(world_direction(textureLoad(normals, texel, 0).xyz));
     var seen = textureLoad(visibilities, texel, 0);
     var sum = sky_irradiance(normal);
     for (var i = 0u; i < scene.lights; i++) {

@@ -19,7 +19,10 @@ fn tsm_reduce(@builtin(position) at: vec4<f32>) -> TsmTexel {
     for (var k = 0u; k < 4u; k++) {
         let turn = (k + chosen) & 3u;
         let child = min(2u * texel + vec2<u32>(turn & 1u, turn >> 1u), last);
-        let child_flux = unpack(textureLoad(fluxes, child, tsm_light.light, 0));
+        var child_flux = unpack(textureLoad(fluxes, child, tsm_light.light, 0));
+        if tsm_light.level == 1u {
+            child_flux.w = select(0.0, 1.0, abs(child_flux.w - tsm_light.group) < 0.5);
+        }
         if child_flux.w > 0.0 {
             let child_uv = unpack(textureLoad(uvs, child, tsm_light.light, 0));
             position += child_flux.w * unpack(textureLoad(positions, child, tsm_light.light, 0));

@@ -1,4 +1,4 @@
-// Needs: <target format>, fresnel, scene, mapping, tsm.
+// Needs: <target format>, fresnel, object, scene, mapping, tsm.
 // Translucent shadow map of a light: where its light enters the mesh, and how much.
 
 @group(1) @binding(0) var<uniform> tsm_light: TsmLight;
@@ -16,8 +16,9 @@ fn project(
     @location(1) normal: vec3<f32>,
     @location(2) uv: vec2<f32>,
 ) -> LightVarying {
-    let clip = scene.light[min(tsm_light.light, 3u)].clip_from_world * vec4<f32>(position_mm, 1.0);
-    return LightVarying(clip, position_mm, normal, uv);
+    let position = world_position(position_mm);
+    let clip = scene.light[min(tsm_light.light, 3u)].clip_from_world * vec4<f32>(position, 1.0);
+    return LightVarying(clip, position, world_direction(normal), material_uv(uv));
 }
 
 @fragment
@@ -27,12 +28,12 @@ fn tsm_render(in: LightVarying) -> TsmTexel {
     let cosine = dot(normal, from_light.towards);
     // Flux through a texel: the light that enters a piece of surface 1 / cos as large as the texel.
     let across = -dot(from_light.towards, scene.light[min(tsm_light.light, 3u)].axis);
-    let entered = select(0.0, fresnel_transmittance(clamp(cosine, 0.0, 1.0), scene.eta) * across, cosine > 0.0);
+    let entered = select(0.0, fresnel_transmittance(clamp(cosine, 0.0, 1.0), object.eta) * across, cosine > 0.0);
     let depth = light_depth(tsm_light.light, in.position_mm);
     let uv = fract(patch_uv(in.position_mm, normal, in.uv) * 0.5) * 2.0;
     return TsmTexel(
         pack(vec4<f32>(in.position_mm - scene.centre_mm, depth)),
-        pack(vec4<f32>(min(from_light.irradiance * entered, BRIGHTEST), 1.0)),
+        pack(vec4<f32>(min(from_light.irradiance * entered, BRIGHTEST), object.group)),
         pack(vec4<f32>(uv, depth, depth)),
     );
 }

@@ -6,9 +6,10 @@ use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::NestedBtf;
 use subsurf_encoder::capture::Folder;
 use subsurf_runtime::{
-    BtfImages, BtfLayout, BtfMaterial, Drawable, Gpu, GpuMesh, Renderer, RuntimeOptions, Technique, VertexData,
+    BtfImages, BtfLayout, BtfMaterial, Gpu, GpuMesh, Input, Material, Object, PictureTarget, Renderer, RuntimeOptions,
+    Technique, VertexData,
 };
-use subsurf_scene::{Mesh, Placement, Scene, relief};
+use subsurf_scene::{Mapping, Mesh, Scene, relief};
 use subsurf_viewer::{RenderRequest, parse_btf};
 
 use super::results::Steps;
@@ -39,12 +40,10 @@ impl<'a> BtfLoader<'a> {
         let layout = if is_array { BtfLayout::Images } else { BtfLayout::Nested };
         let mesh: Mesh = relief(20.0, 8, 22);
         let draw = |gpu: &Gpu| -> anyhow::Result<_> {
-            let renderer = Renderer::new(gpu, Technique::Btf(layout), RuntimeOptions::default())?;
+            let renderer = Renderer::for_technique(gpu, Technique::Btf(layout), RuntimeOptions::default())?;
             let tangents = mesh.tangents()?;
-            Ok((
-                renderer,
-                GpuMesh::upload(gpu, &mesh, &Placement::of_btf(&mesh, COPIES), VertexData::Tangents(&tangents))?,
-            ))
+            let known = VertexData { tangents: Some(&tangents), ..Default::default() };
+            Ok((renderer, GpuMesh::upload(gpu, &mesh, known)?))
         };
         Ok(Self {
             gpu,
@@ -75,10 +74,12 @@ impl<'a> BtfLoader<'a> {
                 let material = self.upload(gpu, btf.as_ref(), &bytes)?;
                 gpu.finish()?;
                 let upload = clock.lap();
-                let model = Drawable::Btf { mesh, material: &material, number: 0 };
-                let target = gpu.target(FRAME, RuntimeOptions::default().format)?;
-                let mut frame = renderer.prepare(gpu, &model, &self.scene, FRAME)?;
-                renderer.draw(gpu, &mut frame, &model, &self.scene, target.view())?;
+                let material = Material::Btf(material.into(), 0);
+                let objects = [Object::new(mesh, &material, Mapping::Uv(COPIES), self.scene.roughness)];
+                let input = Input::new(&self.scene, &objects, FRAME);
+                let picture = PictureTarget::new(gpu, FRAME, renderer.options())?;
+                let mut frame = renderer.prepare(gpu, &input, FRAME)?;
+                renderer.draw_now(gpu, &mut frame, &input, &picture.target())?;
                 gpu.finish()?;
                 (upload, clock.lap(), material.gpu_bytes())
             }

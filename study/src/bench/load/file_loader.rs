@@ -8,7 +8,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
 use subsurf_decoder::bssrdf::{BssrdfHeader, Coding};
 use subsurf_encoder::capture::{Capture, Overrides};
-use subsurf_runtime::{Gpu, Material, MaterialLayout, PatchLight, PatchRenderer, Region, layout_of};
+use subsurf_runtime::{BssrdfPlanes, Gpu, MaterialLayout, PatchLight, PatchRenderer, Region, layout_of};
 use subsurf_shaders::Rgb;
 use subsurf_shaders::cpu::{self, Reflectance};
 
@@ -121,10 +121,10 @@ impl<'a> FileLoader<'a> {
         Ok((Steps { read, parse, upload, first_frame, total: read + parse + upload + first_frame }, gpu_bytes))
     }
 
-    fn upload(&self, gpu: &Gpu, material: Option<&Bssrdf<'_>>, entries: &[u8]) -> anyhow::Result<Material> {
+    fn upload(&self, gpu: &Gpu, material: Option<&Bssrdf<'_>>, entries: &[u8]) -> anyhow::Result<BssrdfPlanes> {
         Ok(match material {
-            Some(material) => Material::upload(gpu, material)?,
-            None => Material::upload_capture(gpu, &self.header, entries)?,
+            Some(material) => BssrdfPlanes::upload(gpu, material)?,
+            None => BssrdfPlanes::upload_capture(gpu, &self.header, entries)?,
         })
     }
 

@@ -8,7 +8,7 @@ use subsurf_runtime::wgpu::{
     BindGroup, Color, CommandEncoderDescriptor, LoadOp, Operations, PollType, RenderPassColorAttachment,
     RenderPassDescriptor, StoreOp, TextureFormat, TextureView, TextureViewDescriptor,
 };
-use subsurf_runtime::{Backend, Frame, Gpu, PictureTarget, Plan, Renderer, RuntimeOptions, Technique};
+use subsurf_runtime::{Backend, Frame, Gpu, Input, PictureTarget, Plan, Renderer, RuntimeOptions};
 use subsurf_scene::{Mesh, Scene};
 use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
@@ -70,8 +70,8 @@ pub(in crate::window) struct Stage {
     composer: Composer,
     painter: Painter,
     options: RuntimeOptions,
-    /// Pipelines, compiled once for each technique.
-    renderers: Vec<(Technique, Renderer)>,
+    /// Pipelines, compiled once for each technique; none before the first.
+    renderer: Option<Renderer>,
     drawn: [Option<Drawn>; 2],
     pictures: Option<BindGroup>,
 }
@@ -111,7 +111,7 @@ impl Stage {
         Self {
             composer: Composer::new(&gpu, format),
             painter: Painter::new(&gpu, format),
-            renderers: Vec::new(),
+            renderer: None,
             drawn: [None, None],
             pictures: None,
             options,
@@ -172,50 +172,48 @@ impl Stage {
     ) -> Result<()> {
         self.clear(role);
         let asset = computed.upload(&self.gpu, material, mesh)?;
-        let path = asset.technique();
-        if !self.renderers.iter().any(|(made, _)| *made == path) {
-            self.renderers.push((path, Renderer::new(&self.gpu, path, self.options)?));
-        }
+        let renderer = match &mut self.renderer {
+            Some(renderer) => renderer,
+            None => self.renderer.insert(Renderer::new(&self.gpu, self.options)?),
+        };
+        renderer.compile(&self.gpu, asset.technique())?;
         self.drawn[role as usize] = Some(Drawn { key, asset, buffers: None });
         Ok(())
     }
 
     /// Draws a picture of the size of the window, and waits for it. How long that took, if there was anything to draw.
     pub(in crate::window) fn draw(&mut self, role: Role, scene: &Scene) -> Result<Option<Duration>> {
-        let Some(drawn) = &mut self.drawn[role as usize] else {
+        let (Some(drawn), Some(renderer)) = (&mut self.drawn[role as usize], &self.renderer) else {
             return Ok(None);
         };
-        let path = drawn.asset.technique();
-        let Some((_, renderer)) = self.renderers.iter().find(|(made, _)| *made == path) else {
-            return Ok(None);
-        };
-        let (gpu, model) = (&self.gpu, drawn.asset.drawable());
+        let gpu = &self.gpu;
         let fit = Fit::of(scene, self.canvas.size());
+        let objects = [drawn.asset.object(scene.roughness)];
+        let input = Input::new(scene, &objects, fit.size);
         if !drawn.buffers.as_ref().is_some_and(|(made, ..)| made.serves(&fit)) {
             // The old ones go first, for they count in the budget.
             (drawn.buffers, self.pictures) = (None, None);
-            let picture = gpu.target(fit.size, self.options.format)?;
-            drawn.buffers = Some((fit, renderer.prepare(gpu, &model, scene, fit.size)?, picture));
+            let picture = PictureTarget::new(gpu, fit.size, &self.options)?;
+            drawn.buffers = Some((fit, renderer.prepare(gpu, &input, fit.size)?, picture));
         }
         let Some((_, frame, picture)) = &mut drawn.buffers else {
             return Ok(None);
         };
         let begin = Instant::now();
-        renderer.draw(gpu, frame, &model, scene, picture.view())?;
+        renderer.draw_now(gpu, frame, &input, &picture.target())?;
         gpu.finish()?;
         Ok(Some(begin.elapsed()))
     }
 
     /// The exposure that suits what is shown.
     pub(in crate::window) fn exposure(&mut self, scene: &Scene) -> Result<Option<f32>> {
-        let Some(Drawn { asset, buffers: Some((_, frame, _)), .. }) = &mut self.drawn[Role::Shown as usize] else {
+        let shown = &mut self.drawn[Role::Shown as usize];
+        let (Some(Drawn { asset, buffers: Some((fit, frame, picture)), .. }), Some(renderer)) = (shown, &self.renderer)
+        else {
             return Ok(None);
         };
-        let path = asset.technique();
-        let Some((_, renderer)) = self.renderers.iter().find(|(made, _)| *made == path) else {
-            return Ok(None);
-        };
-        chosen_exposure(&self.gpu, renderer, frame, asset, scene).map(Some)
+        let objects = [asset.object(scene.roughness)];
+        chosen_exposure(&self.gpu, renderer, frame, &Input::new(scene, &objects, fit.size), picture).map(Some)
     }
 
     pub(in crate::window) fn painter(&mut self) -> (&mut Painter, &Gpu) {

@@ -6,21 +6,11 @@ use std::collections::HashMap;
 use glam::{IVec3, Vec3};
 use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
-use subsurf_scene::Mesh;
-use subsurf_shaders::Rgb;
-use subsurf_shaders::fit::mean_profile;
 
+use super::transfer::AmbientTransfer;
 use crate::error::Result;
-
-/// Exitance of a vertex under uniform light from all around, relative to that of flat ground of the same material; rgb, 0 to
-/// about 2.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AmbientTransfer {
-    /// Share from surface that faces the same way as the vertex.
-    pub front: Rgb,
-    /// Share from surface that faces the other way: light that passes through thin parts.
-    pub back: Rgb,
-}
+use crate::mean_profile::MeanProfile;
+use crate::mesh::Mesh;
 
 /// Longest edge of the mesh between whose vertices light scatters, in pixels of the material.
 const LONGEST_EDGE: f32 = 1.5;
@@ -39,10 +29,10 @@ impl AmbientTransfer {
     /// distance in space. Approximate: heterogeneity and occlusion of the light are left out.
     ///
     /// # Errors
-    /// [`crate::Error::Scene`] if the mesh is too large for the material's pixels.
+    /// [`Error::Mesh`](crate::Error) if the mesh is too large for the material's pixels.
     pub fn of(mesh: &Mesh, material: &Bssrdf<'_>) -> Result<Vec<Self>> {
         let header = material.header();
-        let profile = mean_profile(material);
+        let profile = MeanProfile::of(material);
         let samples = samples(mesh.clone().subdivided(LONGEST_EDGE * header.pitch_mm)?, header.pitch_mm);
         let cell_mm = 0.5 * header.r_max_mm;
         let cell_of = |position: Vec3| (position / cell_mm).floor().as_ivec3();
@@ -60,7 +50,7 @@ impl AmbientTransfer {
                     let r_mm = sample.position_mm.distance(*position);
                     if r_mm <= header.r_max_mm {
                         let sum = if sample.normal.dot(*normal) >= 0.0 { &mut front } else { &mut back };
-                        let reflectance = profile(r_mm);
+                        let reflectance = profile.at(r_mm);
                         for c in 0..3 {
                             sum[c] += reflectance[c] * sample.area_mm2 / flat[c];
                         }
@@ -92,12 +82,12 @@ fn samples(mesh: Mesh, pitch_mm: f32) -> Vec<Sample> {
 }
 
 /// Exitance of flat ground, 2π ∫ R(r) r dr, by the midpoint rule.
-fn flat(profile: impl Fn(f32) -> Rgb, r_max_mm: f32) -> Rgb {
+fn flat(profile: &MeanProfile, r_max_mm: f32) -> [f32; 3] {
     const STEPS: u16 = 2_048;
     let step = r_max_mm / f32::from(STEPS);
     let ring = |k: u16| {
         let r_mm = (f32::from(k) + 0.5) * step;
-        profile(r_mm).map(|value| value * std::f32::consts::TAU * r_mm * step)
+        profile.at(r_mm).map(|value| value * std::f32::consts::TAU * r_mm * step)
     };
     (0..STEPS).map(ring).fold([1e-12; 3], |sum, ring| [0, 1, 2].map(|c| sum[c] + ring[c]))
 }

@@ -1,8 +1,8 @@
 //! What is drawn without heterogeneity: one profile for the whole patch.
 
 use subsurf_decoder::Bssrdf;
+use subsurf_scene::MeanProfile;
 
-use super::radial::mean_profile;
 use crate::rgb::Rgb;
 
 /// Factors that give back the light that softened distances √(r² + s²) take from the mean profile, for s = k / 2 pixels; shape
@@ -11,13 +11,13 @@ use crate::rgb::Rgb;
 pub fn softening_gain(material: &Bssrdf<'_>) -> [Rgb; 8] {
     const STEPS: u16 = 4_096;
     let header = material.header();
-    let profile = mean_profile(material);
+    let profile = MeanProfile::of(material);
     let step = header.r_max_mm / f32::from(STEPS);
     let rest = |k: u8| {
         let begin = 0.5 * f32::from(k) * header.pitch_mm;
         let radii = (0..STEPS).map(|n| (f32::from(n) + 0.5) * step).filter(|r_mm| *r_mm > begin);
         radii.fold([0.0; 3], |sum: Rgb, r_mm| {
-            let ring = profile(r_mm);
+            let ring = profile.at(r_mm);
             [0, 1, 2].map(|c| sum[c] + ring[c] * r_mm)
         })
     };
@@ -34,12 +34,12 @@ pub fn softening_gain(material: &Bssrdf<'_>) -> [Rgb; 8] {
 pub fn mean_kernel(material: &Bssrdf<'_>) -> Vec<Rgb> {
     let header = material.header();
     let radius = i32::from(header.window_radius);
-    let profile = mean_profile(material);
+    let profile = MeanProfile::of(material);
     let area = header.pitch_mm * header.pitch_mm;
     let line = |x: i32| {
         (-radius..=radius).fold([0.0; 3], |sum: Rgb, y| {
             #[allow(clippy::cast_precision_loss, reason = "pixels of a window")]
-            let reflectance = profile(((x * x + y * y) as f32).sqrt() * header.pitch_mm);
+            let reflectance = profile.at(((x * x + y * y) as f32).sqrt() * header.pitch_mm);
             [0, 1, 2].map(|c| sum[c] + reflectance[c] * area)
         })
     };

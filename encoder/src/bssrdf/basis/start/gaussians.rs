@@ -1,13 +1,12 @@
 //! Every kernel g_l g_m as a sum of the same Gaussians.
 
-#![allow(clippy::cast_possible_truncation, reason = "results in double precision are kept in single; counts are small")]
+#![allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "counts and widths are small")]
 
 use nalgebra::{DMatrix, DVector};
 use subsurf_decoder::bssrdf::BssrdfHeader;
+use subsurf_decoder::bssrdf::basis::BasisSize;
 
 use super::radial::Radial;
-use crate::rgb::Rgb;
-use crate::separable::BasisSize;
 
 /// Narrowest σ to begin with, in pixels.
 const NARROWEST: f64 = 0.45;
@@ -28,8 +27,8 @@ struct Ring {
     count: f64,
 }
 
-/// Widths σ_a in pixels, shape `[A]`, and weights, shape `[L][L][A]`, for offsets of whole pixels in the window.
-pub(super) fn fit(header: &BssrdfHeader, radial: &Radial, size: BasisSize) -> (Vec<f32>, Vec<Rgb>) {
+/// Logarithms of widths σ_a in pixels, shape `[A]`, and weights in mm⁻², shape `[L][L][A]`, for offsets of whole pixels in the window.
+pub(super) fn fit(header: &BssrdfHeader, radial: &Radial, size: BasisSize) -> (Vec<f64>, Vec<[f64; 3]>) {
     let rings = rings(header);
     let kernels = kernels(&rings, radial, size.terms);
     let radius = f64::from(header.window_radius.max(1));
@@ -56,9 +55,8 @@ pub(super) fn fit(header: &BssrdfHeader, radial: &Radial, size: BasisSize) -> (V
         }
     }
     logs.sort_by(f64::total_cmp);
-    let (solved, _) = solve(&rings, &kernels, &logs);
-    let weights = solved.iter().map(|rgb| rgb.map(|weight| weight as f32)).collect();
-    (logs.iter().map(|log| log.exp() as f32).collect(), weights)
+    let (weights, _) = solve(&rings, &kernels, &logs);
+    (logs, weights)
 }
 
 /// Rings of the window within r_max, by rising length.

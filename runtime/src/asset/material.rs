@@ -1,0 +1,135 @@
+//! Materials as renderers take them: what is on the device, and the technique that draws it.
+
+use std::sync::Arc;
+
+use subsurf_decoder::{Content, File};
+use subsurf_scene::{Mapping, Placement};
+use subsurf_shaders::separable::ProjectedBasis;
+
+use super::bssrdf::BssrdfPlanes;
+use super::btf::BtfMaterial;
+use super::mesh::GpuMesh;
+use super::points::GpuPoints;
+use super::separable::SeparableMaterial;
+use super::splat::SplatMaterial;
+use crate::error::{Error, Result};
+use crate::gpu::Gpu;
+use crate::technique::Technique;
+
+/// Material for the gather on the device: planes of its file, and the points of the one mesh that it lies on.
+#[derive(Debug)]
+pub struct GatherMaterial {
+    /// Planes of the file.
+    pub planes: BssrdfPlanes,
+    /// Points of the surface, between which light scatters.
+    pub points: GpuPoints,
+}
+
+/// Material on the device, as its technique takes it. Clones share what is on the device.
+#[derive(Clone, Debug)]
+pub enum Material {
+    /// Material for the reference sum between the points of one mesh.
+    Gather(Arc<GatherMaterial>),
+    /// Material for multiresolution splats.
+    Splat(Arc<SplatMaterial>),
+    /// Material for separable blurs on the screen.
+    Separable(Arc<SeparableMaterial>),
+    /// One material of a BTF, by its number in the file from 0 on.
+    Btf(Arc<BtfMaterial>, usize),
+}
+
+impl Material {
+    /// Uploads a file for the fastest technique that it offers: separable blurs where it has a basis for them, else splats; a
+    /// BTF as it is, its first material.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for a factored BTF, which no technique draws; [`Error::Unsupported`] if the device takes no texture of
+    /// that size.
+    pub fn load(gpu: &Gpu, file: &File<'_>) -> Result<Self> {
+        match file.content() {
+            Content::Bssrdf(material) => match ProjectedBasis::of(&material) {
+                Some(basis) => Ok(SeparableMaterial::upload(gpu, &basis)?.into()),
+                None => Ok(SplatMaterial::upload(gpu, &material)?.into()),
+            },
+            Content::NestedBtf(btf) => Ok(Self::Btf(Arc::new(BtfMaterial::upload(gpu, &btf)?), 0)),
+            _ => Err(Error::Usage("factored BTFs are not drawn from the file: encode the images as nested".to_owned())),
+        }
+    }
+
+    /// Technique that draws the material.
+    #[must_use]
+    pub fn technique(&self) -> Technique {
+        match self {
+            Self::Gather(material) => Technique::Gather(material.planes.layout()),
+            Self::Splat(material) => Technique::Splat(material.planes.layout()),
+            Self::Separable(material) => Technique::Separable(material.terms()),
+            Self::Btf(material, _) => Technique::Btf(material.layout()),
+        }
+    }
+
+    /// Bytes of the material on the device, without those of points.
+    #[must_use]
+    pub fn gpu_bytes(&self) -> u64 {
+        match self {
+            Self::Gather(material) => material.planes.gpu_bytes(),
+            Self::Splat(material) => material.planes.gpu_bytes(),
+            Self::Separable(material) => material.gpu_bytes(),
+            Self::Btf(material, _) => material.gpu_bytes(),
+        }
+    }
+
+    /// Whether both are the same material on the device.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Gather(a), Self::Gather(b)) => Arc::ptr_eq(a, b),
+            (Self::Splat(a), Self::Splat(b)) => Arc::ptr_eq(a, b),
+            (Self::Separable(a), Self::Separable(b)) => Arc::ptr_eq(a, b),
+            (Self::Btf(a, k), Self::Btf(b, l)) => Arc::ptr_eq(a, b) && k == l,
+            _ => false,
+        }
+    }
+
+    /// Where the material lies on a mesh.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] or [`Error::Usage`] if the mesh lacks what the material needs.
+    pub(crate) fn placement(&self, mesh: &GpuMesh, mapping: Mapping) -> Result<Placement> {
+        if let Mapping::Uv(_) = mapping {
+            mesh.expect_uvs()?;
+        }
+        let header = match self {
+            Self::Gather(material) => {
+                material.points.expect(mesh)?;
+                material.planes.header()
+            }
+            Self::Splat(material) => material.planes.header(),
+            Self::Separable(material) => material.header(),
+            Self::Btf(..) => {
+                mesh.expect_tangents()?;
+                if mapping == Mapping::Box {
+                    return Err(Error::Usage("BTFs lie on meshes by texture coordinates, not by a box".to_owned()));
+                }
+                return Ok(Placement::of_btf_within(mesh.bounds, mapping));
+            }
+        };
+        Ok(Placement::within(mesh.bounds, mapping, header))
+    }
+}
+
+impl From<GatherMaterial> for Material {
+    fn from(material: GatherMaterial) -> Self {
+        Self::Gather(Arc::new(material))
+    }
+}
+
+impl From<SplatMaterial> for Material {
+    fn from(material: SplatMaterial) -> Self {
+        Self::Splat(Arc::new(material))
+    }
+}
+
+impl From<SeparableMaterial> for Material {
+    fn from(material: SeparableMaterial) -> Self {
+        Self::Separable(Arc::new(material))
+    }
+}

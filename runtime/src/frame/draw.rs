@@ -1,0 +1,197 @@
+//! A frame: what is seen is placed, its blocks are uploaded, and its passes are recorded into the host's encoder.
+
+use subsurf_scene::BoundingSphere;
+use subsurf_shaders::uniform;
+use wgpu::{CommandEncoder, LoadOp, Operations, RenderPassColorAttachment, StoreOp};
+
+use super::input::{Input, Object, Target};
+use super::prepare::Frame;
+use super::renderer::Renderer;
+use crate::error::{Error, Result};
+use crate::gpu::{Gpu, attachment};
+use crate::technique::{Attachments, Group, Lap, OBJECT_STRIDE, group_number};
+
+/// Object of the input in a frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placed {
+    /// Number of its material in the frame.
+    pub(crate) slot: usize,
+    /// Offset of its block in bytes.
+    pub(crate) offset: u32,
+    pub(crate) is_visible: bool,
+}
+
+/// What a frame shows besides its objects.
+struct Seen {
+    block: uniform::Scene,
+    /// Sphere that holds all visible objects.
+    bounds: BoundingSphere,
+}
+
+impl Renderer {
+    /// Records a frame into the host's encoder. Nothing is submitted, waited for or allocated on the device; what a driver
+    /// has to say comes by the device's own error handler. Where no object is seen, the target is cleared or left alone.
+    ///
+    /// Blocks are uploaded by the queue, which is done before the commands of the next submission: a frame can be recorded once
+    /// for each submission, another [`Frame`] beside it.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if the frame was not prepared for a material, if there are too many objects, or an object lacks what
+    /// its material needs.
+    pub fn draw(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut CommandEncoder,
+        frame: &mut Frame,
+        input: &Input<'_>,
+        target: &Target<'_>,
+    ) -> Result<()> {
+        self.record(gpu, encoder, frame, input, target, &mut |_, _| {})
+    }
+
+    /// Sums the light of the reference, [`crate::Technique::Gather`], anew where lights have changed, in submissions of its
+    /// own: what takes seconds is not for a frame. Other techniques have nothing to do here.
+    ///
+    /// # Errors
+    /// As [`Renderer::draw`], and [`Error::Device`] if the device fails.
+    pub fn gather(&self, gpu: &Gpu, frame: &mut Frame, input: &Input<'_>) -> Result<()> {
+        let Some(seen) = frame.place(gpu, self, input)? else {
+            return Ok(());
+        };
+        let Frame { plan, common, slots, placed, .. } = frame;
+        for (number, slot) in slots.iter_mut().enumerate() {
+            if let Some(bounds) = group_bounds(input, placed, number) {
+                let group = Group::new(input, placed, number, bounds, &seen.block, seen.bounds.radius_mm, plan);
+                slot.bindings.compute(gpu, &group, &common.object)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Records all passes of a frame; `lap` is called after each.
+    pub(super) fn record(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut CommandEncoder,
+        frame: &mut Frame,
+        input: &Input<'_>,
+        target: &Target<'_>,
+        lap: Lap<'_>,
+    ) -> Result<()> {
+        let Some(seen) = frame.place(gpu, self, input)? else {
+            clear(encoder, target);
+            return Ok(());
+        };
+        let Frame { plan, common, lights, slots, placed, .. } = frame;
+        let draws = || {
+            let drawn = placed.iter().zip(input.objects).filter(|(placed, _)| placed.is_visible);
+            drawn.map(|(placed, object)| (object.mesh, placed.offset))
+        };
+        lights.record(encoder, &self.tsm_render, seen.block.lights, &common.object, draws);
+        lap("shadow maps", encoder);
+
+        // Materials with maps of their own come one after the other, each with its share of the picture.
+        let visible = placed.iter().filter(|placed| placed.is_visible);
+        let last = visible.map(|placed| placed.slot).max().unwrap_or(0);
+        let mut is_first = true;
+        for (number, slot) in slots.iter_mut().enumerate() {
+            let Some(bounds) = group_bounds(input, placed, number) else {
+                continue;
+            };
+            let mut group = Group::new(input, placed, number, bounds, &seen.block, seen.bounds.radius_mm, plan);
+            group.origin = target.origin;
+            slot.bindings.update(gpu, &group);
+            slot.bindings.record(encoder, &group, &common.object, lap);
+            let is_last = number == last;
+            let attachments = Attachments {
+                colours: &[Some(RenderPassColorAttachment {
+                    resolve_target: if is_last { target.resolve } else { None },
+                    ..attachment(target.colour, if is_first { target.load } else { LoadOp::Load })
+                })],
+                depth: target.depth,
+                depth_ops: Operations {
+                    load: if is_first { target.depth_ops.load } else { LoadOp::Load },
+                    store: if is_last { target.depth_ops.store } else { StoreOp::Store },
+                },
+                viewport: Some((target.origin, plan.size)),
+            };
+            let (pass, material) = slot.bindings.shade();
+            pass.record(encoder, &attachments, [&slot.scene, material], &common.object, group.draws());
+            lap("shade", encoder);
+            is_first = false;
+        }
+        Ok(())
+    }
+}
+
+impl Frame {
+    /// Finds the materials and the blocks of all objects, and uploads the blocks; `None` if nothing is seen.
+    fn place(&mut self, gpu: &Gpu, renderer: &Renderer, input: &Input<'_>) -> Result<Option<Seen>> {
+        let room = renderer.options.objects;
+        if input.objects.len() > room as usize {
+            return Err(Error::Usage(format!("{} objects; the renderer has room for {room}", input.objects.len())));
+        }
+        self.placed.clear();
+        for (object, number) in input.objects.iter().zip(0..) {
+            object.expect_rigid()?;
+            let unknown = || Error::Usage("a material that the frame was not prepared for".to_owned());
+            self.placed.push(Placed {
+                slot: self.slots.iter().position(|slot| slot.material.is(object.material)).ok_or_else(unknown)?,
+                offset: number * OBJECT_STRIDE,
+                is_visible: input.view.sees(&object.bounds()),
+            });
+        }
+        let visible = input.objects.iter().zip(&self.placed).filter(|(_, placed)| placed.is_visible);
+        let bounds = visible.map(|(object, _)| object.bounds()).reduce(|all, bounds| all.union(&bounds));
+        let Some(bounds) = bounds else {
+            return Ok(None);
+        };
+        let lighting = &input.lighting;
+        let mut block = uniform::Scene::new(&input.view, input.exposure, lighting, &bounds, self.plan.light_texels);
+        // Lights that came after the frame was prepared have no view: they shine once it is prepared anew.
+        block.lights = block.lights.min(self.plan.lights);
+        gpu.queue.write_buffer(&self.common.scene, 0, bytemuck::bytes_of(&block));
+        self.common.show(gpu, lighting.environment);
+
+        self.blocks.clear();
+        for (object, placed) in input.objects.iter().zip(&self.placed) {
+            let group = group_bounds(input, &self.placed, placed.slot).unwrap_or(bounds);
+            let placement = object.material.placement(object.mesh, object.mapping)?;
+            let block = uniform::Object {
+                depth_offset_mm: (bounds.centre_mm - group.centre_mm).dot(input.view.forward()),
+                group: group_number(placed.slot),
+                ..uniform::Object::new(&placement, &object.world_from_mesh, object.roughness)
+            };
+            self.blocks.extend_from_slice(bytemuck::bytes_of(&block));
+            self.blocks.resize(placed.offset as usize + OBJECT_STRIDE as usize, 0);
+        }
+        gpu.queue.write_buffer(&self.common.objects, 0, &self.blocks);
+        Ok(Some(Seen { block, bounds }))
+    }
+}
+
+/// Sphere that holds the visible objects of one material; none if there are none.
+fn group_bounds(input: &Input<'_>, placed: &[Placed], slot: usize) -> Option<BoundingSphere> {
+    let of_group = input.objects.iter().zip(placed).filter(|(_, placed)| placed.is_visible && placed.slot == slot);
+    of_group.map(|(object, _)| Object::bounds(object)).reduce(|all, bounds| all.union(&bounds))
+}
+
+/// Clears what a host wants cleared.
+fn clear(encoder: &mut CommandEncoder, target: &Target<'_>) {
+    let is_kept = matches!((target.load, target.depth_ops.load), (LoadOp::Load, LoadOp::Load));
+    if is_kept && target.resolve.is_none() {
+        return;
+    }
+    let colour = RenderPassColorAttachment { resolve_target: target.resolve, ..attachment(target.colour, target.load) };
+    let depth = wgpu::RenderPassDepthStencilAttachment {
+        view: target.depth,
+        depth_ops: Some(target.depth_ops),
+        stencil_ops: None,
+    };
+    drop(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("clear"),
+        color_attachments: &[Some(colour)],
+        depth_stencil_attachment: Some(depth),
+        ..Default::default()
+    }));
+}

@@ -1,0 +1,174 @@
+//! Room for frames: buffers, maps and bind groups of the materials that are drawn, within the budget.
+
+use std::sync::Arc;
+
+use wgpu::{BindGroup, BindingResource};
+
+use super::draw::Placed;
+use super::input::Input;
+use super::plan::{self, Plan};
+use super::renderer::Renderer;
+use crate::asset::Material;
+use crate::error::Result;
+use crate::gpu::Gpu;
+use crate::technique::{Bindings, Common, TranslucentShadowMaps, reflection_sampler, separable, splat};
+
+/// Bytes that uniform blocks of the passes of one material are sure not to exceed.
+const UNIFORMS: u64 = 48 << 10;
+
+/// Buffers, maps and bind groups for frames of one size, of the materials that it was prepared for.
+#[derive(Debug)]
+pub struct Frame {
+    pub(super) plan: Plan,
+    pub(super) common: Common,
+    pub(super) lights: TranslucentShadowMaps,
+    pub(super) slots: Vec<Slot>,
+    /// Where the objects of the input are, in its order.
+    pub(super) placed: Vec<Placed>,
+    /// Blocks of the objects, to be uploaded at once.
+    pub(super) blocks: Vec<u8>,
+}
+
+/// Material of a frame.
+#[derive(Debug)]
+pub(super) struct Slot {
+    pub(super) material: Material,
+    /// Bind group 0 of the picture.
+    pub(super) scene: BindGroup,
+    pub(super) bindings: Box<dyn Bindings>,
+}
+
+/// Maps of a frame, which the materials of a technique use one after the other.
+#[derive(Default)]
+struct Shared {
+    separable: Vec<(usize, Arc<separable::Maps>)>,
+    splat: Option<Arc<splat::Maps>>,
+}
+
+impl Renderer {
+    /// Makes room for pictures of `size` pixels with the materials and as many lights as an input has, within the budget:
+    /// shadow maps and maps become coarser until everything fits. Maps are as fine as the view of the input needs; other
+    /// views, objects and lights may be drawn with them.
+    ///
+    /// # Errors
+    /// [`Error::OverBudget`](crate::Error::OverBudget) if even the coarsest does not fit, before anything is allocated;
+    /// [`Error::Usage`](crate::Error::Usage) if a technique was not compiled.
+    pub fn prepare(&self, gpu: &Gpu, input: &Input<'_>, size: [u32; 2]) -> Result<Frame> {
+        let mut materials: Vec<&Material> = Vec::new();
+        for object in input.objects {
+            if !materials.iter().any(|known| known.is(object.material)) {
+                materials.push(object.material);
+            }
+        }
+        let lights = u32::try_from(input.lighting.lights.len()).unwrap_or(u32::MAX);
+        let plan = Plan {
+            size,
+            light_texels: self.options.light_texels,
+            lights: lights.clamp(1, plan::light_layers(lights)),
+            divisor: self.divisor(input, size),
+            has_light_levels: materials.iter().any(|material| matches!(material, Material::Splat(_))),
+        };
+        let bytes = |plan: &Plan| {
+            let blocks = UNIFORMS * (1 + materials.len() as u64) + Common::bytes_of(self.options.objects);
+            self.map_bytes(&materials, plan) + plan.light_bytes() + blocks
+        };
+        let plan = plan.within(self.options.budget_bytes, gpu.ledger().bytes(), bytes)?;
+        let common = Common::new(gpu, &self.tsm_render, self.options.objects)?;
+        let lights = TranslucentShadowMaps::new(gpu, &self.tsm_render, &common.scene, &plan)?;
+        let sampler = reflection_sampler(gpu);
+        let of_scene = [
+            common.scene.as_entire_binding(),
+            BindingResource::TextureView(&lights.all[0]),
+            BindingResource::TextureView(&common.reflections.view),
+            BindingResource::Sampler(&sampler),
+        ];
+        let mut shared = Shared::default();
+        let mut slots = Vec::new();
+        for material in materials {
+            let bindings = self.bind(gpu, (material, slots.len()), &common, &lights, &plan, &mut shared)?;
+            let scene = bindings.shade().0.bind(gpu, 0, &of_scene)?;
+            slots.push(Slot { material: material.clone(), scene, bindings });
+        }
+        let objects = self.options.objects as usize;
+        Ok(Frame { plan, common, lights, slots, placed: Vec::with_capacity(objects), blocks: Vec::new() })
+    }
+
+    /// Bytes of the maps of some materials.
+    fn map_bytes(&self, materials: &[&Material], plan: &Plan) -> u64 {
+        let mut terms: Vec<usize> = Vec::new();
+        let mut splats = false;
+        for material in materials {
+            match material {
+                Material::Separable(material) if !terms.contains(&material.terms()) => terms.push(material.terms()),
+                Material::Splat(_) => splats = true,
+                Material::Separable(_) | Material::Gather(_) | Material::Btf(..) => {}
+            }
+        }
+        let of_terms = terms.into_iter().map(|terms| separable::Maps::bytes_of(plan, &self.options, terms));
+        of_terms.sum::<u64>() + if splats { splat::Maps::bytes_of(plan, &self.options) } else { 0 }
+    }
+
+    /// Binds a material, number `slot` of the frame, to the maps of its technique.
+    fn bind(
+        &self,
+        gpu: &Gpu,
+        (material, slot): (&Material, usize),
+        common: &Common,
+        lights: &TranslucentShadowMaps,
+        plan: &Plan,
+        shared: &mut Shared,
+    ) -> Result<Box<dyn Bindings>> {
+        match material {
+            Material::Gather(material) => self.gather.of(material.planes.layout())?.bind(gpu, material, common),
+            Material::Splat(material) => {
+                let passes = self.splat.of(material.planes.layout())?;
+                let maps = match &shared.splat {
+                    Some(maps) => maps.clone(),
+                    None => shared.splat.insert(Arc::new(splat::Maps::new(gpu, plan, &self.options)?)).clone(),
+                };
+                passes.bind(gpu, (material, slot), common, lights, &maps, plan)
+            }
+            Material::Separable(material) => {
+                let terms = material.terms();
+                let passes = self.separable.of(terms)?;
+                let known = shared.separable.iter().find(|(of, _)| *of == terms).map(|(_, maps)| maps.clone());
+                let maps = match known {
+                    Some(maps) => maps,
+                    None => Arc::new(separable::Maps::new(gpu, plan, &self.options, terms)?),
+                };
+                shared.separable.push((terms, maps.clone()));
+                passes.bind(gpu, material, common, lights, &maps)
+            }
+            Material::Btf(material, number) => self.btf.of(material.layout())?.bind(gpu, material, *number),
+        }
+    }
+
+    /// Pixels of the picture to a side of a texel of the maps: as few as any object needs.
+    fn divisor(&self, input: &Input<'_>, size: [u32; 2]) -> u32 {
+        let (view, light_texels) = (&input.view, self.options.light_texels);
+        let bounds: Vec<_> = input.objects.iter().map(super::input::Object::bounds).collect();
+        let radius_mm =
+            bounds.iter().copied().reduce(|all, bounds| all.union(&bounds)).map_or(1.0, |all| all.radius_mm);
+        let divisors = input.objects.iter().zip(&bounds).filter_map(|(object, bounds)| {
+            let distance_mm = if view.is_parallel() { 1.0 } else { view.eye_mm().distance(bounds.centre_mm) };
+            #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
+            let pixels_per_mm = 0.5 * size[1] as f32 * view.focal().y / distance_mm;
+            match object.material {
+                Material::Separable(material) => Some(separable::divisor(material, pixels_per_mm)),
+                Material::Splat(material) => {
+                    Some(splat::divisor(material.planes.header(), radius_mm, light_texels, pixels_per_mm))
+                }
+                Material::Gather(_) | Material::Btf(..) => None,
+            }
+        });
+        divisors.min().unwrap_or(1)
+    }
+}
+
+impl Frame {
+    /// Sizes that were chosen within the budget.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+}

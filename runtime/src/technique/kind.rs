@@ -1,0 +1,16 @@
+//! Techniques by name.
+
+use subsurf_shaders::{BtfLayout, MaterialLayout};
+
+/// Technique by which a material is drawn, with what its pipelines depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Technique {
+    /// Gather: every vertex sums the light of all others within reach. The reference, and slow.
+    Gather(MaterialLayout),
+    /// Multiresolution splats: every sample that a light sees is spread over what lies around it.
+    Splat(MaterialLayout),
+    /// Separable blurs on the screen, of L weighted irradiance maps by shared Gaussians; L is 1 or 2.
+    Separable(usize),
+    /// BTF: light leaves where it enters, as the texture function says; nothing scatters between pixels.
+    Btf(BtfLayout),
+}

@@ -1,0 +1,116 @@
+//! `subsurf-study bench basis`: how close separable bases come to the gather of their files, flat and drawn by a device.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use serde_json::{Value, json};
+use subsurf_cli::info::parse;
+use subsurf_cli::outln;
+use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::basis::BasisSize;
+use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, FittedBasis, fit_basis, with_basis};
+use subsurf_encoder::metrics::bssrdf::Light;
+use subsurf_encoder::metrics::psnr_db;
+use subsurf_runtime::{Gpu, PatchLight, SeparableMaterial, SeparableRenderer};
+use subsurf_shaders::separable::ProjectedBasis;
+use subsurf_shaders::{Rgb, cpu};
+use subsurf_viewer::{read, stem};
+
+use super::devices::to_compare;
+
+/// Compare separable bases with the gather of the same file: what the fit starts from, and what it ends at.
+///
+/// PSNR in dB under uniform, disc and line light, peak the largest exitance of the gather; drawn by every device there is,
+/// as flat patches, in half floats.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// .subsurf files; a basis that they have is not looked at
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Report as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Numbers L of maps and A of Gaussians.
+const SIZES: [[usize; 2]; 4] = [[1, 3], [1, 4], [2, 3], [2, 4]];
+
+pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    let gpus = to_compare();
+    let mut all = Vec::new();
+    for path in &args.files {
+        let bytes = read(path)?;
+        let material = parse(path, &bytes)?;
+        let lights = lights(&material);
+        outln!("{}", path.display());
+        for [terms, gaussians] in SIZES {
+            for steps in [0, BasisOptions::default().steps] {
+                let choice = BasisChoice::Size(BasisSize { terms, gaussians });
+                let begin = Instant::now();
+                let fit = fit_basis(&material, &BasisOptions { choice, steps }, &())?;
+                let fit_s = begin.elapsed().as_secs_f64();
+                for (backend, gpu) in &gpus {
+                    let (db, load_ms) = measure(gpu, &bytes, &fit, &lights)?;
+                    let kind = if steps == 0 { "start" } else { "joint" };
+                    outln!(
+                        "  L = {terms}, A = {gaussians}, {kind} {backend:10} {:.1} / {:.1} / {:.1} dB, fit {fit_s:.1} s, projected in \
+                         {load_ms:.1} ms",
+                        db[0],
+                        db[1],
+                        db[2]
+                    );
+                    all.push(json!({
+                        "file": stem(path), "terms": terms, "gaussians": gaussians, "fit": kind, "psnr_db": db,
+                        "backend": backend.to_string(), "fit_s": fit_s, "projection_ms": load_ms, "sigmas_px": fit.sigmas,
+                    }));
+                }
+            }
+        }
+    }
+    if args.json {
+        outln!("{:#}", Value::Array(all));
+    }
+    Ok(())
+}
+
+/// Irradiance of every light, and what the gather makes of it.
+fn lights(material: &Bssrdf<'_>) -> Vec<(Vec<Rgb>, Vec<Rgb>)> {
+    let size = [material.header().width, material.header().height];
+    let of = |light: Light| {
+        let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x as usize, y as usize]));
+        let irradiance: Vec<Rgb> =
+            pixels.map(|pixel| [light.irradiance(pixel, size.map(|side| side as usize)); 3]).collect();
+        let expected = cpu::gather(material, &irradiance, [0, 0], size);
+        (irradiance, expected)
+    };
+    Light::ALL.map(of).to_vec()
+}
+
+/// PSNR of each light, and milliseconds from planes to coefficients and albedo.
+fn measure(
+    gpu: &Gpu,
+    file: &[u8],
+    fit: &FittedBasis,
+    lights: &[(Vec<Rgb>, Vec<Rgb>)],
+) -> anyhow::Result<(Vec<f64>, f64)> {
+    let file = with_basis(file, fit)?;
+    let material = Bssrdf::parse(&file)?;
+    let begin = Instant::now();
+    let basis = ProjectedBasis::of(&material).expect("a file with a basis");
+    std::hint::black_box(basis.albedo());
+    let load_ms = 1e3 * begin.elapsed().as_secs_f64();
+    let uploaded = SeparableMaterial::upload(gpu, &basis)?;
+    let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
+    let mut all = Vec::new();
+    for (irradiance, expected) in lights {
+        let light = PatchLight::upload(gpu, [material.header().width, material.header().height], irradiance)?;
+        let patch = renderer.prepare(gpu, &uploaded, &light)?;
+        let found = renderer.draw(gpu, &patch)?.read(gpu)?;
+        let largest = expected.iter().flatten().copied().fold(1e-30, f32::max);
+        let normalised = |image: &[Rgb]| -> Vec<[f64; 3]> {
+            image.iter().map(|rgb| rgb.map(|value| f64::from(value / largest))).collect()
+        };
+        all.push(psnr_db(&normalised(expected), &normalised(&found)));
+    }
+    Ok((all, load_ms))
+}

@@ -1,0 +1,268 @@
+//! An application's frame: objects of ours and a cube of its own in one depth buffer, one encoder and one submission, under
+//! a projection whose middle is elsewhere, into linear light.
+
+use glam::{Mat4, Vec3, Vec4};
+use subsurf_decoder::{Bssrdf, File};
+use subsurf_encoder::synthetic::NestedShape;
+use subsurf_runtime::wgpu::{self, Backends, Color, LoadOp, Operations, StoreOp, TextureFormat};
+use subsurf_runtime::{
+    BtfOptions, DepthFormat, Error, Gpu, GpuMesh, Input, Material, Object, Renderer, RuntimeOptions, SplatMaterial,
+    Target, VertexData,
+};
+use subsurf_scene::{AmbientTransfer, Environment, Light, LightShape, Lighting, Mapping, View, sphere};
+use subsurf_tests::frames::material_of;
+
+#[path = "../../runtime/examples/embed/application.rs"]
+mod application;
+use application::{Application, CUBE, CUBE_COLOUR};
+
+const SIZE: [u32; 2] = [320, 240];
+const COLOUR: TextureFormat = TextureFormat::Rgba16Float;
+const DEPTH: DepthFormat = DepthFormat { format: TextureFormat::Depth32Float, is_reversed: true };
+/// Radius of the meshes in mm.
+const RADIUS: f32 = 8.0;
+/// Where the BTF lies.
+const LEATHER_AT: Vec3 = Vec3::new(9.0, 0.0, 2.0);
+/// Pixels at the outlines: meshes have flat facets, the rays of the test meet spheres.
+const OUTLINE: f64 = 0.02;
+
+/// What is in front at a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Front {
+    Nothing,
+    Cube,
+    Jade,
+    Leather,
+}
+
+/// Application with a jade sphere and a leather one.
+struct Stage {
+    app: Application,
+    gpu: Gpu,
+    renderer: Renderer,
+    mesh: GpuMesh,
+    jade: Material,
+    splats: Material,
+    leather: Material,
+}
+
+impl Stage {
+    fn open(backends: Backends) -> Self {
+        let app = Application::open(backends, SIZE, COLOUR, DEPTH.format).unwrap();
+        let gpu = Gpu::from_device(app.device.clone(), app.queue.clone(), app.info.clone());
+        let (file, btf) = (material_of("jade"), NestedShape::typical().database(1).to_bytes());
+        let load = |bytes| Material::load(&gpu, &File::parse(bytes).unwrap()).unwrap();
+        let (jade, leather) = (load(&file), load(&btf));
+        let file = Bssrdf::parse(&file).unwrap();
+        let mesh = sphere(RADIUS, 64);
+        let (ambient, tangents) = (AmbientTransfer::of(&mesh, &file).unwrap(), mesh.tangents().unwrap());
+        let known = VertexData { ambient: Some(&ambient), tangents: Some(&tangents), points: None };
+        let mesh = GpuMesh::upload(&gpu, &mesh, known).unwrap();
+        let splats: Material = SplatMaterial::upload(&gpu, &file).unwrap().into();
+        // Light from all around that has no grain, so that pictures can be compared bit for bit.
+        let btf = BtfOptions { samples: 0, ..BtfOptions::default() };
+        let options = RuntimeOptions { format: COLOUR, depth: DEPTH, tone_mapping: false, btf, ..Default::default() };
+        let mut renderer = Renderer::new(&gpu, options).unwrap();
+        for material in [&jade, &splats, &leather] {
+            renderer.compile(&gpu, material.technique()).unwrap();
+        }
+        Self { app, gpu, renderer, mesh, jade, splats, leather }
+    }
+
+    fn jade(&self) -> Object<'_> {
+        Object::new(&self.mesh, &self.jade, Mapping::Box, 0.25)
+    }
+
+    fn leather(&self) -> Object<'_> {
+        let at = Mat4::from_translation(LEATHER_AT);
+        Object { world_from_mesh: at, ..Object::new(&self.mesh, &self.leather, Mapping::Uv([6.0, 3.0]), 1.0) }
+    }
+
+    /// One submission with the cube and some objects under a view.
+    fn draw(&self, view: View, objects: &[Object<'_>], lights: &[Light], has_cube: bool) -> Vec<[f32; 4]> {
+        let environment = Environment::uniform([0.35, 0.4, 0.5]);
+        let lighting = Lighting { lights, environment: &environment, reference_mm: Vec3::ZERO };
+        let input = Input { view, exposure: 1.0, lighting, objects };
+        let mut frame = self.renderer.prepare(&self.gpu, &input, SIZE).unwrap();
+        let mut encoder = self.app.device.create_command_encoder(&Default::default());
+        let clear = LoadOp::Clear(Color::TRANSPARENT);
+        let (mut load, mut load_depth) = (clear, LoadOp::Clear(DEPTH.furthest()));
+        if has_cube {
+            self.app.draw_cube(&mut encoder);
+            (load, load_depth) = (LoadOp::Load, LoadOp::Load);
+        }
+        let target = Target {
+            colour: &self.app.colour.create_view(&wgpu::TextureViewDescriptor::default()),
+            load,
+            resolve: None,
+            depth: &self.app.depth,
+            depth_ops: Operations { load: load_depth, store: StoreOp::Store },
+            origin: [0; 2],
+        };
+        let scope = self.app.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        self.renderer.draw(&self.gpu, &mut encoder, &mut frame, &input, &target).unwrap();
+        self.app.queue.submit([encoder.finish()]);
+        let complaint = pollster::block_on(scope.pop());
+        assert!(complaint.is_none(), "{complaint:?}");
+        self.app.read().unwrap()
+    }
+}
+
+/// Distance along a ray to a sphere.
+fn to_sphere(eye: Vec3, along: Vec3, centre: Vec3) -> f32 {
+    let (b, c) = ((eye - centre).dot(along), (eye - centre).length_squared() - RADIUS * RADIUS);
+    let discriminant = b * b - c;
+    if discriminant < 0.0 { f32::INFINITY } else { -b - discriminant.sqrt() }
+}
+
+/// Distance along a ray to the cube.
+fn to_cube(eye: Vec3, along: Vec3) -> f32 {
+    let (middle, half) = CUBE;
+    let (a, b) = ((middle - half - eye) / along, (middle + half - eye) / along);
+    let (near, far) = (a.min(b).max_element(), a.max(b).min_element());
+    if near <= far { near } else { f32::INFINITY }
+}
+
+/// What a ray through every pixel meets first.
+fn expected(view: &View) -> Vec<Front> {
+    let world_from_clip = view.clip_from_world().inverse();
+    let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [x, y]));
+    let ray = |[x, y]: [u32; 2]| {
+        let ndc = [(x as f32 + 0.5) / SIZE[0] as f32 * 2.0 - 1.0, 1.0 - (y as f32 + 0.5) / SIZE[1] as f32 * 2.0];
+        // Depth is 1 at the near plane, 0 far away.
+        let at = |depth| (world_from_clip * Vec4::new(ndc[0], ndc[1], depth, 1.0)).project();
+        (at(1.0), (at(0.01) - at(1.0)).normalize())
+    };
+    let front = |(eye, along): (Vec3, Vec3)| {
+        let distances = [
+            (to_cube(eye, along), Front::Cube),
+            (to_sphere(eye, along, Vec3::ZERO), Front::Jade),
+            (to_sphere(eye, along, LEATHER_AT), Front::Leather),
+        ];
+        let nearest = distances.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b)).unwrap();
+        if nearest.0.is_finite() { nearest.1 } else { Front::Nothing }
+    };
+    pixels.map(ray).map(front).collect()
+}
+
+fn who_is_in_front(backends: Backends) {
+    let stage = Stage::open(backends);
+    let view = application::view();
+    let objects = [stage.jade(), stage.leather()];
+    // Light from all around only: objects without shadows look the same wherever the others are.
+    let [all, jade, leather] =
+        [&objects[..], &objects[..1], &objects[1..]].map(|objects| stage.draw(view, objects, &[], true));
+    let found = (0..all.len()).map(|k| match all[k] {
+        [_, _, _, 0.0] => Front::Nothing,
+        [r, g, b, _] if [r, g, b] == CUBE_COLOUR => Front::Cube,
+        pixel if pixel == jade[k] => Front::Jade,
+        pixel if pixel == leather[k] => Front::Leather,
+        other => panic!("pixel {k} is {other:?}, of no object alone"),
+    });
+    let (expected, found) = (expected(&view), found.collect::<Vec<_>>());
+    for front in [Front::Nothing, Front::Cube, Front::Jade, Front::Leather] {
+        let count = found.iter().filter(|found| **found == front).count();
+        println!("{backends:?}: {front:?} in {count} pixels");
+        assert!(100 * count > 2 * found.len(), "{front:?} is in {count} pixels");
+    }
+    let other = expected.iter().zip(&found).filter(|(a, b)| a != b).count();
+    println!("{backends:?}: {other} of {} pixels differ from the rays", found.len());
+    assert!((other as f64) < OUTLINE * found.len() as f64, "{other} pixels show another object");
+}
+
+#[test]
+fn depth_is_shared_on_vulkan() {
+    who_is_in_front(Backends::VULKAN);
+}
+
+#[test]
+fn depth_is_shared_on_gles_3_0() {
+    who_is_in_front(Backends::GL);
+}
+
+fn luminance(pixels: &[[f32; 4]]) -> f64 {
+    pixels.iter().map(|[r, g, b, _]| f64::from(r + g + b)).sum()
+}
+
+/// Sun from above and from the left.
+fn sun() -> Light {
+    Light { shape: LightShape::Directional { towards: Vec3::new(-1.0, 0.6, 0.5) }, irradiance: [3.0; 3] }
+}
+
+/// A mesh that is drawn elsewhere, turned, under a camera and a light that moved along, looks the same.
+#[test]
+fn transforms_move_objects_with_their_material() {
+    let stage = Stage::open(Backends::VULKAN);
+    let moved = Mat4::from_translation(Vec3::new(300.0, -50.0, 120.0)) * Mat4::from_rotation_y(0.7);
+    let view = application::view();
+    let along = View { view_from_world: view.view_from_world * moved.inverse(), ..view };
+    let towards = moved.transform_vector3(Vec3::new(-1.0, 0.6, 0.5));
+    let turned = Light { shape: LightShape::Directional { towards }, irradiance: [3.0; 3] };
+    for material in [&stage.jade, &stage.splats] {
+        let object = Object { material, ..stage.jade() };
+        let here = stage.draw(view, &[object], &[sun()], false);
+        let there = stage.draw(along, &[Object { world_from_mesh: moved, ..object }], &[turned], false);
+        let worst = |a: &[f32; 4], b: &[f32; 4]| (0..4).map(|c| (a[c] - b[c]).abs()).fold(0.0, f32::max);
+        let far = here.iter().zip(&there).filter(|(a, b)| worst(a, b) > 0.03).count();
+        println!("{:?}: {far} of {} pixels differ", material.technique(), here.len());
+        assert!(luminance(&here) > 1e3, "it is in the picture");
+        assert!(far * 100 < here.len(), "{far} pixels differ");
+    }
+}
+
+/// An object's shadow falls on another one; light that enters one does not leave from another.
+#[test]
+fn objects_shadow_each_other() {
+    let stage = Stage::open(Backends::VULKAN);
+    let between = Mat4::from_translation(Vec3::new(-14.0, 8.4, 7.0));
+    let view = application::view();
+    let blocker = Object { world_from_mesh: between, ..stage.leather() };
+    let lit = stage.draw(view, &[stage.leather()], &[sun()], false);
+    let alone = stage.draw(view, &[stage.jade()], &[sun()], false);
+    let shadowed = stage.draw(view, &[stage.jade(), blocker], &[sun()], false);
+    let hidden = stage.draw(view, &[blocker], &[], false);
+    let middle = |pixels: &[[f32; 4]]| {
+        // Where the jade is and the leather is not.
+        let covered = pixels.iter().zip(&alone).zip(&hidden);
+        let covered = covered.filter(|((_, alone), hidden)| alone[3] > 0.0 && hidden[3] == 0.0);
+        luminance(&covered.map(|((pixel, _), _)| *pixel).collect::<Vec<_>>())
+    };
+    assert!(luminance(&lit) > 1e3, "the leather is lit");
+    let (alone, shadowed) = (middle(&alone), middle(&shadowed));
+    println!("light of the jade alone: {alone}, in the shadow: {shadowed}");
+    assert!(shadowed < 0.75 * alone, "{shadowed} of {alone}");
+}
+
+/// What a host does wrong is said, and is no failure of the device.
+#[test]
+fn mistakes_are_the_callers() {
+    let stage = Stage::open(Backends::VULKAN);
+    let environment = Environment::uniform([1.0; 3]);
+    let lighting = Lighting { lights: &[], environment: &environment, reference_mm: Vec3::ZERO };
+    let (view, exposure) = (application::view(), 1.0);
+    let [jade, leather] = [stage.jade(), stage.leather()];
+    let only_jade = [jade];
+    let prepared = Input { view, exposure, lighting, objects: &only_jade };
+    let mut frame = stage.renderer.prepare(&stage.gpu, &prepared, SIZE).unwrap();
+    let skewed = Object { world_from_mesh: Mat4::from_scale(Vec3::new(1.0, 2.0, 1.0)), ..jade };
+    let many = [jade; 17];
+    for (objects, reason) in
+        [(&[leather][..], "not prepared for"), (&[skewed][..], "no rotation"), (&many[..], "17 objects")]
+    {
+        let mut encoder = stage.app.device.create_command_encoder(&Default::default());
+        let view_of = stage.app.colour.create_view(&wgpu::TextureViewDescriptor::default());
+        let target = Target {
+            colour: &view_of,
+            load: LoadOp::Load,
+            resolve: None,
+            depth: &stage.app.depth,
+            depth_ops: Operations { load: LoadOp::Load, store: StoreOp::Store },
+            origin: [0; 2],
+        };
+        let input = Input { objects, ..prepared };
+        match stage.renderer.draw(&stage.gpu, &mut encoder, &mut frame, &input, &target) {
+            Err(Error::Usage(said)) => assert!(said.contains(reason), "{said}"),
+            other => panic!("{other:?}, expected: {reason}"),
+        }
+    }
+}
