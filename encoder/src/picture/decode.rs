@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, ImageResult, Limits, Rgb32FImage};
-use tiff::tags::Tag;
 
 use super::grey::Grey;
 use super::jpeg;
 use super::radiance::{self, Layout};
+use super::tiff_tags;
 use super::{EXTENSIONS, Header, Picture, PixelFormat};
 use crate::error::{Error, Result};
 use crate::memory;
@@ -144,8 +144,8 @@ fn source(path: &Path, mut file: BufReader<File>) -> std::result::Result<Source,
     });
     let format = reader.format().or(named).ok_or("not of a known format")?;
     reader.set_format(format);
-    if format == ImageFormat::Tiff && has_planar_tiles(path) {
-        return Err("a TIFF file of tiles for each channel apart (planar configuration 2)".to_owned());
+    if let Some(found) = (format == ImageFormat::Tiff).then(|| tiff_tags::unread(path)).flatten() {
+        return Err(found.to_owned());
     }
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(HEADER_BYTES);
@@ -157,15 +157,6 @@ fn source(path: &Path, mut file: BufReader<File>) -> std::result::Result<Source,
             Grey::open(format, BufReader::new(again)).map(Source::Grey).ok_or_else(|| error.to_string())
         }
     }
-}
-
-/// Whether a TIFF file has tiles of one channel each, whose sizes the decoder does not expect.
-fn has_planar_tiles(path: &Path) -> bool {
-    let file = File::open(path).ok().and_then(|file| tiff::decoder::Decoder::new(BufReader::new(file)).ok());
-    file.is_some_and(|mut file| {
-        let mut tag = |tag| file.find_tag_unsigned::<u32>(tag).ok().flatten();
-        tag(Tag::PlanarConfiguration) == Some(2) && tag(Tag::TileWidth).is_some()
-    })
 }
 
 fn is_on_its_side(orientation: Orientation) -> bool {

@@ -117,7 +117,7 @@ impl Grey {
                 // What the values take was checked.
                 match file.with_limits(Limits::unlimited()).read_image() {
                     Ok(DecodingResult::F32(values)) => Ok(values),
-                    Ok(_) => Err("integers of 32 bits".to_owned()),
+                    Ok(_) => Err("no floats".to_owned()),
                     Err(error) => Err(error.to_string()),
                 }
             }

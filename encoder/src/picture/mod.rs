@@ -5,6 +5,7 @@ mod format;
 mod grey;
 mod jpeg;
 mod radiance;
+mod tiff_tags;
 
 use std::path::Path;
 

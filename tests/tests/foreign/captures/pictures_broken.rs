@@ -49,6 +49,23 @@ fn planar_tiles_are_refused() {
     assert!(error.contains("tiles for each channel apart"), "{error}");
 }
 
+/// They are no floats, though they are as wide.
+#[test]
+fn integers_of_32_bits_are_refused() {
+    use tiff::encoder::TiffEncoder;
+    use tiff::encoder::colortype::{Gray32, RGB32};
+
+    let folder = tempfile::tempdir().unwrap();
+    let (grey, colour) = (folder.path().join("grey.tif"), folder.path().join("colour.tif"));
+    let encoder = |path| TiffEncoder::new(std::fs::File::create(path).unwrap()).unwrap();
+    encoder(&grey).write_image::<Gray32>(2, 1, &[1 << 30, 1 << 31]).unwrap();
+    encoder(&colour).write_image::<RGB32>(2, 1, &[1 << 30; 6]).unwrap();
+    for path in [grey, colour] {
+        let error = Picture::open(&path).unwrap_err().to_string();
+        assert!(error.contains("integers of 32 bits"), "{error}");
+    }
+}
+
 #[test]
 fn no_mutation_of_a_picture_panics() {
     let small = image::imageops::crop_imm(&blocks(), 4, 4, 16, 12).to_image();

@@ -47,7 +47,7 @@ fn open_lights(file: &[u8]) -> usize {
     let path = place.path().join("negative.bsdf");
     std::fs::write(&path, file).unwrap();
     let rgl = Rgl::open(&path).unwrap();
-    assert_eq!(rgl.eval(Vec3::new(0.6, 0.0, 0.8), Vec3::Z), [0.0; 3]);
+    assert_eq!(rgl.eval(Vec3::new(0.6, 0.0, 0.8), Vec3::Z), [0.0; 3], "nothing is negative");
     let source = open_btf(&path).unwrap();
     source.lights().len() * source.views().len()
 }

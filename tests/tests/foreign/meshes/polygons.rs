@@ -63,7 +63,7 @@ fn concave_polygons_keep_their_shape() {
 fn very_many_corners_are_one_line_or_a_fan() {
     let ring = |count: u16, inner: f32| -> Vec<[f32; 2]> {
         let at = |k: u16| {
-            let (radius, angle) = (if k % 2 == 0 { 1.0 } else { inner }, std::f32::consts::TAU * f32::from(k));
+            let (radius, angle) = (if k.is_multiple_of(2) { 1.0 } else { inner }, std::f32::consts::TAU * f32::from(k));
             let (sin, cos) = (angle / f32::from(count)).sin_cos();
             [radius * cos, radius * sin]
         };
