@@ -7,8 +7,8 @@ use subsurf_encoder::baseline::song2009::per_pixel_of;
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_runtime::{BACKGROUND, Backend, Error, Gpu, Input, RuntimeOptions};
 use subsurf_scene::{bowl, drapery, knot, torus};
-use subsurf_tests::drawable;
 use subsurf_tests::frames::{API_TOLERANCE, Loaded, RenderMode, SIZE, assert_close, device, material_of, scene};
+use subsurf_tests::{drawable, shape};
 
 /// Every path against the gather, on meshes thick and thin; and both APIs against each other.
 #[test]
@@ -26,7 +26,7 @@ fn paths_come_close_to_the_gather_and_apis_to_each_other() {
 /// 2-BMPP and per-pixel profiles of the same numbers give the same splats.
 #[test]
 fn splats_are_the_same_from_profiles_of_every_pixel() {
-    let file = drawable([31, 31], 6, Addressing::Mirror);
+    let file = shape([31, 31], 6, Addressing::Mirror).bmpp();
     let profiles = per_pixel_of(&Bssrdf::parse(&file).unwrap());
     let mesh = torus(9.0, 4.0, 32);
     let gpu = device(Backend::Vulkan);

@@ -57,18 +57,18 @@ impl BasisArgs {
         Ok(BasisOptions { choice: BasisChoice::Psnr(self.basis_psnr), ..BasisOptions::default() })
     }
 
-    /// What a target in bytes leaves beside the basis.
+    /// What a target in bytes leaves beside the basis, and the bytes that are kept for that.
     pub(super) fn leave_room(
         &self,
         target: Target,
         capture: &Capture,
         samples: Option<usize>,
-    ) -> anyhow::Result<Target> {
-        let Target::Bytes(limit) = target else { return Ok(target) };
-        let taken = if self.no_basis { 0 } else { basis_bytes(capture, samples)? };
-        let rest = limit.checked_sub(taken).filter(|rest| *rest > 0);
-        rest.map(Target::Bytes).ok_or_else(|| {
-            bad_request(format!("{limit} bytes: a separable basis alone takes up to {taken}; --no-basis leaves it out"))
+    ) -> anyhow::Result<(Target, u64)> {
+        let Target::Bytes(limit) = target else { return Ok((target, 0)) };
+        let kept = if self.no_basis { 0 } else { basis_bytes(capture, samples)? };
+        let rest = limit.checked_sub(kept).filter(|rest| *rest > 0);
+        rest.map(|rest| (Target::Bytes(rest), kept)).ok_or_else(|| {
+            bad_request(format!("{limit} bytes: a separable basis alone takes up to {kept}; --no-basis leaves it out"))
         })
     }
 

@@ -169,8 +169,13 @@ pub(super) fn run(args: &FitArgs) -> anyhow::Result<()> {
                 outln!("{}", curve::line(point));
             }
         };
-        let target = args.basis.leave_room(target, &capture, args.samples)?;
-        let curve = search(&capture, args.samples, args.seed, target, &bars, &mut found)?;
+        let (target, kept) = args.basis.leave_room(target, &capture, args.samples)?;
+        let curve = search(&capture, args.samples, args.seed, target, &bars, &mut found).map_err(|error| {
+            if kept == 0 || !error.is_callers() {
+                return error.into();
+            }
+            bad_request(format!("{error}; {kept} bytes are kept for the separable basis, which --no-basis leaves out"))
+        })?;
         let best = curve.chosen();
         (Encoded { stopped: curve.stopped, ..best.file.clone() }, best.candidate, Some(curve))
     } else {

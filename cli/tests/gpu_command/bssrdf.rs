@@ -15,8 +15,10 @@ fn from_simulation_to_judgement() {
     for (method, bytes) in
         [("direct", 12 * 4 * 3 + 6 * 63 + 156), ("clusters", 12 * 4 * 3 + 63 + 132), ("song2009", 12 * 63 * 3 + 108)]
     {
-        let report = json(folder, &format!("encode a.npy -M 4 --method {method} -o {method}.subsurf --json"));
+        let report =
+            json(folder, &format!("encode a.npy -M 4 --no-basis --method {method} -o {method}.subsurf --json"));
         assert_eq!(report["bytes"], bytes, "{method}");
+        assert!(report["basis"].is_null(), "{method}");
         assert_eq!(report["measured"], report["entries"], "{method}");
         assert!(report["seconds"].is_number() && report["peak_rss_bytes"].is_number(), "{method}: {report}");
 
@@ -41,6 +43,41 @@ fn from_simulation_to_judgement() {
 
     succeed(folder, "simulate --material jade --size 5x5 --window 5 --thickness 5 -o other.npy");
     assert_refused(&run(folder, "compare other.npy direct.subsurf"), &["5 × 5", "9 × 7", "not the same material"]);
+}
+
+/// L maps and A Gaussians take 4 + 4 A + 6 A L (L + 1) + 12 L S bytes, 24 in the section table, and fill before them.
+#[test]
+fn files_get_a_separable_basis() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    simulate(folder, "a");
+    let plain = json(folder, "encode a.npy -M 4 --no-basis -o plain.subsurf --json")["bytes"].as_u64().unwrap();
+    let size = |basis: &serde_json::Value| {
+        let [l, a] = ["terms", "gaussians"].map(|key| basis[key].as_u64().unwrap());
+        assert_eq!(basis["sigmas_px"].as_array().unwrap().len() as u64, a, "{basis}");
+        // S is R + 1.
+        4 + 4 * a + 6 * a * l * (l + 1) + 12 * l * 3 + 24
+    };
+    let report = json(folder, "encode a.npy -M 4 -o whole.subsurf --json");
+    let bytes = report["bytes"].as_u64().unwrap();
+    assert!((0..4).contains(&(bytes - plain - size(&report["basis"]))), "{report}");
+    let info = json(folder, "info whole.subsurf --json");
+    assert_eq!(info["basis"], report["basis"]);
+    assert!(json(folder, "info plain.subsurf --json")["basis"].is_null(), "there is none");
+
+    // The same section, whether it comes with the file or is added to it; another target, another basis.
+    std::fs::copy(folder.join("plain.subsurf"), folder.join("added.subsurf")).unwrap();
+    succeed(folder, "encode --add-basis added.subsurf");
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    assert!(read("added.subsurf") == read("whole.subsurf"), "the same bytes");
+    let told = json(folder, "encode --add-basis whole.subsurf --basis-psnr 10 -o small.subsurf --json");
+    assert_eq!((&told["basis"]["terms"], &told["basis"]["gaussians"]), (&1.into(), &2.into()));
+
+    assert_refused(&run(folder, "render plain.subsurf --technique separable -o a.png"), &["--add-basis", "splat"]);
+    assert_refused(&run(folder, "encode a.npy --target-bytes 200"), &["200", "--no-basis"]);
+    assert_refused(&run(folder, "encode a.npy --target-bytes 300"), &["smallest takes", "are kept", "--no-basis"]);
+    assert_refused(&run(folder, "encode --add-basis missing.subsurf"), &["missing.subsurf"]);
+    assert_refused(&run(folder, "encode --add-basis a.npy"), &["a.npy"]);
 }
 
 #[test]

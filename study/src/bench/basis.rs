@@ -8,10 +8,10 @@ use subsurf_cli::info::parse;
 use subsurf_cli::outln;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::basis::BasisSize;
-use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, FittedBasis, fit_basis, with_basis};
+use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, fit_basis, with_basis};
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_encoder::metrics::psnr_db;
-use subsurf_runtime::{Gpu, PatchLight, SeparableMaterial, SeparableRenderer};
+use subsurf_runtime::{Backend, Gpu, PatchLight, SeparableMaterial, SeparableRenderer};
 use subsurf_shaders::separable::ProjectedBasis;
 use subsurf_shaders::{Rgb, cpu};
 use subsurf_viewer::{read, stem};
@@ -20,8 +20,8 @@ use super::devices::to_compare;
 
 /// Compare separable bases with the gather of the same file: what the fit starts from, and what it ends at.
 ///
-/// PSNR in dB under uniform, disc and line light, peak the largest exitance of the gather; drawn by every device there is,
-/// as flat patches, in half floats.
+/// PSNR in dB under uniform, disc and line light, peak the largest exitance of the gather; of flat patches, by the CPU in single
+/// precision and by every device there is, in half floats.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// .subsurf files; a basis that they have is not looked at
@@ -49,19 +49,29 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 let begin = Instant::now();
                 let fit = fit_basis(&material, &BasisOptions { choice, steps }, &())?;
                 let fit_s = begin.elapsed().as_secs_f64();
-                for (backend, gpu) in &gpus {
-                    let (db, load_ms) = measure(gpu, &bytes, &fit, &lights)?;
-                    let kind = if steps == 0 { "start" } else { "joint" };
-                    outln!(
-                        "  L = {terms}, A = {gaussians}, {kind} {backend:10} {:.1} / {:.1} / {:.1} dB, fit {fit_s:.1} s, projected in \
-                         {load_ms:.1} ms",
-                        db[0],
-                        db[1],
-                        db[2]
-                    );
+                let kind = if steps == 0 { "start" } else { "joint" };
+                let with = with_basis(&bytes, &fit)?;
+                let material = Bssrdf::parse(&with)?;
+                let begin = Instant::now();
+                let basis = ProjectedBasis::of(&material).expect("a file with a basis");
+                std::hint::black_box(basis.albedo());
+                let projection_ms = 1e3 * begin.elapsed().as_secs_f64();
+                outln!(
+                    "  L = {terms}, A = {gaussians}, {kind}: fitted in {fit_s:.1} s, {} bytes more, projected in {projection_ms:.1} ms",
+                    with.len() - bytes.len(),
+                );
+                let by_cpu = ("CPU, single precision".to_owned(), psnr_of(&lights, |light| Ok(basis.exitance(light)))?);
+                let by_gpu = |(backend, gpu): &(Backend, Gpu)| {
+                    let uploaded = SeparableMaterial::upload(gpu, &basis)?;
+                    Ok((backend.to_string(), psnr_of(&lights, |light| drawn(gpu, &uploaded, light))?))
+                };
+                let by_gpus: Vec<_> = gpus.iter().map(by_gpu).collect::<anyhow::Result<_>>()?;
+                for (by, db) in std::iter::once(by_cpu).chain(by_gpus) {
+                    outln!("    {by:22} {:.1} / {:.1} / {:.1} dB", db[0], db[1], db[2]);
                     all.push(json!({
-                        "file": stem(path), "terms": terms, "gaussians": gaussians, "fit": kind, "psnr_db": db,
-                        "backend": backend.to_string(), "fit_s": fit_s, "projection_ms": load_ms, "sigmas_px": fit.sigmas,
+                        "file": stem(path), "terms": terms, "gaussians": gaussians, "fit": kind, "by": by, "psnr_db": db,
+                        "fit_s": fit_s, "projection_ms": projection_ms, "bytes": with.len() - bytes.len(),
+                        "sigmas_px": fit.sigmas,
                     }));
                 }
             }
@@ -86,31 +96,26 @@ fn lights(material: &Bssrdf<'_>) -> Vec<(Vec<Rgb>, Vec<Rgb>)> {
     Light::ALL.map(of).to_vec()
 }
 
-/// PSNR of each light, and milliseconds from planes to coefficients and albedo.
-fn measure(
-    gpu: &Gpu,
-    file: &[u8],
-    fit: &FittedBasis,
+/// PSNR of each light.
+fn psnr_of(
     lights: &[(Vec<Rgb>, Vec<Rgb>)],
-) -> anyhow::Result<(Vec<f64>, f64)> {
-    let file = with_basis(file, fit)?;
-    let material = Bssrdf::parse(&file)?;
-    let begin = Instant::now();
-    let basis = ProjectedBasis::of(&material).expect("a file with a basis");
-    std::hint::black_box(basis.albedo());
-    let load_ms = 1e3 * begin.elapsed().as_secs_f64();
-    let uploaded = SeparableMaterial::upload(gpu, &basis)?;
-    let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
-    let mut all = Vec::new();
-    for (irradiance, expected) in lights {
-        let light = PatchLight::upload(gpu, [material.header().width, material.header().height], irradiance)?;
-        let patch = renderer.prepare(gpu, &uploaded, &light)?;
-        let found = renderer.draw(gpu, &patch)?.read(gpu)?;
+    exitance: impl Fn(&[Rgb]) -> anyhow::Result<Vec<Rgb>>,
+) -> anyhow::Result<Vec<f64>> {
+    let of = |(irradiance, expected): &(Vec<Rgb>, Vec<Rgb>)| {
+        let found = exitance(irradiance)?;
         let largest = expected.iter().flatten().copied().fold(1e-30, f32::max);
         let normalised = |image: &[Rgb]| -> Vec<[f64; 3]> {
             image.iter().map(|rgb| rgb.map(|value| f64::from(value / largest))).collect()
         };
-        all.push(psnr_db(&normalised(expected), &normalised(&found)));
-    }
-    Ok((all, load_ms))
+        Ok(psnr_db(&normalised(expected), &normalised(&found)))
+    };
+    lights.iter().map(of).collect()
+}
+
+/// Exitance of the patch as the device draws it.
+fn drawn(gpu: &Gpu, material: &SeparableMaterial, irradiance: &[Rgb]) -> anyhow::Result<Vec<Rgb>> {
+    let light = PatchLight::upload(gpu, [material.header().width, material.header().height], irradiance)?;
+    let renderer = SeparableRenderer::new(gpu, material.terms())?;
+    let patch = renderer.prepare(gpu, material, &light)?;
+    Ok(renderer.draw(gpu, &patch)?.read(gpu)?)
 }

@@ -1,6 +1,6 @@
 //! Blurs of planes by stages of the cascade.
 
-use super::cascade::CascadeStage;
+use super::cascade::{CascadeStage, MAX_TAPS};
 use crate::bssrdf::addressing::Addressing;
 
 impl CascadeStage {
@@ -14,15 +14,26 @@ impl CascadeStage {
         if pixels == 0 {
             return;
         }
+        let kernel = Kernel { weights: self.weights(), stride: self.stride, taps: self.taps };
         for (row, out) in plane.chunks_exact(width as usize).zip(between.chunks_exact_mut(width as usize)) {
-            self.along_row(row, out, addressing);
+            kernel.along_row(row, out, addressing);
         }
-        self.along_columns(between, plane, [width, height], addressing);
+        kernel.along_columns(between, plane, [width, height], addressing);
     }
+}
 
+/// Taps of a stage.
+struct Kernel {
+    /// Weights at 0, 1, 2 ... strides to either side.
+    weights: [f32; MAX_TAPS + 1],
+    stride: i32,
+    taps: i32,
+}
+
+impl Kernel {
     /// Offsets in pixels and weights of the taps to one side.
     fn side(&self) -> impl Iterator<Item = (i32, f32)> {
-        self.weights().into_iter().zip(0_i32..=self.taps).map(|(weight, k)| (k.saturating_mul(self.stride), weight))
+        self.weights.iter().zip(0_i32..=self.taps).map(|(weight, k)| (k.saturating_mul(self.stride), *weight))
     }
 
     fn along_row(&self, row: &[f32], out: &mut [f32], addressing: Addressing) {

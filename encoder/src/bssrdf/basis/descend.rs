@@ -14,6 +14,8 @@ const SHORTER: f64 = 0.25;
 const LONGER: f64 = 5.0;
 /// Attempts at one step.
 const ATTEMPTS: usize = 6;
+/// Damping by the largest of the diagonal, as a share of that by each unknown's own: what next to nothing depends on stays.
+const FLOOR: f64 = 1e-6;
 /// Share of the loss that a step has to take away for another to follow.
 const LEAST_GAIN: f64 = 0.01;
 
@@ -60,7 +62,7 @@ struct Solved {
     by_widths: DMatrix<f64>,
 }
 
-/// Numbers after one step: (N + λ diag N) δ = g with a block for each channel and a border for the widths that they share.
+/// Numbers after one step: (N + λ D) δ = g, D the diagonal of N and a little of its largest, with a block for each channel and a border for the widths that they share.
 fn step(params: &Params, normals: &[Normal; 3], lambda: f64) -> Option<Params> {
     let (own, widths) = (params.of_channel(), params.size.gaussians);
     let mut border = DMatrix::zeros(widths, widths);
@@ -80,7 +82,10 @@ fn step(params: &Params, normals: &[Normal; 3], lambda: f64) -> Option<Params> {
         };
         let inverse = DVector::from_iterator(own, (0..own).map(root));
         let mut matrix = DMatrix::from_fn(own, own, |i, j| all[(i, j)] * inverse[i] * inverse[j]);
-        matrix.fill_diagonal(1.0 + lambda);
+        let most = (0..own).map(|k| all[(k, k)]).fold(0.0, f64::max);
+        for k in 0..own {
+            matrix[(k, k)] = 1.0 + lambda * (1.0 + FLOOR * most * inverse[k].powi(2));
+        }
         let cholesky = Cholesky::new(matrix)?;
         let alone = cholesky.solve(&DVector::from_fn(own, |i, _| all[(i, own + widths)] * inverse[i]));
         let beside = DMatrix::from_fn(own, widths, |i, a| all[(i, own + a)] * inverse[i]);
