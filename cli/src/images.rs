@@ -20,7 +20,7 @@ impl FolderImages {
     /// They cannot be read, some are missing, or they are linear floats.
     pub fn read(folder: &Path) -> Result<Self> {
         let found = Folder::open(folder)?;
-        if found.is_linear() {
+        if found.format().is_linear() {
             return Err(Error::Request(format!(
                 "{}: linear floats, which take four times the memory of display values; --images draws .png and .jpg",
                 folder.display()

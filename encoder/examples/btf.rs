@@ -7,6 +7,7 @@ use subsurf_encoder::btf::nested::Extent;
 use subsurf_encoder::btf::{Goal, Options, Size, encode};
 use subsurf_encoder::capture::{Direction, Images, Source, bonn};
 use subsurf_encoder::metrics::btf::judge;
+use subsurf_encoder::picture::PixelFormat;
 
 /// Waves of 16 × 16 pixels, seen and lit from up to 45° off the normal.
 struct Waves(Vec<Vec3>);
@@ -28,9 +29,8 @@ impl Source for Waves {
         [16, 16]
     }
 
-    /// Pixels are display values, and 1 is white.
-    fn white(&self) -> Option<f32> {
-        Some(1.0)
+    fn format(&self) -> PixelFormat {
+        PixelFormat::Display8
     }
 
     fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>> {

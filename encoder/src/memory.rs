@@ -27,7 +27,7 @@ pub fn expect(need_bytes: u64, what: impl FnOnce() -> String) -> Result<()> {
 
 /// Bytes for people, in GB.
 #[must_use]
-pub fn gigabytes(bytes: u64) -> String {
+pub(crate) fn gigabytes(bytes: u64) -> String {
     format!("{:.3} GB", bytes as f64 / 1e9)
 }
 

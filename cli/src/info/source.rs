@@ -20,25 +20,20 @@ pub(super) fn info(args: &Args) -> anyhow::Result<()> {
 
 fn print(args: &Args, source: &dyn Source, raw_bytes: u64, simulated: Option<Value>) -> anyhow::Result<()> {
     check_images(source, &Bars::new())?;
-    let ([width, height], is_linear) = (source.size(), source.white().is_none());
+    let ([width, height], format) = (source.size(), source.format());
     let (lights, views) = (source.lights(), source.views());
     if args.json {
         let value = json!({
             "lights": lights.len(), "views": views.len(), "width": width, "height": height,
-            "linear": is_linear, "raw_bytes": raw_bytes, "simulated": simulated,
+            "linear": format.is_linear(), "raw_bytes": raw_bytes, "simulated": simulated,
         });
         outln!("{value:#}");
         return Ok(());
     }
-    let pixels = match (is_linear, source.is_deep()) {
-        (true, _) => "linear floats",
-        (false, true) => "16-bit sRGB",
-        (false, false) => "8-bit sRGB",
-    };
     let (path, kind, lights, views, raw) =
         (args.file.display(), source.kind(), lights.len(), views.len(), human(raw_bytes));
     let state = if args.file.is_dir() { " uncompressed" } else { "" };
-    outln!("{path}: {kind}, {lights} lights × {views} views, {width} × {height} pixels, {pixels}, {raw}{state}");
+    outln!("{path}: {kind}, {lights} lights × {views} views, {width} × {height} pixels, {format}, {raw}{state}");
     if let Some(facts) = simulated {
         outln!("  synthetic: {facts}");
     }

@@ -2,6 +2,8 @@
 
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
+
 /// A request that cannot be carried out, in one line that says what to do instead.
 #[derive(Debug)]
 pub struct BadRequest(String);
@@ -39,6 +41,27 @@ const NO_DEVICE: u8 = 3;
 pub fn report(error: &anyhow::Error) -> ExitCode {
     eprintln!("{}: {}", super::name(), line(error));
     ExitCode::from(code(error))
+}
+
+/// Prints what is wrong with arguments in one line on stderr, or the help that was asked for, and says with which code the
+/// program is to end.
+pub(super) fn report_arguments(error: &clap::Error) -> ExitCode {
+    if error.use_stderr() && error.kind() != ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        eprintln!("{}: {}", super::name(), arguments_line(&error.render().to_string()));
+    } else {
+        // Who asked for help need not read all of it.
+        error.print().ok();
+    }
+    if error.use_stderr() { ExitCode::from(INPUT) } else { ExitCode::SUCCESS }
+}
+
+/// The paragraphs of an error of arguments on one line, with what it suggests, but without the usage: it is in the help.
+fn arguments_line(text: &str) -> String {
+    let joined = |paragraph: &str| paragraph.split_whitespace().collect::<Vec<_>>().join(" ");
+    let paragraphs = text.split("\n\n").filter(|paragraph| !paragraph.starts_with("Usage:")).map(joined);
+    let line = paragraphs.filter(|paragraph| !paragraph.is_empty()).collect::<Vec<_>>().join("; ");
+    let line = line.strip_prefix("error: ").unwrap_or(&line);
+    line.replace("; For more information, try '--help'.", "; --help tells more")
 }
 
 /// An error and its causes on one line, without those that their parent already quotes.

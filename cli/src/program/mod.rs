@@ -31,7 +31,10 @@ pub fn run<A: Parser>(name: &'static str, work: impl FnOnce(A) -> anyhow::Result
     let _ = NAME.set(name);
     crate::devices::settle_drivers();
     interrupt::watch();
-    let args = A::parse();
+    let args = match A::try_parse() {
+        Ok(args) => args,
+        Err(error) => return failure::report_arguments(&error),
+    };
     match threads::check_environment().and_then(|()| work(args)) {
         Ok(()) if interrupt::came() => ExitCode::from(interrupt::INTERRUPTED),
         Ok(()) => ExitCode::SUCCESS,

@@ -115,6 +115,17 @@ fn memory_that_is_not_there_is_foreseen() {
     image::GrayImage::new(12_000, 12_000).save(folder.join("large.png")).unwrap();
     let map = limited("simulate --maps marble=large.png --size 4 --window 3 -o b.npy");
     assert_refused(&map, &["large.png: a picture of 12000 × 12000 pixels takes", "of memory, and there is"]);
+    let names = |pair: u32| format!("tl{:03} pl000 tv{:03} pv000.png", 20 * (pair / 2), 20 * (pair % 2));
+    std::fs::create_dir(folder.join("btf")).unwrap();
+    for pair in 0..4 {
+        image::GrayImage::from_fn(4, 4, |x, y| image::Luma([u8::try_from(40 * pair + 9 * x + y).unwrap()]))
+            .save(folder.join("btf").join(names(pair)))
+            .unwrap();
+    }
+    let fit = limited("encode btf btf --nodes 64,64,64,64");
+    assert_refused(&fit, &["16 texels with --nodes 64,64,64,64 and --p4 512 takes", "of memory, and there is"]);
+    let images = limited("simulate btf leather --size 1024 -o leather");
+    assert_refused(&images, &["--size 1024 takes", "of memory, and there is"]);
     assert_eq!(limited("render a.subsurf --backend cpu --size 90x70 -o a.png").code, 0, "a small one can be had");
 }
 

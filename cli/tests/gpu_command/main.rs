@@ -1,5 +1,6 @@
 //! The commands as their users call them.
 
+mod arguments;
 mod bssrdf;
 mod btf;
 mod captures;

@@ -3,6 +3,7 @@
 use subsurf_decoder::btf::Grid;
 
 use crate::baseline::havran2010;
+use crate::btf::memory::Fit;
 use crate::btf::size::{Method, Size};
 use crate::btf::truncated_svd::TruncatedSvd;
 use crate::btf::{factored, nested, presets};
@@ -59,8 +60,8 @@ pub struct Encoded {
 /// The file of some materials, each with a name. Every file that a search tries is shown to `found` as it comes.
 ///
 /// # Errors
-/// [`Error::Request`] for options out of range, for materials that do not go into one file, and for targets that no file
-/// meets; [`Error::OwnOutput`] if the decoder refuses a file.
+/// [`Error::Request`] for options out of range, for materials that do not go into one file, for fits that take more memory
+/// than there is, and for targets that no file meets; [`Error::OwnOutput`] if the decoder refuses a file.
 pub fn encode(
     materials: &[Images],
     names: &[String],
@@ -69,37 +70,39 @@ pub fn encode(
     found: &mut dyn FnMut(&rate::btf::Point<Size>),
 ) -> Result<Encoded> {
     let setup = Setup::new(materials, names, options)?;
-    let svd = || TruncatedSvd::new(materials, presets::ranks(materials.len()), options.seed, progress);
+    let ranks = presets::ranks(materials.len());
+    let fit = Fit::new(options.method, materials, &setup.grid, ranks, options.has_mipmaps);
+    let wanted = Wanted::new(options, materials)?;
+    fit.expect(wanted.first())?;
+    let svd = || TruncatedSvd::new(materials, ranks, options.seed, progress);
+    let mut choose = |encode: &dyn Fn(&Size) -> Result<Vec<u8>>| {
+        let encode = |size: &Size| fit.expect_size(size).and_then(|()| encode(size));
+        wanted.choose(materials, progress, encode, found)
+    };
     match options.method {
-        Method::Havran2010 => {
-            let raw_bytes = materials.iter().map(Images::bytes).sum();
-            let encode = |size: &Size| match size {
-                Size::Havran2010 { looseness } => setup.havran2010(materials, *looseness, progress),
-                other => Err(mismatch(options.method, other)),
-            };
-            choose(materials, options, raw_bytes, progress, encode, found)
-        }
+        Method::Havran2010 => choose(&|size| match size {
+            Size::Havran2010 { looseness } => setup.havran2010(materials, *looseness, progress),
+            other => Err(mismatch(options.method, other)),
+        }),
         Method::Factored => {
             let svd = svd()?;
             let prepared = setup.factored(materials, &svd)?;
-            let encode = |size: &Size| match size {
+            choose(&|size| match size {
                 Size::Factored { most_bytes } => {
                     let (bytes, _) =
                         prepared.encode_to(usize::try_from(*most_bytes).unwrap_or(usize::MAX), progress)?;
                     reread(bytes)
                 }
                 other => Err(mismatch(options.method, other)),
-            };
-            choose(materials, options, svd.raw_bytes, progress, encode, found)
+            })
         }
         Method::Nested => {
             let svd = svd()?;
             let prepared = setup.nested(materials, &svd);
-            let encode = |size: &Size| match size {
+            choose(&|size| match size {
                 Size::Nested(extent) => reread(prepared.encode(&extent.sizes(), progress)?.to_bytes()),
                 other => Err(mismatch(options.method, other)),
-            };
-            choose(materials, options, svd.raw_bytes, progress, encode, found)
+            })
         }
     }
 }
@@ -108,26 +111,51 @@ fn mismatch(method: Method, size: &Size) -> Error {
     Error::Request(format!("{size:?} is no size of the method {method:?}"))
 }
 
-/// The file of the size that is asked for, or the best of those that a search tries.
-fn choose(
-    materials: &[Images],
-    options: &Options,
-    raw_bytes: u64,
-    progress: &dyn Progress,
-    encode: impl Fn(&Size) -> Result<Vec<u8>>,
-    found: &mut dyn FnMut(&rate::btf::Point<Size>),
-) -> Result<Encoded> {
-    let size = match options.goal {
-        Goal::Usual => presets::size(options.method, raw_bytes),
-        Goal::Size(size) => size,
-        Goal::Target(target) => {
-            let ladder = presets::ladder(options.method, target, raw_bytes);
-            let curve = rate::btf::search(materials, &ladder, target, progress, encode, found)?;
-            let chosen = curve.chosen();
-            return Ok(Encoded { bytes: chosen.file.clone(), size: chosen.candidate, curve: Some(curve) });
+/// Sizes that are asked for.
+enum Wanted {
+    One(Size),
+    /// From small to large.
+    Ladder(Vec<Size>, Target),
+}
+
+impl Wanted {
+    fn new(options: &Options, materials: &[Images]) -> Result<Self> {
+        let raw_bytes = materials.iter().map(Images::bytes).sum();
+        Ok(match options.goal {
+            Goal::Usual => Self::One(presets::size(options.method, raw_bytes)),
+            Goal::Size(size) => {
+                size.check()?;
+                Self::One(size)
+            }
+            Goal::Target(target) => Self::Ladder(presets::ladder(options.method, target, raw_bytes), target),
+        })
+    }
+
+    /// The size that is tried first.
+    fn first(&self) -> &Size {
+        match self {
+            Self::One(size) => size,
+            Self::Ladder(sizes, _) => sizes.first().expect("ladders have steps"),
         }
-    };
-    Ok(Encoded { bytes: encode(&size)?, size, curve: None })
+    }
+
+    /// The file of the size that is asked for, or the best of those that a search tries.
+    fn choose(
+        &self,
+        materials: &[Images],
+        progress: &dyn Progress,
+        encode: impl Fn(&Size) -> Result<Vec<u8>>,
+        found: &mut dyn FnMut(&rate::btf::Point<Size>),
+    ) -> Result<Encoded> {
+        match self {
+            Self::One(size) => Ok(Encoded { bytes: encode(size)?, size: *size, curve: None }),
+            Self::Ladder(sizes, target) => {
+                let curve = rate::btf::search(materials, sizes, *target, progress, encode, found)?;
+                let chosen = curve.chosen();
+                Ok(Encoded { bytes: chosen.file.clone(), size: chosen.candidate, curve: Some(curve) })
+            }
+        }
+    }
 }
 
 /// What all methods want to know of a file, with presets for the rest: for callers who encode the same materials many

@@ -7,6 +7,7 @@
 mod encode;
 pub mod factored;
 mod materials;
+mod memory;
 pub(crate) mod mipmaps;
 pub mod nested;
 pub mod presets;

@@ -1,6 +1,7 @@
 //! Methods of making BTF files, and sizes as each of them measures these.
 
-use crate::btf::nested::Extent;
+use crate::btf::nested::{Extent, check_stages};
+use crate::error::Result;
 use crate::rate::Candidate;
 
 /// Method of making a BTF file.
@@ -29,6 +30,16 @@ pub enum Size {
         /// Factor of the usual thresholds: larger ones give smaller files.
         looseness: f32,
     },
+}
+
+impl Size {
+    /// Refuses sizes that no file has.
+    pub(crate) fn check(&self) -> Result<()> {
+        match self {
+            Self::Nested(extent) => check_stages(extent.stages),
+            Self::Factored { .. } | Self::Havran2010 { .. } => Ok(()),
+        }
+    }
 }
 
 /// Thresholds of pruning whose logarithms differ by less than this make no difference.

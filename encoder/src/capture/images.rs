@@ -10,6 +10,7 @@ use subsurf_decoder::btf::ColourEncoding;
 use crate::capture::source::Source;
 use crate::error::{Error, Result};
 use crate::memory;
+use crate::picture::PixelFormat;
 use crate::progress::Progress;
 
 /// The images of one material: three numbers of 8 or 16 bits a pixel, or three half floats where they are linear.
@@ -53,6 +54,39 @@ fn display<T: Copy + Default + Send + Sync>(
         Ok(())
     })?;
     Ok(all)
+}
+
+/// All linear values of images of `image` values each, in half precision, and how bright they are.
+fn linear(
+    values: usize,
+    image: usize,
+    read: impl Fn(usize) -> Result<Vec<[f32; 3]>> + Sync,
+) -> Result<(Vec<f16>, ColourEncoding)> {
+    let mut halves = vec![f16::ZERO; values];
+    let peak = AtomicU32::new(0);
+    let sums: Vec<f32> = halves
+        .par_chunks_mut(image)
+        .enumerate()
+        .map(|(pair, image)| -> Result<f32> {
+            let mut sum = 0.0;
+            let pixels = read(pair)?;
+            for (halves, rgb) in image.as_chunks_mut::<3>().0.iter_mut().zip(&pixels) {
+                // NaN and -0 become 0.
+                let kept = |value: f32| if value > 0.0 { value.min(BRIGHTEST) } else { 0.0 };
+                *halves = rgb.map(|value| f16::from_f32(kept(value)));
+                let [r, g, b] = halves.map(f16::to_f32);
+                let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+                sum += luminance;
+                // Floats that are not negative order as integers.
+                peak.fetch_max(luminance.to_bits(), Ordering::Relaxed);
+            }
+            Ok(sum / pixels.len() as f32)
+        })
+        .collect::<Result<_>>()?;
+    let mean = sums.iter().sum::<f32>() / sums.len() as f32;
+    let toe = (TOE_OF_MEAN * mean).clamp(1e-6, 1e5);
+    let peak = f32::from_bits(peak.into_inner()).clamp(2.0 * toe, 1e6);
+    Ok((halves, ColourEncoding::LogLuv { toe, peak }))
 }
 
 /// Pixels that are not kept as they are.
@@ -104,7 +138,10 @@ impl Images {
         let Some((image, values)) = image.zip(values) else {
             return Err(Error::Request(format!("{}: too many pixels", source.label())));
         };
-        let bytes = if source.white().is_some() && !source.is_deep() { 1 } else { 2 };
+        let bytes = match source.format() {
+            PixelFormat::Display8 => 1,
+            PixelFormat::Display16 | PixelFormat::Linear => 2,
+        };
         memory::expect(values as u64 * bytes, || format!("{}: {pairs} images", source.label()))?;
         progress.begin("reading images", pairs as u64);
         let clamped = AtomicU64::new(0);
@@ -114,40 +151,21 @@ impl Images {
             progress.advance(1);
             Ok(pixels)
         };
-        let (pixels, tone) = if let Some(white) = source.white() {
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-            let store = if source.is_deep() {
-                Store::Deep(display(values, image, read, |value| (value * 65_535.0).round() as u16)?)
-            } else {
-                Store::Display(display(values, image, read, |value| (value * 255.0).round() as u8)?)
-            };
-            (store, ColourEncoding::Display { white })
-        } else {
-            let mut halves = vec![f16::ZERO; values];
-            let peak = AtomicU32::new(0);
-            let sums: Vec<f32> = halves
-                .par_chunks_mut(image)
-                .enumerate()
-                .map(|(pair, image)| -> Result<f32> {
-                    let mut sum = 0.0;
-                    let pixels = read(pair)?;
-                    for (halves, rgb) in image.as_chunks_mut::<3>().0.iter_mut().zip(&pixels) {
-                        // NaN and -0 become 0.
-                        let kept = |value: f32| if value > 0.0 { value.min(BRIGHTEST) } else { 0.0 };
-                        *halves = rgb.map(|value| f16::from_f32(kept(value)));
-                        let [r, g, b] = halves.map(f16::to_f32);
-                        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-                        sum += luminance;
-                        // Floats that are not negative order as integers.
-                        peak.fetch_max(luminance.to_bits(), Ordering::Relaxed);
-                    }
-                    Ok(sum / pixels.len() as f32)
-                })
-                .collect::<Result<_>>()?;
-            let mean = sums.iter().sum::<f32>() / pairs as f32;
-            let toe = (TOE_OF_MEAN * mean).clamp(1e-6, 1e5);
-            let peak = f32::from_bits(peak.into_inner()).clamp(2.0 * toe, 1e6);
-            (Store::Linear(halves), ColourEncoding::LogLuv { toe, peak })
+        let tone = ColourEncoding::Display { white: source.white() };
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let (pixels, tone) = match source.format() {
+            PixelFormat::Display8 => {
+                let bytes = display(values, image, read, |value| (value * 255.0).round() as u8)?;
+                (Store::Display(bytes), tone)
+            }
+            PixelFormat::Display16 => {
+                let words = display(values, image, read, |value| (value * 65_535.0).round() as u16)?;
+                (Store::Deep(words), tone)
+            }
+            PixelFormat::Linear => {
+                let (halves, tone) = linear(values, image, read)?;
+                (Store::Linear(halves), tone)
+            }
         };
         warn(source, clamped.into_inner(), values / 3, progress);
         Ok(Self { label: source.label(), lights, views, size, tone, raw_bytes: source.raw_bytes(), pixels })

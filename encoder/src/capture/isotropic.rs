@@ -7,6 +7,7 @@ use glam::Vec3;
 
 use crate::capture::source::Source;
 use crate::error::Result;
+use crate::picture::PixelFormat;
 
 /// Views from the normal down, all at azimuth 0.
 const VIEWS: u16 = 18;
@@ -80,8 +81,8 @@ impl<T: IsotropicBrdf> Source for T {
         [1, 1]
     }
 
-    fn white(&self) -> Option<f32> {
-        None
+    fn format(&self) -> PixelFormat {
+        PixelFormat::Linear
     }
 
     fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>> {

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use crate::error::Result;
+use crate::picture::PixelFormat;
 
 /// Source of the images of a BTF, an image for every pair of a light and a view.
 pub trait Source: Sync {
@@ -18,14 +19,14 @@ pub trait Source: Sync {
     fn views(&self) -> Vec<Vec3>;
     /// Pixels in x and in y.
     fn size(&self) -> [u32; 2];
-    /// The linear value of display white, where pixels are display values; `None` where they are linear.
-    fn white(&self) -> Option<f32>;
-    /// Whether display values have 16 bits rather than 8.
-    fn is_deep(&self) -> bool {
-        false
+    /// What pixels are.
+    fn format(&self) -> PixelFormat;
+    /// The linear value of display white; of no meaning where pixels are linear.
+    fn white(&self) -> f32 {
+        1.0
     }
     /// One image, row by row: π times the radiance under light of unit irradiance on a plane that faces it, as display
-    /// values or linear.
+    /// values or linear. What is below zero, too bright or NaN is counted and clamped by those who take it into memory.
     ///
     /// # Errors
     /// If it cannot be read.

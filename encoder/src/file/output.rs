@@ -9,6 +9,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::{Builder, NamedTempFile};
 
 use crate::error::{Error, Result};
+use crate::memory::gigabytes;
 
 /// Files that are being written and have not got their names yet.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
@@ -100,15 +101,29 @@ fn behind_links(path: &Path) -> Result<PathBuf> {
     Err(Error::Request(format!("{}: too many symbolic links behind each other", path.display())))
 }
 
+/// Refuses to write more beside `path` than there is room for; `what` names it.
+///
+/// # Errors
+/// [`Error::Request`] with both numbers.
+pub(crate) fn expect_space(path: &Path, need_bytes: u64, what: impl FnOnce() -> String) -> Result<()> {
+    match free_bytes(path) {
+        Some(free) if need_bytes > free => {
+            let [need, free] = [need_bytes, free].map(gigabytes);
+            Err(Error::Request(format!("{} takes up to {need} of disk while it is made, and there is {free}", what())))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Bytes that can still be written beside `path`, as far as the system tells.
 #[cfg(unix)]
-pub(crate) fn free_bytes(path: &Path) -> Option<u64> {
+fn free_bytes(path: &Path) -> Option<u64> {
     let disk = rustix::fs::statvfs(folder_of(path)).ok()?;
     disk.f_bavail.checked_mul(disk.f_frsize)
 }
 
 #[cfg(not(unix))]
-pub(crate) fn free_bytes(_: &Path) -> Option<u64> {
+fn free_bytes(_: &Path) -> Option<u64> {
     None
 }
 
@@ -172,4 +187,21 @@ fn new_file(folder: &Path) -> std::io::Result<NamedTempFile> {
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn room_that_is_not_there_is_foreseen() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        if free_bytes(&path).is_none() {
+            return;
+        }
+        assert!(expect_space(&path, 1, || "little".to_owned()).is_ok(), "there is room for a byte");
+        let error = expect_space(&path, u64::MAX, || "all of it".to_owned()).unwrap_err().to_string();
+        assert!(error.starts_with("all of it takes up to 18446744073.710 GB of disk while it is made, and"), "{error}");
+    }
 }

@@ -5,12 +5,13 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use image::metadata::Orientation;
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, Rgb32FImage};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, ImageResult, Limits, Rgb32FImage};
 
 use super::grey::Grey;
 use super::jpeg;
 use super::radiance::{self, Layout};
-use super::{EXTENSIONS, Header, Picture};
+use super::tiff_tags;
+use super::{EXTENSIONS, Header, Picture, PixelFormat};
 use crate::error::{Error, Result};
 use crate::memory;
 
@@ -18,6 +19,8 @@ const EXPECTED: &str = "an image (PNG, JPEG, WebP, TIFF, TGA, BMP, Radiance HDR 
 
 /// Pixels that a byte of a file may stand for: more than any format brings to it in practice.
 const PIXELS_OF_BYTE: u64 = 16_384;
+/// Bytes that a decoder may take for what stands before the pixels, such as colour profiles.
+const HEADER_BYTES: u64 = 1 << 28;
 /// Bytes of memory for a pixel while it is decoded: as it is stored, as floats with alpha, and as floats.
 const BYTES_OF_PIXEL: u64 = 44;
 
@@ -28,15 +31,14 @@ pub(super) struct Decoder {
     /// Pixels in x and in y as they are stored.
     stored: [u32; 2],
     orientation: Orientation,
-    is_linear: bool,
-    is_deep: bool,
+    format: PixelFormat,
 }
 
 /// What reads the pixels.
 enum Source {
     Radiance(BufReader<File>, Layout),
     Grey(Grey),
-    Other(Box<dyn ImageDecoder>),
+    Other(ImageFormat, Box<dyn ImageDecoder>),
 }
 
 impl Decoder {
@@ -53,32 +55,38 @@ impl Decoder {
         let stored = match &source {
             Source::Radiance(_, layout) => layout.scanlines,
             Source::Grey(grey) => grey.size(),
-            Source::Other(decoder) => decoder.dimensions().into(),
+            Source::Other(_, decoder) => decoder.dimensions().into(),
         };
         let pixels = stored.map(u64::from).iter().product::<u64>();
-        if pixels == 0 || pixels / PIXELS_OF_BYTE > file_bytes {
+        // Those of one colour take no bytes in WebP, which is limited to 16,384 pixels to a side.
+        let is_limited = matches!(source, Source::Other(ImageFormat::WebP, _));
+        if pixels == 0 || !is_limited && pixels / PIXELS_OF_BYTE > file_bytes {
             return Err(wrong(format!("{} × {} pixels in a file of {file_bytes} bytes", stored[0], stored[1])));
         }
         let orientation = match &mut source {
             Source::Radiance(_, layout) => layout.orientation,
             Source::Grey(grey) => grey.orientation(),
             // What cannot be read of EXIF is not there.
-            Source::Other(decoder) => decoder.orientation().unwrap_or(Orientation::NoTransforms),
+            Source::Other(_, decoder) => decoder.orientation().unwrap_or(Orientation::NoTransforms),
         };
-        let [is_linear, is_deep] = match &source {
-            Source::Radiance(..) | Source::Grey(_) => [true, false],
-            Source::Other(decoder) => {
+        let format = match &source {
+            Source::Radiance(..) | Source::Grey(_) => PixelFormat::Linear,
+            Source::Other(_, decoder) => {
                 let colour = decoder.color_type();
-                [4, 2].map(|wide| colour.bytes_per_pixel() == wide * colour.channel_count())
+                match colour.bytes_per_pixel() / colour.channel_count() {
+                    4.. => PixelFormat::Linear,
+                    2.. => PixelFormat::Display16,
+                    _ => PixelFormat::Display8,
+                }
             }
         };
-        Ok(Self { path: path.to_owned(), source, stored, orientation, is_linear, is_deep })
+        Ok(Self { path: path.to_owned(), source, stored, orientation, format })
     }
 
     pub(super) fn header(&self) -> Header {
         let [width, height] = self.stored;
         let size = if is_on_its_side(self.orientation) { [height, width] } else { self.stored };
-        Header { size, is_linear: self.is_linear, is_deep: self.is_deep }
+        Header { size, format: self.format }
     }
 
     pub(super) fn decode(self) -> Result<Picture> {
@@ -87,10 +95,6 @@ impl Decoder {
         let need = u64::from(width).saturating_mul(u64::from(height)).saturating_mul(BYTES_OF_PIXEL);
         memory::expect(need, || format!("{}: a picture of {width} × {height} pixels", path.display()))?;
         let wrong = |error: String| Error::input(&path, error, EXPECTED);
-        let is_whole = jpeg::is_whole(&path).map_err(|error| wrong(error.to_string()))?;
-        if !is_whole {
-            return Err(wrong("the file is cut: its pixels have no end".to_owned()));
-        }
         let mut image = match source {
             Source::Radiance(mut file, layout) => {
                 radiance::read_scanlines(&mut file, layout.scanlines).map_err(wrong)?.into()
@@ -101,7 +105,12 @@ impl Decoder {
                 let image = Rgb32FImage::from_raw(width, height, values);
                 image.ok_or_else(|| wrong("fewer values than pixels".to_owned()))?.into()
             }
-            Source::Other(decoder) => DynamicImage::from_decoder(decoder).map_err(|error| wrong(error.to_string()))?,
+            Source::Other(format, decoder) => {
+                if format == ImageFormat::Jpeg && !jpeg::is_whole(&path).map_err(|error| wrong(error.to_string()))? {
+                    return Err(wrong("the file is cut: its pixels have no end".to_owned()));
+                }
+                decode(decoder).map_err(|error| wrong(error.to_string()))?
+            }
         };
         image.apply_orientation(orientation);
         let mut transparent = 0;
@@ -112,6 +121,12 @@ impl Decoder {
         }
         Ok(Picture { image: image.into_rgb32f(), header, transparent })
     }
+}
+
+/// The pixels, whose memory was checked.
+fn decode(mut decoder: Box<dyn ImageDecoder>) -> ImageResult<DynamicImage> {
+    decoder.set_limits(Limits::no_limits())?;
+    DynamicImage::from_decoder(decoder)
 }
 
 /// What reads a file, or what is wrong with it.
@@ -129,12 +144,14 @@ fn source(path: &Path, mut file: BufReader<File>) -> std::result::Result<Source,
     });
     let format = reader.format().or(named).ok_or("not of a known format")?;
     reader.set_format(format);
-    // What the pixels take is checked before they are read.
+    if let Some(found) = (format == ImageFormat::Tiff).then(|| tiff_tags::unread(path)).flatten() {
+        return Err(found.to_owned());
+    }
     let mut limits = Limits::no_limits();
-    limits.max_alloc = memory::available();
+    limits.max_alloc = Some(HEADER_BYTES);
     reader.limits(limits);
     match reader.into_decoder() {
-        Ok(decoder) => Ok(Source::Other(Box::new(decoder))),
+        Ok(decoder) => Ok(Source::Other(format, Box::new(decoder))),
         Err(error) => {
             let again = File::open(path).map_err(|error| error.to_string())?;
             Grey::open(format, BufReader::new(again)).map(Source::Grey).ok_or_else(|| error.to_string())

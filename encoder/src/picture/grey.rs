@@ -16,6 +16,8 @@ use tiff::tags::Tag;
 
 /// The channel of luminance in OpenEXR.
 const LUMINANCE: &str = "Y";
+/// Its channels of chroma beside luminance, in fewer pixels: such pictures are in colour.
+const CHROMA: [&str; 2] = ["RY", "BY"];
 
 /// A file whose header was read.
 pub(super) enum Grey {
@@ -51,8 +53,8 @@ impl Grey {
                 let file = exr::block::read(file, false).ok()?;
                 // Of several parts the first that can be shown is read.
                 let header = file.headers().iter().find(|header| {
-                    let luminance = header.channels.find_index_of_channel(&Text::from(LUMINANCE));
-                    !header.deep && luminance.is_some()
+                    let has = |name: &str| header.channels.find_index_of_channel(&Text::from(name)).is_some();
+                    !header.deep && has(LUMINANCE) && !CHROMA.into_iter().any(has)
                 })?;
                 let shown = header.shared_attributes.display_window;
                 let window = Window { shown, start: header.own_attributes.layer_position };
@@ -115,7 +117,7 @@ impl Grey {
                 // What the values take was checked.
                 match file.with_limits(Limits::unlimited()).read_image() {
                     Ok(DecodingResult::F32(values)) => Ok(values),
-                    Ok(_) => Err("integers of 32 bits".to_owned()),
+                    Ok(_) => Err("no floats".to_owned()),
                     Err(error) => Err(error.to_string()),
                 }
             }

@@ -1,23 +1,15 @@
 //! Whether a JPEG file is whole.
 
-use std::fs::File;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 const SCAN: u8 = 0xDA;
 const END: [u8; 2] = [0xFF, 0xD9];
 
-/// Whether the first scan of a file has an end, if it is a JPEG file. Decoders fill in grey for what a file that was cut
+/// Whether the first scan of a JPEG file has an end. Decoders fill in grey for what a file that was cut
 /// does not have.
 pub(super) fn is_whole(path: &Path) -> io::Result<bool> {
-    let mut file = File::open(path)?;
-    let mut bytes = Vec::new();
-    file.by_ref().take(2).read_to_end(&mut bytes)?;
-    if bytes != [0xFF, 0xD8] {
-        return Ok(true);
-    }
-    file.read_to_end(&mut bytes)?;
-    Ok(has_end(&bytes))
+    Ok(has_end(&std::fs::read(path)?))
 }
 
 /// What is no sequence of segments is left to decoders.

@@ -1,9 +1,11 @@
 //! Pictures that others made, read in one way: maps, environments, images of BTFs.
 
 mod decode;
+mod format;
 mod grey;
 mod jpeg;
 mod radiance;
+mod tiff_tags;
 
 use std::path::Path;
 
@@ -12,6 +14,7 @@ use image::imageops::{FilterType, resize};
 
 use crate::error::Result;
 use decode::Decoder;
+pub use format::PixelFormat;
 
 /// Extensions of files that [`Picture::open`] reads, in lower case. What a file is, its content says, or its name where
 /// the content has no signature.
@@ -22,10 +25,8 @@ pub const EXTENSIONS: [&str; 10] = ["png", "jpg", "jpeg", "exr", "hdr", "tif", "
 pub struct Header {
     /// Pixels in x and in y, upright.
     pub size: [u32; 2],
-    /// Whether values are linear floats, of any range; display values (sRGB), 0 to 1, otherwise.
-    pub is_linear: bool,
-    /// Whether display values have 16 bits rather than 8.
-    pub is_deep: bool,
+    /// What pixels are.
+    pub format: PixelFormat,
 }
 
 /// A picture in memory, upright: EXIF orientation and the order of scanlines are applied.
@@ -65,7 +66,7 @@ impl Picture {
     /// Whether values are linear Rec. 709; display values (sRGB), 0 to 1, otherwise.
     #[must_use]
     pub fn is_linear(&self) -> bool {
-        self.header.is_linear
+        self.header.format.is_linear()
     }
 
     /// Number of pixels that are not opaque in the file; their colour is taken as it stands.
@@ -102,11 +103,11 @@ impl Picture {
     /// The same picture in linear Rec. 709.
     #[must_use]
     pub fn into_linear(mut self) -> Self {
-        if !self.header.is_linear {
+        if !self.is_linear() {
             for pixel in self.image.pixels_mut() {
                 pixel.0 = pixel.0.map(from_srgb);
             }
-            self.header.is_linear = true;
+            self.header.format = PixelFormat::Linear;
         }
         self
     }

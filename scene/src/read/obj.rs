@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use super::corners::Corners;
 use super::raw::{Raw, Result};
-use super::text::{Lines, numbers, quoted, without_mark, words};
+use super::text::{Lines, has_comment, numbers, quoted, without_mark, words};
 
 /// What a corner does not name.
 const NONE: u32 = u32::MAX;
@@ -40,8 +40,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw> {
     let mut lines = Lines::new(&text);
     while let Some((number, line)) = lines.next() {
         let mut line = std::borrow::Cow::Borrowed(line);
-        while line.last() == Some(&b'\\') {
-            // What follows a line that ends so is part of it.
+        // What follows a line that ends so is part of it; a comment is at its end, whatever it ends with.
+        while line.last() == Some(&b'\\') && !has_comment(&line) {
             let line = line.to_mut();
             line.pop();
             line.push(b' ');
@@ -149,7 +149,7 @@ impl Lists {
                     out.normals.push(normal.copied().unwrap_or(Vec3::NAN));
                 })?);
             }
-            out.add_polygon(&polygon);
+            out.add_polygon(&polygon).map_err(|error| format!("line {line}: {error}"))?;
         }
         if !has_uvs {
             out.uvs.clear();

@@ -45,10 +45,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw> {
     }
     let mut small = 0;
     for k in 0..faces {
-        let (line, words) = lines.next().ok_or_else(|| format!("ends after face {k} of {faces}"))?;
+        let (line, mut words) = lines.next().ok_or_else(|| format!("ends after face {k} of {faces}"))?;
+        join(&mut words, &mut lines);
         let corners = corners(&words, vertices).map_err(|error| format!("line {line}: {error}"))?;
         small += usize::from(corners.len() < 3);
-        out.add_polygon(&corners);
+        out.add_polygon(&corners).map_err(|error| format!("line {line}: {error}"))?;
     }
     out.leave_out(small, "faces of fewer than three corners");
     Ok(out)
@@ -74,9 +75,29 @@ fn add_vertex(flags: &[u8], words: &[&[u8]], out: &mut Raw) -> Result<()> {
     Ok(())
 }
 
+/// Adds the lines that a face goes on in, as some write it; with these it has no more words than its corners take.
+fn join<'a>(words: &mut Vec<&'a [u8]>, lines: &mut (impl Iterator<Item = (usize, Vec<&'a [u8]>)> + Clone)) {
+    let need = words.first().and_then(|word| index(word)).map_or(0, |count| 1 + count as usize);
+    if words.len() >= need {
+        return;
+    }
+    let (mut joined, mut after) = (words.clone(), lines.clone());
+    while joined.len() < need
+        && let Some((_, more)) = after.next()
+    {
+        joined.extend(more);
+    }
+    if joined.len() == need {
+        (*words, *lines) = (joined, after);
+    }
+}
+
+fn index(word: &[u8]) -> Option<u32> {
+    std::str::from_utf8(word).ok().and_then(|word| word.parse().ok())
+}
+
 /// Corners of a face: their number, their vertices, and what may follow: a colour.
 fn corners(words: &[&[u8]], vertices: usize) -> Result<Vec<u32>> {
-    let index = |word: &[u8]| std::str::from_utf8(word).ok().and_then(|word| word.parse::<u32>().ok());
     let count = words.first().and_then(|word| index(word)).ok_or("a face without a number of corners")?;
     let named = usize::try_from(count).ok().and_then(|count| words.get(1..=count));
     let named = named.ok_or_else(|| format!("a face of {count} corners that names {}", words.len() - 1))?;

@@ -3,35 +3,50 @@
 use earcut::Earcut;
 use glam::{DVec2, DVec3};
 
+use super::raw::Result;
+
 /// A corner turns the wrong way if the sine of its angle is below this: less is the rounding of flat ones.
 const CONCAVE: f64 = -1e-5;
+/// Corners of a concave polygon, at most: the time that ears take grows with the square of their number.
+const MOST_CORNERS: usize = 1 << 15;
 
 /// Calls `triangle` with the three corners of each triangle of a polygon, as numbers into `corners`, its positions in
 /// order. Convex polygons, and those that cross themselves, are fans around their first corner; concave ones are cut into
-/// ears, in the plane that their area is largest in.
-pub(super) fn triangulate(corners: &[DVec3], mut triangle: impl FnMut([usize; 3])) {
+/// ears, in the plane that their area is largest in, unless they have too many corners.
+pub(super) fn triangulate(corners: &[DVec3], mut triangle: impl FnMut([usize; 3])) -> Result<()> {
     let fan = (2..corners.len()).map(|k| [0, k - 1, k]);
-    match (corners.len() > 3).then(|| ears(corners)).flatten() {
+    match if corners.len() > 3 { ears(corners)? } else { None } {
         Some(ears) => ears.as_chunks().0.iter().for_each(|&ear| triangle(ear)),
         None => fan.for_each(triangle),
     }
+    Ok(())
 }
 
 /// Three numbers for each ear of a polygon that is concave and does not cross itself.
-fn ears(corners: &[DVec3]) -> Option<Vec<usize>> {
-    let first = *corners.first()?;
+fn ears(corners: &[DVec3]) -> Result<Option<Vec<usize>>> {
+    let first = corners[0];
     let points: Vec<DVec3> = corners.iter().map(|corner| corner - first).collect();
     let next = |k: usize| (k + 1) % points.len();
     // Twice the area, along the normal (Newell).
     let area = (0..points.len()).map(|k| points[k].cross(points[next(k)])).sum::<DVec3>();
-    let normal = area.try_normalize()?;
+    let Some(normal) = area.try_normalize() else {
+        return Ok(None);
+    };
     let is_concave = (0..points.len()).any(|k| {
         let [a, b, c] = [k, next(k), next(next(k))].map(|k| points[k]);
         let (before, after) = (b - a, c - b);
         before.cross(after).dot(normal) < CONCAVE * before.length() * after.length()
     });
     if !is_concave {
-        return None;
+        return Ok(None);
+    }
+    if corners.len() > MOST_CORNERS {
+        // That of a disc is concave by the rounding of its corners alone.
+        let of_fan: f64 = (2..points.len()).map(|k| points[k - 1].cross(points[k]).length()).sum();
+        if is_same(of_fan, area.length()) {
+            return Ok(None);
+        }
+        return Err(format!("a concave face of {} corners; expected at most {MOST_CORNERS}", corners.len()));
     }
     let [right, up] = <[DVec3; 2]>::from(normal.any_orthonormal_pair());
     let flat: Vec<DVec2> = points.iter().map(|point| DVec2::new(point.dot(right), point.dot(up))).collect();
@@ -46,8 +61,12 @@ fn ears(corners: &[DVec3]) -> Option<Vec<usize>> {
             ear.swap(1, 2);
         }
     }
-    let is_whole = (total - area.length()).abs() <= 1e-3 * area.length();
-    is_whole.then_some(ears)
+    Ok(is_same(total, area.length()).then_some(ears))
+}
+
+/// Whether triangles cover a polygon once: their area, without regard to their side, and its own.
+fn is_same(of_triangles: f64, area: f64) -> bool {
+    (of_triangles - area).abs() <= 1e-3 * area
 }
 
 #[cfg(test)]
@@ -62,7 +81,8 @@ mod tests {
             count += 1;
             sizes += area.length();
             sum += area;
-        });
+        })
+        .unwrap();
         (count, sizes, sum)
     }
 

@@ -33,9 +33,9 @@ impl Raw {
     }
 
     /// Adds the triangles of a polygon of vertices that are there; none if it has fewer than three corners.
-    pub(super) fn add_polygon(&mut self, corners: &[u32]) {
+    pub(super) fn add_polygon(&mut self, corners: &[u32]) -> Result<()> {
         let positions: Vec<DVec3> = corners.iter().map(|&k| self.positions[k as usize]).collect();
-        triangulate(&positions, |ear| self.triangles.push(ear.map(|k| corners[k])));
+        triangulate(&positions, |ear| self.triangles.push(ear.map(|k| corners[k])))
     }
 
     /// Adds the triangles of a strip: each vertex from the third on makes one with the two before it, every other turned, so

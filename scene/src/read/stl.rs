@@ -24,6 +24,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw> {
             let corner = |numbers: &[u8; 12]| {
                 Vec3::from([0, 4, 8].map(|at| f32::from_le_bytes([0, 1, 2, 3].map(|k| numbers[at + k])))).as_dvec3()
             };
+            let behind = (bytes.len() - HEADER) / TRIANGLE - facets.len();
+            out.mesh.leave_out(behind, "facets behind those that the header counts");
             for facet in facets {
                 let corners: Vec<DVec3> = facet[12..48].as_chunks().0.iter().map(corner).collect();
                 out.add(&corners)?;
@@ -50,8 +52,7 @@ impl Facets {
             let place = (position + 0.0).to_array().map(f64::to_bits);
             corners.push(self.vertices.number(place, || self.mesh.positions.push(position))?);
         }
-        self.mesh.add_polygon(&corners);
-        Ok(())
+        self.mesh.add_polygon(&corners)
     }
 }
 

@@ -17,6 +17,7 @@ pub(super) fn without_mark(bytes: &[u8]) -> Cow<'_, [u8]> {
 }
 
 /// Lines of a text and their numbers, from 1. They end as on any system.
+#[derive(Clone)]
 pub(super) struct Lines<'a> {
     rest: Option<&'a [u8]>,
     number: usize,
@@ -45,7 +46,21 @@ impl<'a> Iterator for Lines<'a> {
 
 /// Words of a line, up to a comment.
 pub(super) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
-    line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).take_while(|word| word[0] != b'#')
+    all_words(line).take_while(|word| !is_comment(word))
+}
+
+/// Whether a line ends with a comment.
+pub(super) fn has_comment(line: &[u8]) -> bool {
+    all_words(line).any(is_comment)
+}
+
+fn all_words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+}
+
+/// Whether a word is the first of a comment.
+fn is_comment(word: &[u8]) -> bool {
+    word[0] == b'#'
 }
 
 /// A number; what C libraries print for those that are not finite is one as well.

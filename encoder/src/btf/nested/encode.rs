@@ -2,19 +2,18 @@
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use subsurf_decoder::btf::nested::layout::MAX_STAGES;
 use subsurf_decoder::btf::{BtfHeader, BtfModel, ColourEncoding, Grid};
 
 use super::chroma::{ChromaSizes, Hues};
 use super::database::Database;
 use super::luma::{STEPS, Space};
-use super::sizes::Sizes;
+use super::sizes::{Sizes, check_stages};
 use crate::btf::TruncatedSvd;
 use crate::btf::materials::materials;
 use crate::btf::mipmaps::Mipmaps;
 use crate::btf::resample::{Measured, Resampler};
 use crate::capture::Images;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::progress::Progress;
 
 /// What a file of nested codebooks is to be.
@@ -65,9 +64,7 @@ impl<'a> Prepared<'a> {
     /// [`Error::Request`] for no stage or more than four, or too many materials.
     pub fn encode(&self, stages: &[Sizes], progress: &dyn Progress) -> Result<Database> {
         let (svd, options) = (self.svd, &self.options);
-        if stages.is_empty() || stages.len() > MAX_STAGES {
-            return Err(Error::Request(format!("{} stages of codebooks; 1 to 4 are possible", stages.len())));
-        }
+        check_stages(stages.len())?;
         let (count, materials) = materials(&svd.sizes, &options.names, options.has_mipmaps)?;
         progress.begin("codebooks", STEPS * stages.len() as u64);
         let [luma, chroma] = &self.texels;

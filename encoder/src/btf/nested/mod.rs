@@ -13,4 +13,5 @@ mod write;
 pub use chroma::ChromaSizes;
 pub use database::{Chain, Chroma, Database, Item, slice_mean};
 pub use encode::{Options, Prepared};
+pub(crate) use sizes::check_stages;
 pub use sizes::{Extent, Sizes};

@@ -1,6 +1,17 @@
 //! Sizes of nested codebooks.
 
+use subsurf_decoder::btf::nested::layout::MAX_STAGES;
+
+use crate::error::{Error, Result};
 use crate::rate::Candidate;
+
+/// Refuses numbers of stages that no file has.
+pub(crate) fn check_stages(stages: usize) -> Result<()> {
+    match stages {
+        1..=MAX_STAGES => Ok(()),
+        _ => Err(Error::Request(format!("{stages} stages of codebooks; 1 to {MAX_STAGES} are possible"))),
+    }
+}
 
 /// Most entries of the codebooks of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

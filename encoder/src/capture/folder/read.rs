@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::listing::Listing;
 use crate::capture::directions::{Direction, image_name};
 use crate::error::{Error, Result};
-use crate::picture::{self, Picture};
+use crate::picture::{self, Picture, PixelFormat};
 
 /// A folder with an image for every pair of a light and a view.
 #[derive(Debug)]
@@ -78,28 +78,17 @@ impl Folder {
         self.header.size
     }
 
-    /// Whether images hold linear floats; display values otherwise.
+    /// What pixels are.
     #[must_use]
-    pub fn is_linear(&self) -> bool {
-        self.header.is_linear
-    }
-
-    /// Whether display values have 16 bits rather than 8.
-    #[must_use]
-    pub fn is_deep(&self) -> bool {
-        self.header.is_deep
+    pub fn format(&self) -> PixelFormat {
+        self.header.format
     }
 
     /// Bytes of all images, three channels of one byte, two or four.
     #[must_use]
     pub fn raw_bytes(&self) -> u64 {
         let [width, height] = self.header.size.map(u64::from);
-        let bytes = match (self.is_linear(), self.is_deep()) {
-            (true, _) => 4,
-            (false, true) => 2,
-            (false, false) => 1,
-        };
-        width * height * self.images.len() as u64 * 3 * bytes
+        width * height * self.images.len() as u64 * 3 * self.format().bytes()
     }
 
     /// Where the images come from, as `btf.json` beside them says; `None` if there is none.
@@ -150,12 +139,7 @@ fn common_header<'a>(files: impl Iterator<Item = &'a PathBuf>) -> Result<picture
         if header != first {
             let told = |header: picture::Header| {
                 let [width, height] = header.size;
-                let values = match (header.is_linear, header.is_deep) {
-                    (true, _) => "linear floats",
-                    (false, true) => "16 bits",
-                    (false, false) => "8 bits",
-                };
-                format!("{width} × {height} pixels of {values}")
+                format!("{width} × {height} pixels, {}", header.format)
             };
             return Err(Error::input(file, told(header), format!("{}, as the images before it", told(first))));
         }
@@ -207,10 +191,10 @@ mod tests {
             write(&place.path().join(name), pixels);
             let folder = Folder::open(&place.path().join(name)).unwrap();
             assert_eq!((folder.lights(), folder.views(), folder.size()), (&LIGHTS[..], &VIEWS[..], [2, 2]));
-            assert_eq!(folder.is_linear(), name == "linear");
+            assert_eq!(folder.format().is_linear(), name == "linear");
             assert!(folder.facts().is_some());
             let image = folder.read(LIGHTS[1], VIEWS[0]).unwrap();
-            let expected = if folder.is_linear() { [0.75, 0.5, 0.25] } else { [0.880_6, 0.735_4, 0.537_1] };
+            let expected = if folder.format().is_linear() { [0.75, 0.5, 0.25] } else { [0.880_6, 0.735_4, 0.537_1] };
             let error = (0..3).map(|c| (image[0][c] - expected[c]).abs()).fold(0.0, f32::max);
             assert!(error < 2.0 / 255.0, "{name}: {:?}", image[0]);
             assert!(folder.read(VIEWS[0], LIGHTS[0]).is_err(), "no such pair");
@@ -238,7 +222,7 @@ mod tests {
         let larger = open("larger", &|folder| {
             image::RgbImage::new(3, 2).save(image(folder, 1, 1)).unwrap();
         });
-        assert!(larger.contains("tl075 pl090 tv030 pv000.png: 3 × 2 pixels of 8 bits; expected 2 × 2"), "{larger}");
+        assert!(larger.contains("tl075 pl090 tv030 pv000.png: 3 × 2 pixels, 8-bit sRGB; expected 2 × 2"), "{larger}");
         let broken = open("broken", &|folder| std::fs::write(image(folder, 0, 1), "no image").unwrap());
         assert!(broken.contains("tl000 pl000 tv030 pv000.png"), "{broken}");
         let mixed = open("mixed", &|folder| {

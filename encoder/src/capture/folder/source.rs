@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::Folder;
 use crate::capture::source::Source;
 use crate::error::Result;
+use crate::picture::PixelFormat;
 
 impl Source for Folder {
     fn label(&self) -> String {
@@ -23,14 +24,13 @@ impl Source for Folder {
         self.size()
     }
 
-    fn white(&self) -> Option<f32> {
-        #[allow(clippy::cast_possible_truncation, reason = "an exposure")]
-        let white = (1.0 / self.exposure()) as f32;
-        (!self.is_linear()).then_some(white)
+    fn format(&self) -> PixelFormat {
+        self.format()
     }
 
-    fn is_deep(&self) -> bool {
-        self.is_deep()
+    #[allow(clippy::cast_possible_truncation, reason = "an exposure")]
+    fn white(&self) -> f32 {
+        (1.0 / self.exposure()) as f32
     }
 
     fn warnings(&self) -> Vec<String> {

@@ -10,6 +10,11 @@ use crate::capture::directions::{Direction, image_name};
 use crate::error::{Error, Result};
 use crate::file::output::{PREFIX, Unfinished, check_new_folder, folder_of, write_bytes};
 
+/// Bytes of an image file beside its values, at most.
+const FILE_HEADER: u64 = 512;
+/// Bytes by which files on disks grow.
+const DISK_BLOCK: u64 = 4_096;
+
 /// How values become pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pixels {
@@ -28,6 +33,18 @@ impl Pixels {
             Self::Display { .. } => "png",
             Self::Linear => "exr",
         }
+    }
+
+    /// Bytes that an image of `side` pixels takes on a disk if nothing of it can be compressed.
+    pub(crate) fn most_file_bytes(self, side: u32) -> u64 {
+        let row = 3 * u64::from(side);
+        let values = match self {
+            // A filter for each row.
+            Self::Display { .. } => row + 1,
+            // An offset, a number and a length for each row.
+            Self::Linear => 4 * row + 16,
+        };
+        (FILE_HEADER + values * u64::from(side)).next_multiple_of(DISK_BLOCK)
     }
 }
 

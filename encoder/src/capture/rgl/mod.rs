@@ -30,6 +30,7 @@ use warp::{Density, Mixture, node};
 
 /// Most bytes of a file: isotropic ones have less than a megabyte.
 const MOST_BYTES: u64 = 1 << 26;
+
 /// A measured isotropic BRDF.
 ///
 /// Directions are unit vectors in a frame whose z is the normal. Beyond the last angle of incidence that was measured
@@ -80,7 +81,7 @@ impl Rgl {
         cosine.map(|value| if value > 0.0 { (value / f64::from(view.z)) as f32 } else { 0.0 })
     }
 
-    /// f_r · cos θ_o in sr⁻¹, linear RGB, not negative; zero below the horizon. It is what files have: finite and smooth
+    /// f_r · cos θ_o in sr⁻¹, linear RGB; zero below the horizon, and negative where the measurement is. It is what files have: finite and smooth
     /// up to where the exitant direction reaches the horizon.
     fn eval_cosine(&self, incident: DVec3, exitant: DVec3) -> [f64; 3] {
         if incident.z <= 0.0 || exitant.z <= 0.0 {
@@ -109,8 +110,7 @@ impl Rgl {
         };
         [0, 1, 2].map(|channel| {
             let of = |slice: usize| self.measured(slice, channel, [x, y]);
-            let measured = (1.0 - share) * of(slice) + share * of(slice + 1);
-            measured.max(0.0) * jacobian
+            ((1.0 - share) * of(slice) + share * of(slice + 1)) * jacobian
         })
     }
 

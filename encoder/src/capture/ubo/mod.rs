@@ -119,8 +119,8 @@ impl Ubo {
         self.layout.header.cosine
     }
 
-    /// One image, row by row: linear RGB as the file has it, neither clipped at 1 nor scaled. Values below zero, which
-    /// compression leaves behind, become zero.
+    /// One image, row by row: linear RGB as the file has it, neither clipped nor scaled. Compression leaves some values
+    /// below zero.
     ///
     /// # Errors
     /// [`Error::Request`] if there is no such light or view; [`Error::Input`] if a value is not finite.
@@ -156,7 +156,7 @@ impl Layout {
                 let found = format!("light {light}, view {view}: a colour of {colour} at texel {texel}");
                 return Err(Error::input(path, found, "finite values"));
             }
-            Ok(colour.max(Vec3::ZERO).to_array())
+            Ok(colour.to_array())
         });
         colours.collect()
     }

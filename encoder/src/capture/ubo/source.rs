@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::Ubo;
 use crate::capture::source::Source;
 use crate::error::Result;
+use crate::picture::PixelFormat;
 
 impl Source for Ubo {
     fn label(&self) -> String {
@@ -27,8 +28,8 @@ impl Source for Ubo {
         self.size()
     }
 
-    fn white(&self) -> Option<f32> {
-        None
+    fn format(&self) -> PixelFormat {
+        PixelFormat::Linear
     }
 
     fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>> {

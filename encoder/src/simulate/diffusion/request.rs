@@ -12,7 +12,7 @@ use super::run::{Finish, Summary, simulate};
 use super::slab::{MediumMap, Slab};
 use crate::capture::{CaptureWriter, Scalar, Sidecar};
 use crate::error::{Error, Result};
-use crate::file::output::free_bytes;
+use crate::file::output::expect_space;
 use crate::memory;
 use crate::progress::Progress;
 
@@ -64,14 +64,7 @@ pub fn check_patch(size: [usize; 2], window: u32, output: &Path) -> Result<()> {
     let what = || format!("--size {width}x{height} with --window {window}");
     memory::expect(media.saturating_add(row.saturating_mul(rows)), what)?;
     // What is solved, in single precision, and the array.
-    let need = row.saturating_mul(2 * height);
-    match free_bytes(output) {
-        Some(free) if need > free => {
-            let [need, free] = [need, free].map(memory::gigabytes);
-            Err(Error::Request(format!("{} takes {need} of disk while it is made, and there is {free}", what())))
-        }
-        _ => Ok(()),
-    }
+    expect_space(output, row.saturating_mul(2 * height), what)
 }
 
 /// A capture to be simulated and written.

@@ -4,8 +4,9 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::camera::Camera;
-use super::height_field::Relief;
+use super::height_field::{DIRECTIONS, Relief};
 use super::light::LightOn;
+use super::reflectance::Finish;
 use super::samples::Sample;
 use crate::capture::{Direction, bonn};
 use crate::error::Result;
@@ -13,6 +14,14 @@ use crate::progress::Progress;
 
 /// Rays to a pixel in x and in y.
 const RAYS: usize = 2;
+
+/// Bytes of memory for a pixel while all is simulated: of each texel the surface, which texels it sees, and the light on it
+/// from all directions.
+pub(super) fn bytes_of_pixel() -> usize {
+    let surface = size_of::<f32>() + size_of::<Finish>() + size_of::<Vec3>();
+    let light = size_of::<f32>() + size_of::<Vec3>();
+    RAYS * RAYS * (surface + DIRECTIONS * size_of::<u32>() + bonn().len() * light)
+}
 
 /// Simulates the images of a material in all pairs of [`bonn`] directions, `side` pixels wide and high, and hands each to
 /// `sink`: light, view, and π L for light of unit irradiance on a plane that faces it, linear Rec. 709, row by row.

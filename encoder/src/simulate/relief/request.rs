@@ -4,10 +4,12 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::draw::simulate;
+use super::draw::{bytes_of_pixel, simulate};
 use super::samples::Sample;
-use crate::capture::{Folder, FolderWriter, Pixels};
+use crate::capture::{Folder, FolderWriter, Pixels, bonn};
 use crate::error::{Error, Result};
+use crate::file::output::expect_space;
+use crate::memory;
 use crate::progress::Progress;
 
 /// A folder of images to be simulated and written.
@@ -54,12 +56,22 @@ impl Request {
         })
     }
 
+    /// Refuses what there is no room for, in memory or on the disk of `output`.
+    fn expect_room(&self, output: &Path) -> Result<()> {
+        let what = || format!("--size {}", self.size);
+        let pixels = u64::from(self.size).pow(2);
+        memory::expect(pixels * bytes_of_pixel() as u64, what)?;
+        let images = (bonn().len() as u64).pow(2);
+        expect_space(output, images * self.pixels.most_file_bytes(self.size), what)
+    }
+
     /// Simulates, and writes the folder.
     ///
     /// # Errors
-    /// As [`Self::check`] and [`FolderWriter`].
+    /// As [`Self::check`] and [`FolderWriter`]; [`Error::Request`] if there is no room for it.
     pub fn write(&self, output: &Path, progress: &dyn Progress) -> Result<()> {
         self.check()?;
+        self.expect_room(output)?;
         let writer = FolderWriter::new(output, self.size, self.pixels)?;
         let write = |light, view, image: &[[f32; 3]]| writer.write(light, view, image);
         simulate(self.sample, self.size as usize, self.seed, write, progress)?;

@@ -7,7 +7,7 @@ use crate::read::text::quoted;
 
 /// Type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Component {
+pub(super) enum Component {
     I8,
     U8,
     I16,
@@ -37,19 +37,33 @@ impl Component {
         }
     }
 
-    /// Number in the first bytes; as a share of the largest of its type if it is normalised (glTF 2.0, 3.6.2.2).
+    /// A number as a share of the largest of its type (glTF 2.0, 3.6.2.2); floats are shares already.
+    #[allow(clippy::cast_precision_loss, reason = "large integers are not drawn")]
+    pub(super) fn share(self, number: f32) -> f32 {
+        let most = match self {
+            Self::I8 => f32::from(i8::MAX),
+            Self::U8 => f32::from(u8::MAX),
+            Self::I16 => f32::from(i16::MAX),
+            Self::U16 => f32::from(u16::MAX),
+            Self::U32 => u32::MAX as f32,
+            Self::F32 => return number,
+        };
+        (number / most).max(-1.0)
+    }
+
+    /// Number in the first bytes; as a share if it is normalised.
     #[allow(clippy::cast_precision_loss, reason = "large integers are not drawn")]
     fn number(self, bytes: &[u8], is_normalised: bool) -> f32 {
         let [a, b, c, d] = [0, 1, 2, 3].map(|k| bytes.get(k).copied().unwrap_or(0));
-        let (value, most) = match self {
-            Self::I8 => (f32::from(i8::from_le_bytes([a])), 127.0),
-            Self::U8 => (f32::from(a), 255.0),
-            Self::I16 => (f32::from(i16::from_le_bytes([a, b])), 32767.0),
-            Self::U16 => (f32::from(u16::from_le_bytes([a, b])), 65535.0),
-            Self::U32 => (u32::from_le_bytes([a, b, c, d]) as f32, u32::MAX as f32),
-            Self::F32 => return f32::from_le_bytes([a, b, c, d]),
+        let number = match self {
+            Self::I8 => f32::from(i8::from_le_bytes([a])),
+            Self::U8 => f32::from(a),
+            Self::I16 => f32::from(i16::from_le_bytes([a, b])),
+            Self::U16 => f32::from(u16::from_le_bytes([a, b])),
+            Self::U32 => u32::from_le_bytes([a, b, c, d]) as f32,
+            Self::F32 => f32::from_le_bytes([a, b, c, d]),
         };
-        if is_normalised { (value / most).max(-1.0) } else { value }
+        if is_normalised { self.share(number) } else { number }
     }
 
     /// Number of a vertex, a joint or the like.

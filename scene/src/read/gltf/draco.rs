@@ -2,6 +2,7 @@
 
 use draco_core::{DataType, DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
 
+use super::accessor::Component;
 use super::document::Whole;
 use crate::read::raw::{MAX, Result};
 use crate::read::text::shortened;
@@ -32,17 +33,16 @@ impl Stream {
             return Err(format!("Draco: attribute {number} has {} numbers; expected {N}", attribute.num_components()));
         }
         let mut vectors = attribute.read_f32s(self.0.num_points(), N).as_chunks().0.to_vec();
-        let most = match attribute.data_type() {
-            DataType::Int8 => 127.0,
-            DataType::Uint8 => 255.0,
-            DataType::Int16 => 32767.0,
-            DataType::Uint16 => 65535.0,
-            _ => 1.0,
+        let component = match attribute.data_type() {
+            DataType::Int8 => Component::I8,
+            DataType::Uint8 => Component::U8,
+            DataType::Int16 => Component::I16,
+            DataType::Uint16 => Component::U16,
+            DataType::Uint32 => Component::U32,
+            _ => Component::F32,
         };
-        if is_normalised && most != 1.0 {
-            for value in vectors.as_flattened_mut() {
-                *value = (*value / most).max(-1.0);
-            }
+        if is_normalised {
+            vectors.as_flattened_mut().iter_mut().for_each(|value| *value = component.share(*value));
         }
         Ok(vectors)
     }

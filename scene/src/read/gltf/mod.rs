@@ -6,6 +6,7 @@ mod container;
 mod document;
 mod draco;
 mod extensions;
+mod instances;
 mod meshopt;
 mod nodes;
 mod primitive;

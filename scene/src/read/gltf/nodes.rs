@@ -1,11 +1,11 @@
 //! Nodes: where they put meshes.
 
 use glam::{Mat4, Quat, Vec3};
-use serde::Deserialize;
 use serde_json::Value;
 
 use super::accessor::Accessors;
-use super::document::{Document, Instancing, Node, Whole, named};
+use super::document::{Document, Node, Whole, named};
+use super::instances::Instances;
 use super::primitive::{Builder, Placing};
 use super::skin::joint_matrices;
 use crate::read::raw::Result;
@@ -48,7 +48,7 @@ pub(super) fn place(document: &Document, accessors: Accessors<'_>, builder: &mut
         let mesh_of = named(&document.meshes, "mesh", mesh).map_err(at)?;
         let world = nodes.world[number].unwrap_or(Mat4::IDENTITY);
         let placing = Placing {
-            instances: instances(node, accessors).map_err(at)?.into_iter().map(|local| world * local).collect(),
+            instances: Instances::new(node, world, accessors).map_err(at)?,
             joints: node.skin.map(|skin| nodes.joints(skin, accessors)).transpose().map_err(at)?,
         };
         let weights = node.weights.as_deref().or(mesh_of.weights.as_deref()).unwrap_or(&[]);
@@ -104,27 +104,4 @@ fn local(node: &Node) -> Mat4 {
 fn is_hidden(node: &Node) -> bool {
     node.extensions.get("KHR_node_visibility").and_then(|extension| extension.get("visible"))
         == Some(&Value::Bool(false))
-}
-
-/// Node from each instance (EXT_mesh_gpu_instancing); the node itself if there are none.
-fn instances(node: &Node, accessors: Accessors<'_>) -> Result<Vec<Mat4>> {
-    let Some(extension) = node.extensions.get("EXT_mesh_gpu_instancing") else {
-        return Ok(vec![Mat4::IDENTITY]);
-    };
-    let Instancing { attributes } = Instancing::deserialize(extension).map_err(|error| error.to_string())?;
-    let of = |name: &str| attributes.get(name).copied();
-    let translations = of("TRANSLATION").map(|number| accessors.vectors(number)).transpose()?;
-    let rotations = of("ROTATION").map(|number| accessors.vectors(number)).transpose()?;
-    let scales = of("SCALE").map(|number| accessors.vectors(number)).transpose()?;
-    let counts = [translations.as_ref().map(Vec::len), rotations.as_ref().map(Vec::len), scales.as_ref().map(Vec::len)];
-    // Attributes that are not of places, such as colours, do not count instances.
-    let count = counts.into_iter().flatten().min().unwrap_or(1);
-    let matrix = |k: usize| {
-        Mat4::from_scale_rotation_translation(
-            scales.as_ref().map_or(Vec3::ONE, |scales| Vec3::from_array(scales[k])),
-            rotations.as_ref().map_or(Quat::IDENTITY, |rotations| Quat::from_array(rotations[k]).normalize()),
-            translations.as_ref().map_or(Vec3::ZERO, |translations| Vec3::from_array(translations[k])),
-        )
-    };
-    Ok((0..count).map(matrix).collect())
 }

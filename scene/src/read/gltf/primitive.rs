@@ -9,6 +9,7 @@ use serde_json::Value;
 use super::accessor::Accessors;
 use super::document::{Draco, Primitive};
 use super::draco::Stream;
+use super::instances::Instances;
 use super::skin::vertex_matrices;
 use crate::read::raw::{Raw, Result, count};
 
@@ -17,8 +18,7 @@ const TRIANGLES: usize = 4;
 
 /// What a node does to its mesh.
 pub(super) struct Placing {
-    /// Scene from each instance of the mesh.
-    pub(super) instances: Vec<Mat4>,
+    pub(super) instances: Instances,
     /// Scene from where a skinned mesh was bound, for each joint. The node of such a mesh does not move it.
     pub(super) joints: Option<Vec<Mat4>>,
 }
@@ -171,8 +171,10 @@ impl<'a> Source<'a> {
         let (scale, offset) = (pair("scale").unwrap_or(Vec2::ONE), pair("offset").unwrap_or(Vec2::ZERO));
         #[allow(clippy::cast_possible_truncation, reason = "an angle")]
         let angle = transform.get("rotation").and_then(Value::as_f64).unwrap_or(0.0) as f32;
+        // Counter-clockwise where v counts downwards.
+        let turn = Vec2::from_angle(-angle);
         for uv in uvs {
-            *uv = offset + Vec2::from_angle(angle).rotate(scale * *uv);
+            *uv = offset + turn.rotate(scale * *uv);
         }
     }
 }
@@ -213,10 +215,14 @@ impl<'a> Builder<'a> {
                 let transforms: Vec<Transform> = matrices.into_iter().map(Transform::from).collect();
                 self.place(&local, |vertex| &transforms[vertex])
             }
-            _ => placing.instances.iter().try_for_each(|&instance| {
-                let transform = Transform::from(instance);
-                self.place(&local, |_| &transform)
-            }),
+            _ => {
+                // Before there is memory for any.
+                count(local.positions.len().saturating_mul(placing.instances.count()))?;
+                placing.instances.matrices().try_for_each(|instance| {
+                    let transform = Transform::from(instance);
+                    self.place(&local, |_| &transform)
+                })
+            }
         }
     }
 

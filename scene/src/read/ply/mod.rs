@@ -172,11 +172,11 @@ impl Faces {
             self.split(out)?;
         }
         let (mut first, mut small) = (0, 0);
-        for &end in &self.ends {
+        for (face, &end) in self.ends.iter().enumerate() {
             let corners = &self.corners[first..end];
             first = end;
             small += usize::from(corners.len() < 3);
-            out.add_polygon(corners);
+            out.add_polygon(corners).map_err(|error| format!("face {face}, counted from 0: {error}"))?;
         }
         out.leave_out(small, "faces of fewer than three corners");
         Ok(())

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageFormat, Rgb, Rgb32FImage, RgbImage};
-use subsurf_encoder::picture::{Header, Picture};
+use subsurf_encoder::picture::{Header, Picture, PixelFormat};
 
 /// A picture no two of whose corners are alike, 48 × 32 pixels in blocks of 8, so that JPEG changes little.
 pub(super) fn blocks() -> RgbImage {
@@ -88,7 +88,8 @@ fn integers_are_display_values_in_every_format() {
         let found = difference(&path, [48, 32], expected);
         assert!(found <= tolerance, "{name}: off by {found}");
         let header = Header::open(&path).unwrap();
-        assert_eq!((header.is_linear, header.is_deep), (false, name.starts_with("deep")), "{name}");
+        let format = if name.starts_with("deep") { PixelFormat::Display16 } else { PixelFormat::Display8 };
+        assert_eq!(header.format, format, "{name}");
     }
 }
 
@@ -122,7 +123,7 @@ fn floats_are_linear_in_every_format() {
         ("a.pic", radiance(&image, "-Y 4 +X 6", row_by_row, [4, 6])),
     ] {
         let path = write(folder.path(), name, &bytes);
-        assert!(Header::open(&path).unwrap().is_linear, "{name}");
+        assert!(Header::open(&path).unwrap().format.is_linear(), "{name}");
         assert_eq!(difference(&path, [6, 4], |x, y| image.get_pixel(x, y).0), 0.0, "{name}");
         let as_it_is = Picture::open(&path).unwrap();
         assert_eq!(as_it_is.pixels(), as_it_is.clone().into_linear().pixels(), "{name}");
@@ -167,9 +168,35 @@ fn one_float_for_each_pixel_is_a_picture_too() {
         [("a.tif", grey_tiff(&image, false)), ("large.tif", grey_tiff(&image, true)), ("a.exr", grey_exr(&image))]
     {
         let path = write(folder.path(), name, &bytes);
-        assert!(Header::open(&path).unwrap().is_linear, "{name}");
+        assert!(Header::open(&path).unwrap().format.is_linear(), "{name}");
         assert_eq!(difference(&path, [6, 4], |x, y| [image.get_pixel(x, y).0[0]; 3]), 0.0, "{name}");
     }
+}
+
+/// Luminance with chroma beside it, which is in fewer pixels, is no picture of grey.
+#[test]
+fn luminance_and_chroma_are_refused() {
+    use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, SmallVec, Text, WritableImage};
+
+    let channel = |name: &str| AnyChannel::new(Text::from(name), FlatSamples::F32(vec![0.5; 4]));
+    let channels: SmallVec<[_; 4]> = ["BY", "RY", "Y"].map(channel).into_iter().collect();
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let image = Image::from_channels((2, 2), AnyChannels::sort(channels));
+    image.write().to_buffered(&mut bytes).expect("memory can be written to");
+    let folder = tempfile::tempdir().unwrap();
+    let path = write(folder.path(), "colour.exr", &bytes.into_inner());
+    let error = Picture::open(&path).unwrap_err().to_string();
+    assert!(error.contains("colour.exr") && error.lines().count() == 1, "{error}");
+}
+
+/// Large maps of one colour take nearly no bytes.
+#[test]
+fn one_colour_is_a_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = RgbImage::from_pixel(4_096, 4_096, Rgb([120, 60, 30]));
+    let path = write(folder.path(), "a.webp", &encoded(image, ImageFormat::WebP));
+    let header = Header { size: [4_096; 2], format: PixelFormat::Display8 };
+    assert_eq!(Header::open(&path).unwrap(), header);
 }
 
 #[test]

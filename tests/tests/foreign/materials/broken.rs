@@ -13,7 +13,7 @@ use subsurf_tests::mutate::assert_survives;
 use super::bsdf::BSDF;
 
 /// A `.btf` file of UBO2014, one matrix: two lights, one view, two pixels, one component.
-fn btf() -> Vec<u8> {
+pub(super) fn btf() -> Vec<u8> {
     let word = |value: u32| value.to_le_bytes();
     let float = |value: f32| value.to_le_bytes();
     let facts: Vec<u8> = [&word(1)[..], &[b'x'; 240], &[0; 16]].concat();

@@ -97,6 +97,14 @@ impl Bsdf {
         container(&self.arrays())
     }
 
+    /// The file with everything that was measured below zero.
+    pub(super) fn negative(&self) -> Vec<u8> {
+        let mut arrays = self.arrays();
+        let (.., measured) = arrays.iter_mut().find(|array| array.0 == "rgb").expect("there is one");
+        measured.as_chunks_mut::<4>().0.iter_mut().for_each(|value| value[3] ^= 0x80);
+        container(&arrays)
+    }
+
     /// f_r by the model's definition: places in the square by integrals of the mixed density.
     fn expected(&self, light: DVec3, view: DVec3) -> [f64; 3] {
         let half = (light + view).normalize();

@@ -5,6 +5,7 @@ use subsurf_encoder::btf::nested::Extent;
 use subsurf_encoder::btf::{Goal, Method, Options, Size, encode};
 use subsurf_encoder::capture::{Direction, Images, Merl, Source, bonn, load_btf};
 use subsurf_encoder::metrics::btf::judge;
+use subsurf_encoder::picture::PixelFormat;
 
 use super::Warnings;
 
@@ -16,7 +17,7 @@ struct Formula {
     lights: Vec<Vec3>,
     views: Vec<Vec3>,
     side: u16,
-    white: Option<f32>,
+    format: PixelFormat,
     value: Value,
 }
 
@@ -37,8 +38,8 @@ impl Source for Formula {
         [self.side.into(); 2]
     }
 
-    fn white(&self) -> Option<f32> {
-        self.white
+    fn format(&self) -> PixelFormat {
+        self.format
     }
 
     fn read(&self, light: usize, view: usize) -> subsurf_encoder::Result<Vec<[f32; 3]>> {
@@ -80,15 +81,16 @@ fn materials_without_variation_are_encoded() {
         ("one pixel", |pixel, light, _| if pixel == 3 { [light.z, 0.5 * light.z, 0.0] } else { [0.0; 3] }),
     ];
     let all = directions(9);
-    for ((name, value), white) in materials.into_iter().flat_map(|of| [(of, Some(1.0)), (of, None)]) {
-        let formula = Formula { lights: all.clone(), views: all.clone(), side: 4, white, value };
+    let both = |of| [(of, PixelFormat::Display8), (of, PixelFormat::Linear)];
+    for ((name, value), format) in materials.into_iter().flat_map(both) {
+        let formula = Formula { lights: all.clone(), views: all.clone(), side: 4, format, value };
         let images = [Images::load(&formula, &()).unwrap()];
         for method in METHODS {
             let found =
                 psnr(&images, method, [5, 5, 3, 4]).unwrap_or_else(|error| panic!("{name}, {method:?}: {error}"));
             // The baseline's thresholds allow some errors.
             let least = if method == Method::Havran2010 { 15.0 } else { 25.0 };
-            assert!(found > least, "{name}, {method:?}, white {white:?}: {found:.1} dB");
+            assert!(found > least, "{name}, {method:?}, {format}: {found:.1} dB");
         }
     }
 }
@@ -105,7 +107,7 @@ fn few_directions_are_encoded() {
             lights: all[..lights].to_vec(),
             views: all[all.len() - views..].to_vec(),
             side: 3,
-            white: Some(1.0),
+            format: PixelFormat::Display8,
             value,
         };
         let images = [Images::load(&formula, &()).unwrap()];

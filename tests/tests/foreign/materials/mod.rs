@@ -2,6 +2,7 @@
 
 mod broken;
 mod bsdf;
+mod clamped;
 mod flat;
 mod folders;
 

@@ -1,5 +1,6 @@
 //! glTF files as all kinds of programs write them.
 
+use glam::Vec2;
 use serde_json::{Value, json};
 
 use super::gltf_file::{CORNERS, Parts, U8, U16, append, bytes, drawn, meshopt, square};
@@ -92,9 +93,19 @@ fn quantised_positions_and_texture_coordinates() {
             "KHR_texture_transform": { "scale": [0.1, 0.1] } } } } }]);
         let file = parts.gltf(rest);
         assert_quiet("quantised", file.clone());
-        let mesh = load(&[("a.gltf", file)]).unwrap().mesh;
+        let mesh = load(&[("a.gltf", file.clone())]).unwrap().mesh;
         for (position, uv) in mesh.positions.iter().zip(mesh.uvs.unwrap()) {
             assert!((position.truncate() + 0.5).abs_diff_eq(uv, 1e-3), "{position} has {uv}");
+        }
+        // A quarter counter-clockwise where v counts downwards: (u, v) is at (v, -u), which is moved back.
+        let mut turned: Value = serde_json::from_slice(&file).unwrap();
+        let transform = json!({ "scale": [0.1, 0.1], "rotation": std::f32::consts::FRAC_PI_2, "offset": [0.0, 1.0] });
+        turned["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] =
+            transform;
+        let mesh = load(&[("a.gltf", turned.to_string().into_bytes())]).unwrap().mesh;
+        for (position, uv) in mesh.positions.iter().zip(mesh.uvs.unwrap()) {
+            let [x, y] = (position.truncate() + 0.5).to_array();
+            assert!(uv.abs_diff_eq(Vec2::new(1.0 - y, x), 1e-3), "{position} has {uv}");
         }
     }
 }
@@ -210,6 +221,14 @@ fn instances_skins_and_morph_targets_are_applied() {
     let file = parts.gltf(drawn(&node, &json!({})));
     assert_quiet("instances", file.clone());
     assert_eq!(load(&[("a.gltf", file)]).unwrap().mesh.triangles.len(), 8);
+
+    // Accessors without bytes are zeros, as many as they say.
+    let many = json!({ "componentType": 5126, "type": "VEC3", "count": 60_000_000 });
+    parts.accessors.push(many);
+    let attributes = json!({ "TRANSLATION": parts.accessors.len() - 1 });
+    let node = json!({ "extensions": { "EXT_mesh_gpu_instancing": { "attributes": attributes } } });
+    let very_many = parts.gltf(drawn(&node, &json!({})));
+    refused("very many instances", very_many, &["240000000 vertices or triangles; a mesh has at most 67108864"]);
 
     // A line, of which a target makes the square.
     let mut parts = square();

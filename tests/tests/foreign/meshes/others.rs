@@ -172,6 +172,14 @@ fn stl_in_text_and_binary() {
         let mesh = super::load(&[("a.stl", file)]).unwrap().mesh;
         assert_eq!((mesh.positions.len(), mesh.triangles.len()), (4, 2), "{what}: corners at one place are one vertex");
     }
+    let mut few = [stl_binary(""), stl_binary("")[84..].to_vec()].concat();
+    let warnings = square("a.stl", "more facets than the header counts", &few);
+    assert!(
+        warnings.len() == 1 && warnings[0].contains("2 facets behind those that the header counts"),
+        "{warnings:?}"
+    );
+    few[80..84].fill(0);
+    assert_refused("no facets in the header", &[("a.stl", few)], &["no triangles; 4 facets behind"]);
     let cut = stl_binary("")[..150].to_vec();
     for (what, file, parts) in [
         ("cut", cut, &["2 triangles of 50 bytes", "66 bytes"][..]),
@@ -199,6 +207,7 @@ fn off_with_and_without_more() {
         ("a byte-order mark", off("\u{feff}OFF\n", "")),
         ("comments and empty lines", off("# a\n\nOFF # b\n\n# c\n", "# d\n")),
         ("lines of DOS", off("OFF\n", "").replace('\n', "\r\n")),
+        ("faces that go on", off("OFF\n", "").replace("4 0 1 2 3\n", "4 0\n1 \n2 3 \n\n")),
         ("colours", off("COFF\n", "255 0 0 255").replace("0 1 2 3\n", "0 1 2 3 0.5 0.5 0.5\n")),
         ("colours without a letter", off("OFF\n", "0.1 0.2 0.3")),
         ("normals", off("NOFF\n", "0 0 1")),

@@ -1,6 +1,6 @@
 //! Polygons that are not convex, in all files that have polygons.
 
-use super::{assert_area, load};
+use super::{assert_area, assert_refused, load};
 
 /// Outlines, counterclockwise, and their areas.
 const OUTLINES: [(&str, &[[f32; 2]], f32); 3] = [
@@ -56,4 +56,29 @@ fn concave_polygons_keep_their_shape() {
             }
         }
     }
+}
+
+/// Ears of very many corners would take hours; a convex face of as many takes no time.
+#[test]
+fn very_many_corners_are_one_line_or_a_fan() {
+    let ring = |count: u16, inner: f32| -> Vec<[f32; 2]> {
+        let at = |k: u16| {
+            let (radius, angle) = (if k.is_multiple_of(2) { 1.0 } else { inner }, std::f32::consts::TAU * f32::from(k));
+            let (sin, cos) = (angle / f32::from(count)).sin_cos();
+            [radius * cos, radius * sin]
+        };
+        (0..count).map(at).collect()
+    };
+    let star = ring(40_000, 0.8);
+    for (name, text, place) in
+        [("a.obj", obj(&star), "line 40001"), ("a.off", off(&star), "line 40003"), ("a.stl", stl(&star), "a concave")]
+    {
+        assert_refused(
+            name,
+            &[(name, text.into_bytes())],
+            &[place, "a concave face of 40000 corners", "at most 32768"],
+        );
+    }
+    let mesh = load(&[("a.obj", obj(&ring(40_000, 1.0)).into_bytes())]).unwrap().mesh;
+    assert_area("a disc", &mesh, std::f32::consts::FRAC_PI_4);
 }

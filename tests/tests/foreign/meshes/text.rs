@@ -30,6 +30,10 @@ fn encodings_and_lines_of_any_system() {
         ("no line end at the end", SQUARE.trim_end().to_owned()),
         ("a line that goes on", format!("{last}f 1 2 \\\n3 4\n")),
         ("lines that go on", format!("{last}f 1 \\\r\n2 \\\r\n3 4\r\n").replace("v 1 1", "v 1 \\\n1")),
+        (
+            "comments that end as lines that go on",
+            format!("# of C:\\meshes\\\n{}", SQUARE.replace('\n', " # in C:\\\n")),
+        ),
         ("a line that goes on at the end", format!("{last}f 1 2 3 4 \\")),
         ("tabs and spaces", SQUARE.replace(' ', " \t ")),
     ] {

@@ -9,6 +9,7 @@ use crate::btf::{Ranks, TruncatedSvd};
 use crate::capture::{Images, Source};
 use crate::error::{Error, Result};
 use crate::metrics::btf::{BtfError, compare};
+use crate::picture::PixelFormat;
 
 /// Two colours in stripes on waves, 12 × 12 pixels.
 struct Waves {
@@ -49,8 +50,12 @@ impl Source for Waves {
         [12, 12]
     }
 
-    fn white(&self) -> Option<f32> {
-        self.white
+    fn format(&self) -> PixelFormat {
+        if self.white.is_some() { PixelFormat::Display8 } else { PixelFormat::Linear }
+    }
+
+    fn white(&self) -> f32 {
+        self.white.unwrap_or(1.0)
     }
 
     fn read(&self, light: usize, view: usize) -> Result<Vec<[f32; 3]>> {
