@@ -1,6 +1,6 @@
 //! Loading, step by step: from the bytes of a file to its first frame on a device. Benchmarks and tests time it.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use glam::Vec3;
 use subsurf_decoder::bssrdf::BssrdfHeader;
@@ -10,6 +10,7 @@ use subsurf_runtime::{
     PatchRenderer, PictureTarget, Region, Renderer, RuntimeOptions, Technique, VertexData,
 };
 use subsurf_scene::{Mapping, Scene, relief};
+use web_time::Instant;
 
 use crate::error::{Error, Result};
 use crate::request::RenderRequest;

@@ -1,9 +1,9 @@
 //! Application: events in, pictures out.
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use glam::Vec2;
+use web_time::Instant;
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalSize;
 use winit::event::{ElementState, StartCause, WindowEvent};

@@ -1,7 +1,9 @@
 //! Times of the last frames, and how often a device may be lost.
 
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+
+use web_time::Instant;
 
 /// Number of frames that the median is of.
 const FRAMES: usize = 60;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use subsurf_runtime::wgpu::{
     BindGroup, Color, CommandEncoderDescriptor, LoadOp, Operations, PollType, RenderPassColorAttachment,
@@ -10,6 +10,7 @@ use subsurf_runtime::wgpu::{
 };
 use subsurf_runtime::{Backend, Frame, Gpu, Input, PictureTarget, Plan, Renderer, RuntimeOptions};
 use subsurf_scene::{Mesh, Scene};
+use web_time::Instant;
 use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
 
