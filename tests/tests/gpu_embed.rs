@@ -1,6 +1,8 @@
 //! An application's frame: objects of ours and a cube of its own in one depth buffer, one encoder and one submission, under
 //! a projection whose middle is elsewhere, into linear light.
 
+use glam::camera::rh::proj::directx::orthographic;
+use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec3, Vec4};
 use subsurf_decoder::{Bssrdf, File};
 use subsurf_encoder::synthetic::NestedShape;
@@ -24,7 +26,7 @@ const RADIUS: f32 = 8.0;
 /// Where the BTF lies.
 const LEATHER_AT: Vec3 = Vec3::new(9.0, 0.0, 2.0);
 /// Pixels at the outlines: meshes have flat facets, the rays of the test meet spheres.
-const OUTLINE: f64 = 0.02;
+const OUTLINE: f64 = 0.001;
 
 /// What is in front at a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,10 +82,22 @@ impl Stage {
 
     /// One submission with the cube and some objects under a view.
     fn draw(&self, view: View, objects: &[Object<'_>], lights: &[Light], has_cube: bool) -> Vec<[f32; 4]> {
+        self.draw_part(view, objects, lights, has_cube, [[0; 2], SIZE])
+    }
+
+    /// The same in a part of the target, from a pixel on and of a size.
+    fn draw_part(
+        &self,
+        view: View,
+        objects: &[Object<'_>],
+        lights: &[Light],
+        has_cube: bool,
+        [origin, size]: [[u32; 2]; 2],
+    ) -> Vec<[f32; 4]> {
         let environment = Environment::uniform([0.35, 0.4, 0.5]);
         let lighting = Lighting { lights, environment: &environment, reference_mm: Vec3::ZERO };
         let input = Input { view, exposure: 1.0, lighting, objects };
-        let mut frame = self.renderer.prepare(&self.gpu, &input, SIZE).unwrap();
+        let mut frame = self.renderer.prepare(&self.gpu, &input, size).unwrap();
         let mut encoder = self.app.device.create_command_encoder(&Default::default());
         let clear = LoadOp::Clear(Color::TRANSPARENT);
         let (mut load, mut load_depth) = (clear, LoadOp::Clear(DEPTH.furthest()));
@@ -97,7 +111,7 @@ impl Stage {
             resolve: None,
             depth: &self.app.depth,
             depth_ops: Operations { load: load_depth, store: StoreOp::Store },
-            origin: [0; 2],
+            origin,
         };
         let scope = self.app.device.push_error_scope(wgpu::ErrorFilter::Validation);
         self.renderer.draw(&self.gpu, &mut encoder, &mut frame, &input, &target).unwrap();
@@ -231,6 +245,102 @@ fn objects_shadow_each_other() {
     let (alone, shadowed) = (middle(&alone), middle(&shadowed));
     println!("light of the jade alone: {alone}, in the shadow: {shadowed}");
     assert!(shadowed < 0.75 * alone, "{shadowed} of {alone}");
+}
+
+/// A part of a target shows what a whole one of that size does.
+#[test]
+fn parts_of_a_target_are_pictures() {
+    let stage = Stage::open(Backends::VULKAN);
+    let (size, origin) = ([160, 120], [100, 50]);
+    for material in [&stage.jade, &stage.splats] {
+        let objects = [Object { material, ..stage.jade() }, stage.leather()];
+        let draw = |origin| stage.draw_part(application::view(), &objects, &[sun()], false, [origin, size]);
+        let (corner, middle) = (draw([0; 2]), draw(origin));
+        let at = |x: u32, y: u32| (y * SIZE[0] + x) as usize;
+        let pixels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+        let far = pixels.filter(|[x, y]| {
+            let (a, b) = (corner[at(*x, *y)], middle[at(x + origin[0], y + origin[1])]);
+            (0..4).any(|c| (a[c] - b[c]).abs() > 0.02)
+        });
+        let (far, covered) = (far.count(), middle.iter().filter(|pixel| pixel[3] > 0.0).count());
+        println!("{:?}: {far} pixels differ, {covered} are covered", material.technique());
+        assert!(covered > 2_000, "{covered} pixels are covered");
+        assert!(200 * far < covered, "{far} of {covered} pixels differ");
+    }
+}
+
+/// Parallel lines of sight are those of a camera far away.
+#[test]
+fn parallel_projection_is_that_of_a_camera_far_away() {
+    let stage = Stage::open(Backends::VULKAN);
+    let (along, half, far_mm) = (Vec3::new(0.4, 0.3, 1.0).normalize(), Vec3::new(16.0, 12.0, 0.0), 20_000.0);
+    let view_from_world = |distance: f32| look_at_mat4(distance * along, Vec3::ZERO, Vec3::Y);
+    // Reversed: the near plane is 1.
+    let parallel = orthographic(-half.x, half.x, -half.y, half.y, 200.0, 20.0);
+    let parallel = View { view_from_world: view_from_world(100.0), clip_from_view: parallel };
+    let perspective = Mat4::from_cols(
+        Vec4::new(far_mm / half.x, 0.0, 0.0, 0.0),
+        Vec4::new(0.0, far_mm / half.y, 0.0, 0.0),
+        Vec4::new(0.0, 0.0, 0.0, -1.0),
+        Vec4::new(0.0, 0.0, far_mm - 50.0, 0.0),
+    );
+    let perspective = View { view_from_world: view_from_world(far_mm), clip_from_view: perspective };
+    for material in [&stage.jade, &stage.splats, &stage.leather] {
+        let object = Object { material, mapping: Mapping::Uv([2.0, 1.0]), ..stage.jade() };
+        let [near, far] = [parallel, perspective].map(|view| stage.draw(view, &[object], &[sun()], false));
+        let covered = near.iter().filter(|pixel| pixel[3] > 0.0).count();
+        let differs = |(a, b): &(&[f32; 4], &[f32; 4])| (0..4).any(|c| (a[c] - b[c]).abs() > 0.05);
+        let other = near.iter().zip(&far).filter(differs).count();
+        println!("{:?}: {other} of {covered} pixels differ", material.technique());
+        assert!(covered > 10_000, "{covered} pixels are covered");
+        assert!(50 * other < covered, "{other} of {covered} pixels differ");
+    }
+}
+
+/// Objects come and go with every frame, and leave nothing behind, by the ledger and by wgpu's allocator.
+#[test]
+fn objects_come_and_go() {
+    let stage = Stage::open(Backends::VULKAN);
+    let environment = Environment::uniform([0.35, 0.4, 0.5]);
+    let lights = [sun()];
+    let lighting = Lighting { lights: &lights, environment: &environment, reference_mm: Vec3::ZERO };
+    let all = [stage.jade(), stage.leather(), Object { material: &stage.splats, ..stage.jade() }];
+    let whole = Input { view: application::view(), exposure: 1.0, lighting, objects: &all };
+    let size = [32, 24];
+    let mut frame = stage.renderer.prepare(&stage.gpu, &whole, size).unwrap();
+    let view = stage.app.colour.create_view(&wgpu::TextureViewDescriptor::default());
+    let allocated = || stage.app.device.generate_allocator_report().map_or(0, |report| report.total_allocated_bytes);
+    let mut after_some = (0, 0);
+    for number in 0..1_000_usize {
+        let out_of_view = Mat4::from_translation(Vec3::new(0.0, 900.0, 0.0));
+        let mut objects = all;
+        objects.rotate_left(number % 3);
+        objects[2].world_from_mesh = out_of_view;
+        let input = Input { objects: &objects[number % 4 % 3..], ..whole };
+        let mut encoder = stage.app.device.create_command_encoder(&Default::default());
+        let target = Target {
+            colour: &view,
+            load: LoadOp::Load,
+            resolve: None,
+            depth: &stage.app.depth,
+            depth_ops: Operations { load: LoadOp::Clear(0.0), store: StoreOp::Store },
+            origin: [0; 2],
+        };
+        stage.renderer.draw(&stage.gpu, &mut encoder, &mut frame, &input, &target).unwrap();
+        let commands = encoder.finish();
+        // Recording is what is looked at; drawing a tenth of it is enough.
+        if number % 10 == 0 {
+            stage.app.queue.submit([commands]);
+            stage.gpu.finish().unwrap();
+        }
+        if number == 100 {
+            after_some = (stage.gpu.ledger().bytes(), allocated());
+        }
+    }
+    stage.gpu.finish().unwrap();
+    println!("{after_some:?} bytes after 100 frames, {} after 1000", allocated());
+    assert_eq!(stage.gpu.ledger().bytes(), after_some.0, "by the ledger");
+    assert!(allocated() <= after_some.1 + (1 << 20), "{} after {after_some:?}", allocated());
 }
 
 /// What a host does wrong is said, and is no failure of the device.

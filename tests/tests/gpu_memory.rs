@@ -77,6 +77,20 @@ fn a_thousand_loads_and_resizes_leave_nothing() {
     }
 }
 
+/// What one light sees takes 4 MiB at 512 × 512 texels.
+#[test]
+fn views_of_lights_are_small() {
+    let file = drawable([31, 31], 6, Addressing::Mirror);
+    let mesh = torus(9.0, 4.0, 24);
+    let scene = scene(&mesh);
+    for gpu in Backend::ALL.map(device) {
+        let loaded = Loaded::new(&gpu, RenderMode::Separable, &file, &mesh);
+        let frame = prepared(&gpu, &loaded, &scene, None).unwrap();
+        assert_eq!(frame.plan().light_texels, 512, "texels to a side");
+        assert_eq!(frame.light_view_bytes(), 4 << 20, "bytes");
+    }
+}
+
 /// The ledger counts what wgpu's allocator counts, but for its alignment and what it needs itself.
 #[test]
 fn the_ledger_agrees_with_the_allocator() {

@@ -15,7 +15,7 @@ struct Camera { clip_from_world: mat4x4<f32>, middle: vec4<f32>, colour: vec4<f3
 @group(0) @binding(0) var<uniform> camera: Camera;
 @vertex fn corner(@builtin(vertex_index) k: u32) -> @builtin(position) vec4<f32> {
     let face = k / 6u;
-    let quad = (0x1ACu >> ((k % 6u) * 2u)) & 3u;
+    let quad = (0xDA4u >> ((k % 6u) * 2u)) & 3u;
     var at = vec3<f32>(0.0);
     at[face / 2u] = f32(face & 1u);
     at[(face / 2u + 1u) % 3u] = f32(quad & 1u);

@@ -87,7 +87,7 @@ impl Renderer {
             let drawn = placed.iter().zip(input.objects).filter(|(placed, _)| placed.is_visible);
             drawn.map(|(placed, object)| (object.mesh, placed.offset))
         };
-        lights.record(encoder, &self.tsm_render, seen.block.lights, &common.object, draws);
+        lights.record(encoder, self.tsm.of(plan), seen.block.lights, &common.object, draws);
         lap("shadow maps", encoder);
 
         // Materials with maps of their own come one after the other, each with its share of the picture.

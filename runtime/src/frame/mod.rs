@@ -13,6 +13,5 @@ pub use input::{Input, Object, Target};
 pub use options::{BACKGROUND, BACKGROUND_COLOUR, RuntimeOptions};
 pub use picture::PictureTarget;
 pub use plan::Plan;
-pub(crate) use plan::light_layers;
 pub use prepare::Frame;
 pub use renderer::Renderer;

@@ -1,9 +1,8 @@
 //! Sizes of the buffers of a frame, and the bytes that they take, before any of them is made.
 
-use subsurf_scene::{MAX_LIGHTS, View};
+use subsurf_scene::View;
 
 use crate::error::{Error, Result};
-use crate::gpu::DEPTH;
 
 /// Sizes of everything that a frame allocates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,8 +19,6 @@ pub struct Plan {
     pub has_light_levels: bool,
 }
 
-/// Bytes of a texel of half floats.
-const HALF4: u64 = 8;
 /// Largest divisor whose maps still look like the scene.
 const LARGEST_DIVISOR: u32 = 4;
 /// Fewest texels to a side of shadow maps that still look like the scene.
@@ -46,12 +43,9 @@ impl Plan {
         if self.has_light_levels { self.light_texels.ilog2() } else { 1 }
     }
 
-    /// Bytes of lights' views, and of their depth.
-    pub(crate) fn light_bytes(&self) -> u64 {
-        let texels = |level: u32| u64::from((self.light_texels >> level).max(1)).pow(2);
-        let views =
-            (0..self.light_levels()).map(texels).sum::<u64>() * u64::from(light_layers(self.lights)) * 3 * HALF4;
-        views + texels(0) * u64::from(DEPTH.block_copy_size(None).unwrap_or(4))
+    /// Size of the textures of lights' views: a square tile for each light in one row.
+    pub(crate) fn light_size(&self) -> [u32; 2] {
+        [self.light_texels * self.lights, self.light_texels]
     }
 
     /// Next cheaper plan, if there is one.
@@ -86,13 +80,6 @@ impl Plan {
     }
 }
 
-/// Number of layers of textures for that many lights: two at least, for drivers that take one layer for no array.
-pub(crate) fn light_layers(lights: u32) -> u32 {
-    #[allow(clippy::cast_possible_truncation, reason = "four")]
-    let most = MAX_LIGHTS as u32;
-    lights.clamp(2, most)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -100,7 +87,7 @@ mod tests {
     #[test]
     fn plans_shrink_until_they_fit_or_nothing_is_left() {
         let plan = Plan { size: [1280, 720], light_texels: 512, lights: 1, divisor: 1, has_light_levels: false };
-        let bytes = |plan: &Plan| plan.light_bytes() + u64::from(plan.map_size()[0]) * 720;
+        let bytes = |plan: &Plan| u64::from(plan.light_texels).pow(2) * 16 + u64::from(plan.map_size()[0]) * 720;
         assert_eq!(plan.within(None, 0, bytes).unwrap(), plan);
         assert_eq!(plan.within(Some(1 << 30), 0, bytes).unwrap(), plan);
         let smaller = plan.within(Some(bytes(&plan) - 1), 0, bytes).unwrap();

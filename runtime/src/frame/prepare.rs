@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
+use subsurf_scene::MAX_LIGHTS;
 use wgpu::{BindGroup, BindingResource};
 
 use super::draw::Placed;
 use super::input::Input;
-use super::plan::{self, Plan};
+use super::plan::Plan;
 use super::renderer::Renderer;
 use crate::asset::Material;
 use crate::error::Result;
@@ -60,25 +61,26 @@ impl Renderer {
                 materials.push(object.material);
             }
         }
-        let lights = u32::try_from(input.lighting.lights.len()).unwrap_or(u32::MAX);
+        #[allow(clippy::cast_possible_truncation, reason = "a handful")]
+        let lights = input.lighting.lights.len().clamp(1, MAX_LIGHTS) as u32;
         let plan = Plan {
             size,
             light_texels: self.options.light_texels,
-            lights: lights.clamp(1, plan::light_layers(lights)),
+            lights,
             divisor: self.divisor(input, size),
             has_light_levels: materials.iter().any(|material| matches!(material, Material::Splat(_))),
         };
         let bytes = |plan: &Plan| {
             let blocks = UNIFORMS * (1 + materials.len() as u64) + Common::bytes_of(self.options.objects);
-            self.map_bytes(&materials, plan) + plan.light_bytes() + blocks
+            self.map_bytes(&materials, plan) + TranslucentShadowMaps::bytes_of(gpu, plan) + blocks
         };
         let plan = plan.within(self.options.budget_bytes, gpu.ledger().bytes(), bytes)?;
-        let common = Common::new(gpu, &self.tsm_render, self.options.objects)?;
-        let lights = TranslucentShadowMaps::new(gpu, &self.tsm_render, &common.scene, &plan)?;
+        let common = Common::new(gpu, self.tsm.of(&plan), self.options.objects)?;
+        let lights = TranslucentShadowMaps::new(gpu, self.tsm.of(&plan), &common.scene, &plan)?;
         let sampler = reflection_sampler(gpu);
         let of_scene = [
             common.scene.as_entire_binding(),
-            BindingResource::TextureView(&lights.all[0]),
+            BindingResource::TextureView(lights.views()[0]),
             BindingResource::TextureView(&common.reflections.view),
             BindingResource::Sampler(&sampler),
         ];
@@ -170,5 +172,11 @@ impl Frame {
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
+    }
+
+    /// Bytes on the device of what lights see.
+    #[must_use]
+    pub fn light_view_bytes(&self) -> u64 {
+        self.lights.bytes()
     }
 }

@@ -9,13 +9,13 @@ use super::options::RuntimeOptions;
 use super::plan::LEAST_LIGHT_TEXELS;
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
-use crate::technique::{MeshPass, Technique, btf, gather, separable, splat, tsm};
+use crate::technique::{Technique, TsmPasses, btf, gather, separable, splat};
 
 /// Pipelines of the techniques that a host wants; made at load, never in a frame.
 #[derive(Debug)]
 pub struct Renderer {
     pub(super) options: RuntimeOptions,
-    pub(super) tsm_render: MeshPass,
+    pub(super) tsm: TsmPasses,
     pub(super) gather: Compiled<MaterialLayout, gather::Passes>,
     pub(super) splat: Compiled<MaterialLayout, splat::Passes>,
     pub(super) separable: Compiled<usize, separable::Passes>,
@@ -61,7 +61,7 @@ impl Renderer {
         }
         Ok(Self {
             options,
-            tsm_render: tsm::pass(gpu)?,
+            tsm: TsmPasses::new(gpu)?,
             gather: Compiled(Vec::new()),
             splat: Compiled(Vec::new()),
             separable: Compiled(Vec::new()),

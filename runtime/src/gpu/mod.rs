@@ -16,6 +16,4 @@ pub(crate) use ledger::Tracked;
 pub(crate) use pass::{FullscreenPass, QuadPass, Rows};
 pub(crate) use pipeline::{Drawing, Pipeline, Program, attachment};
 pub use read::ColourTarget;
-pub(crate) use resource::{
-    DEPTH, HALF, Surface2d, TextureSpec, array_size, layer_of, layers_of, layers_of_level, level_of,
-};
+pub(crate) use resource::{DEPTH, HALF, Surface2d, TextureSpec, array_size, layer_of, layers_of, level_of};

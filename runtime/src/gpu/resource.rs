@@ -110,16 +110,6 @@ pub(crate) fn level_of(surface: &Surface2d, layer: u32, level: u32) -> TextureVi
     })
 }
 
-/// View of one level of all layers, to read.
-pub(crate) fn layers_of_level(surface: &Surface2d, level: u32) -> TextureView {
-    surface.texture.create_view(&TextureViewDescriptor {
-        dimension: Some(TextureViewDimension::D2Array),
-        base_mip_level: level,
-        mip_level_count: Some(1),
-        ..Default::default()
-    })
-}
-
 /// View of all layers and levels, to read.
 pub(crate) fn layers_of(surface: &Surface2d) -> TextureView {
     surface

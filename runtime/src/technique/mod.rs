@@ -13,17 +13,17 @@ mod mesh_pass;
 mod patch;
 pub(crate) mod separable;
 pub(crate) mod splat;
-pub(crate) mod tsm;
+mod tsm;
 
 pub(crate) use bindings::{Bindings, Group, Lap, group_number};
 pub use btf::BtfOptions;
 pub use btf_query::{BtfAnswer, BtfQueries, BtfQuery};
 pub(crate) use common::{Common, OBJECT_STRIDE, reflection_sampler};
 pub use kind::Technique;
+pub(crate) use mesh_pass::Attachments;
 pub use mesh_pass::DepthFormat;
-pub(crate) use mesh_pass::{Attachments, MeshPass};
 pub use patch::{
     Exitance, HomogeneousPatch, HomogeneousRenderer, PatchLight, PatchRenderer, Region, SeparablePatch,
     SeparableRenderer,
 };
-pub(crate) use tsm::TranslucentShadowMaps;
+pub(crate) use tsm::{TranslucentShadowMaps, TsmPasses};

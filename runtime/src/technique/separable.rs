@@ -11,7 +11,7 @@ use super::bindings::{Bindings, Group, Lap};
 use super::cascade::{BlurPasses, Cascade, CascadeMaps};
 use super::common::Common;
 use super::mesh_pass::{Attachments, DepthFormat, MeshPass, cleared};
-use super::tsm::{FAR, TranslucentShadowMaps};
+use super::tsm::{FAR_MM, TranslucentShadowMaps};
 use crate::asset::SeparableMaterial;
 use crate::error::{Error, Result};
 use crate::frame::{Plan, RuntimeOptions};
@@ -109,16 +109,16 @@ impl Passes {
             basis[0].clone(),
             basis[1].clone(),
             material.transmission().as_entire_binding(),
-            texture(&lights.all[1]),
-            texture(&lights.all[2]),
+            texture(lights.views()[1]),
+            texture(lights.views()[2]),
         ];
-        let of_scene = [common.scene.as_entire_binding(), texture(&lights.all[0])];
+        let of_scene = [common.scene.as_entire_binding(), texture(lights.views()[0])];
         let sums = &cascade.sums().all;
         let of_shade = [basis[0].clone(), basis[1].clone(), upsampling.as_entire_binding(), texture(sums)];
         Ok(Box::new(Bound {
             gbuffer: [self.gbuffer.bind(gpu, 0, &of_scene)?, self.gbuffer.bind(gpu, 1, &of_gbuffer)?],
             shade: self.shade.bind(gpu, 1, &of_shade)?,
-            far: gpu.clear_colour(FAR),
+            far: gpu.clear_colour(Color { r: 0.0, g: 0.0, b: 0.0, a: FAR_MM }),
             pitch_mm: material.header().pitch_mm,
             maps: maps.clone(),
             cascade,

@@ -1,67 +1,111 @@
 //! Translucent shadow maps: what each light sees of the objects, as positions, light that enters, and places on the patch.
 
+use subsurf_shaders::TargetFormat;
 use subsurf_shaders::passes::table;
 use subsurf_shaders::uniform::TsmLight;
-use wgpu::{BindGroup, Buffer, Color, CommandEncoder, TextureView};
+use wgpu::{BindGroup, Buffer, Color, CommandEncoder, LoadOp, Operations, StoreOp, TextureFormat, TextureView};
 
-use super::mesh_pass::{Attachments, DepthFormat, Draw, MeshPass, cleared};
+use super::mesh_pass::{Attachments, DepthFormat, Draw, MeshPass};
 use crate::error::Result;
-use crate::frame::{Plan, light_layers};
-use crate::gpu::{DEPTH, Gpu, Surface2d, TextureSpec, Tracked, layers_of, level_of};
+use crate::frame::Plan;
+use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked, attachment, level_of};
 
-/// Position where nothing is seen: 60 m away, nearly the largest that half floats hold.
-pub(crate) const FAR: Color = Color { r: 0.0, g: 0.0, b: 0.0, a: 60_000.0 };
+/// Depth where nothing is seen: 60 m away, nearly the largest that half floats hold.
+pub(crate) const FAR_MM: f64 = 60_000.0;
 
-/// Depth of what lights see.
-const LIGHT_DEPTH: DepthFormat = DepthFormat { format: DEPTH, is_reversed: false };
+/// Depth of what lights see: 16 bits over twice the radius of the scene order it finely enough.
+const LIGHT_DEPTH: DepthFormat = DepthFormat { format: TextureFormat::Depth16Unorm, is_reversed: false };
 
-/// Positions, fluxes and places that lights see, a layer for each light.
+/// Depths and positions, fluxes and places that lights see, a square tile for each light in one row.
 #[derive(Debug)]
 pub(crate) struct TranslucentShadowMaps {
     surfaces: [Surface2d; 3],
-    /// View of all layers and levels of each.
-    pub(crate) all: [TextureView; 3],
-    /// Of each light, views of its layers at the finest level.
-    targets: Vec<[TextureView; 3]>,
+    /// Views of the finest level of each.
+    targets: [TextureView; 3],
     depth: Surface2d,
-    numbers: Vec<(Tracked<Buffer>, BindGroup)>,
+    tiles: Vec<Tile>,
     scene: BindGroup,
-    /// What positions are cleared to.
+    /// What depth is cleared to.
     far: Color,
+    side: u32,
 }
 
-/// Compiles the pass.
-pub(crate) fn pass(gpu: &Gpu) -> Result<MeshPass> {
-    MeshPass::new(gpu, table::TSM_RENDER.only(), &[gpu.target_texture_format(); 3], LIGHT_DEPTH)
+/// Tile of a light.
+#[derive(Debug)]
+struct Tile {
+    #[expect(dead_code, reason = "kept in the ledger as long as the device has it")]
+    block: Tracked<Buffer>,
+    group: BindGroup,
+}
+
+/// Pipelines that draw the maps: those from which splats are drawn have positions and ranges of depth besides.
+#[derive(Debug)]
+pub(crate) struct TsmPasses {
+    plain: MeshPass,
+    with_positions: MeshPass,
+}
+
+/// Formats of the three targets.
+fn formats(gpu: &Gpu, has_positions: bool) -> [TextureFormat; 3] {
+    let whole = gpu.target_texture_format();
+    match (has_positions, gpu.target_format()) {
+        (true, _) => [whole; 3],
+        (false, TargetFormat::Half) => [TextureFormat::R16Float, whole, TextureFormat::Rg16Float],
+        (false, TargetFormat::Packed) => [TextureFormat::R16Uint, whole, TextureFormat::Rg16Uint],
+    }
+}
+
+/// Textures of the three targets, and that of depth.
+fn specs(gpu: &Gpu, plan: &Plan) -> [TextureSpec; 4] {
+    let size = plan.light_size();
+    let [positions, fluxes, places] = formats(gpu, plan.has_light_levels);
+    let target =
+        |label, format| TextureSpec { levels: plan.light_levels(), ..TextureSpec::target(label, size, format) };
+    [
+        target("positions seen", positions),
+        target("fluxes seen", fluxes),
+        target("places seen", places),
+        TextureSpec::attachment("light depth", size, LIGHT_DEPTH.format),
+    ]
+}
+
+impl TsmPasses {
+    pub(crate) fn new(gpu: &Gpu) -> Result<Self> {
+        let pass =
+            |has_positions| MeshPass::new(gpu, table::TSM_RENDER.only(), &formats(gpu, has_positions), LIGHT_DEPTH);
+        Ok(Self { plain: pass(false)?, with_positions: pass(true)? })
+    }
+
+    /// Pipeline for maps of a plan.
+    pub(crate) fn of(&self, plan: &Plan) -> &MeshPass {
+        if plan.has_light_levels { &self.with_positions } else { &self.plain }
+    }
 }
 
 impl TranslucentShadowMaps {
+    /// Bytes on the device.
+    pub(crate) fn bytes_of(gpu: &Gpu, plan: &Plan) -> u64 {
+        specs(gpu, plan).iter().map(TextureSpec::bytes).sum()
+    }
+
+    /// Makes the maps, to be drawn by a pass for them.
     pub(crate) fn new(gpu: &Gpu, pass: &MeshPass, scene: &Buffer, plan: &Plan) -> Result<Self> {
-        let size = [plan.light_texels; 2];
-        let layers = light_layers(plan.lights);
-        let surface = |label| {
-            gpu.texture(&TextureSpec {
-                layers,
-                levels: plan.light_levels(),
-                ..TextureSpec::target(label, size, gpu.target_texture_format())
-            })
-        };
-        let surfaces = [surface("positions seen")?, surface("fluxes seen")?, surface("places seen")?];
-        let of_light = |layer| [0, 1, 2].map(|k| level_of(&surfaces[k], layer, 0));
-        let numbers = |light| {
-            let block = TsmLight { light, group: 0.0, level: 0, pad: 0 };
-            let block: Tracked<Buffer> = gpu.uniform("light of a shadow map", &block);
+        let [positions, fluxes, places, depth] = specs(gpu, plan);
+        let surfaces = [gpu.texture(&positions)?, gpu.texture(&fluxes)?, gpu.texture(&places)?];
+        let tile = |light| {
+            let block: Tracked<Buffer> =
+                gpu.uniform("tile of a light", &TsmLight { light, group: 0.0, level: 0, pad: 0 });
             let group = pass.bind(gpu, 1, &[block.as_entire_binding()])?;
-            Ok((block, group))
+            Ok(Tile { block, group })
         };
         Ok(Self {
-            all: [0, 1, 2].map(|k| layers_of(&surfaces[k])),
-            targets: (0..plan.lights.min(layers)).map(of_light).collect(),
-            depth: gpu.texture(&TextureSpec::attachment("light depth", size, DEPTH))?,
-            numbers: (0..plan.lights.min(layers)).map(numbers).collect::<Result<_>>()?,
+            targets: surfaces.each_ref().map(|surface| level_of(surface, 0, 0)),
+            depth: gpu.texture(&depth)?,
+            tiles: (0..plan.lights).map(tile).collect::<Result<_>>()?,
             scene: pass.bind(gpu, 0, &[scene.as_entire_binding()])?,
             surfaces,
-            far: gpu.clear_colour(FAR),
+            far: gpu.clear_colour(Color { r: FAR_MM, g: 0.0, b: 0.0, a: 0.0 }),
+            side: plan.light_texels,
         })
     }
 
@@ -74,16 +118,30 @@ impl TranslucentShadowMaps {
         objects: &BindGroup,
         draws: impl Fn() -> I,
     ) {
-        for (views, (_, numbers)) in self.targets.iter().zip(&self.numbers).take(lights as usize) {
-            let clears = [self.far, Color::TRANSPARENT, Color::TRANSPARENT];
+        let clears = [self.far, Color::TRANSPARENT, Color::TRANSPARENT];
+        for (tile, number) in self.tiles.iter().zip(0..lights) {
+            // The first clears all tiles.
+            let load = |colour| if number == 0 { LoadOp::Clear(colour) } else { LoadOp::Load };
+            let depth_load = if number == 0 { LIGHT_DEPTH.own().load } else { LoadOp::Load };
+            let store = if number + 1 == lights { StoreOp::Discard } else { StoreOp::Store };
             let attachments = Attachments {
-                colours: &[0, 1, 2].map(|k| cleared(&views[k], clears[k])),
+                colours: &[0, 1, 2].map(|k| Some(attachment(&self.targets[k], load(clears[k])))),
                 depth: &self.depth.view,
-                depth_ops: LIGHT_DEPTH.own(),
-                viewport: None,
+                depth_ops: Operations { load: depth_load, store },
+                viewport: Some(([number * self.side, 0], [self.side; 2])),
             };
-            pass.record(encoder, &attachments, [&self.scene, numbers], objects, draws());
+            pass.record(encoder, &attachments, [&self.scene, &tile.group], objects, draws());
         }
+    }
+
+    /// Bytes on the device of all textures.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.surfaces.iter().chain([&self.depth]).map(|surface| surface.texture.bytes()).sum()
+    }
+
+    /// Views of all levels of positions, fluxes and places.
+    pub(crate) fn views(&self) -> [&TextureView; 3] {
+        self.surfaces.each_ref().map(|surface| &surface.view)
     }
 
     /// Textures of positions, fluxes and places.

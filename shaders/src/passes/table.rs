@@ -41,7 +41,7 @@ pub const ENCODE_SRGB: &str = "ENCODE_SRGB";
 pub const TONE_MAP: &str = "TONE_MAP";
 
 /// Bind group 0 of pictures of meshes: scene, positions of the translucent shadow maps, reflections and their sampler.
-const LIT: Group = Group::Fixed(&[Uniform, TargetLayers, Filtered, Sampler]);
+const LIT: Group = Group::Fixed(&[Uniform, Target, Filtered, Sampler]);
 
 /// Bind group 2 of passes that draw meshes: the object.
 const OF_OBJECT: Group = Group::Fixed(&[Binding::Object]);
@@ -140,7 +140,7 @@ pub static TSM_RENDER: Pass = pass(
 pub static TSM_REDUCE: Pass = fullscreen(
     wgsl!("pass/tsm/tsm_reduce"),
     &[Part::TargetFormat, FULLSCREEN, TSM],
-    &[Group::Fixed(&[Uniform, TargetLayers, TargetLayers, TargetLayers])],
+    &[Group::Fixed(&[Uniform, Target, Target, Target])],
 );
 
 /// G-buffer of a mesh for splats: positions, texture coordinates, albedo.
@@ -156,7 +156,7 @@ pub static SPLAT: Pass = pass(
     wgsl!("pass/splat/splat"),
     &[Part::FittedLayout],
     "splat_quad",
-    &[Group::Material, Group::Fixed(&[Uniform, FloatLayers, FloatLayers, FloatLayers, Float, Float])],
+    &[Group::Material, Group::Fixed(&[Uniform, Float, Float, Float, Float, Float])],
 );
 
 /// Sum of all rings of splats.
@@ -207,11 +207,7 @@ pub static SEPARABLE_GBUFFER: Pass = pass(
         TRANSMISSION,
     ],
     "project",
-    &[
-        Group::Fixed(&[Uniform, TargetLayers]),
-        Group::Fixed(&[FilteredLayers, Sampler, Uniform, TargetLayers, TargetLayers]),
-        OF_OBJECT,
-    ],
+    &[Group::Fixed(&[Uniform, Target]), Group::Fixed(&[FilteredLayers, Sampler, Uniform, Target, Target]), OF_OBJECT],
 );
 
 /// Stages of the cascade on the screen, along rows.

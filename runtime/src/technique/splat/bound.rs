@@ -12,11 +12,11 @@ use super::passes::Passes;
 use crate::asset::SplatMaterial;
 use crate::error::Result;
 use crate::frame::{Plan, RuntimeOptions};
-use crate::gpu::{Gpu, HALF, Rows, Surface2d, TextureSpec, Tracked, layers_of_level, level_of};
+use crate::gpu::{Gpu, HALF, Rows, Surface2d, TextureSpec, Tracked, level_of};
 use crate::technique::bindings::{Bindings, Group, Lap, group_number};
 use crate::technique::common::Common;
 use crate::technique::mesh_pass::{Attachments, MeshPass, cleared};
-use crate::technique::tsm::{FAR, TranslucentShadowMaps};
+use crate::technique::tsm::{FAR_MM, TranslucentShadowMaps};
 
 /// Number of rings that there is room for.
 #[allow(clippy::cast_possible_truncation, reason = "five")]
@@ -51,10 +51,9 @@ struct Bound {
     shade: BindGroup,
 }
 
-/// Pass that makes one level of one light's view from the level before.
+/// Pass that makes one level of all lights' views from the level before.
 #[derive(Debug)]
 struct Reduction {
-    light: u32,
     level: u32,
     #[expect(dead_code, reason = "kept in the ledger as long as the device has it")]
     block: Tracked<Buffer>,
@@ -142,7 +141,7 @@ impl Passes {
         }))
     }
 
-    /// Passes from every level of every light to the next, of light that enters group number `slot`.
+    /// Passes from every level of the lights' views to the next, of light that enters group number `slot`.
     fn reductions(
         &self,
         gpu: &Gpu,
@@ -150,26 +149,18 @@ impl Passes {
         lights: &TranslucentShadowMaps,
         plan: &Plan,
     ) -> Result<Vec<Reduction>> {
-        let mut reductions = Vec::new();
-        for (light, level) in
-            (0..plan.lights).flat_map(|light| (1..plan.light_levels()).map(move |level| (light, level)))
-        {
-            let block = TsmLight { light, group: group_number(slot), level, pad: 0 };
+        let reduction = |level| {
+            let block = TsmLight { light: 0, group: group_number(slot), level, pad: 0 };
             let block = gpu.uniform("level of a shadow map", &block);
-            let from = lights.surfaces().each_ref().map(|surface| layers_of_level(surface, level - 1));
+            let from = lights.surfaces().each_ref().map(|surface| level_of(surface, 0, level - 1));
             let mut resources = vec![block.as_entire_binding()];
             resources.extend(from.iter().map(BindingResource::TextureView));
             let group = self.tsm_reduce.bind(gpu, 0, &resources)?;
-            reductions.push(Reduction {
-                light,
-                level,
-                block,
-                group,
-                targets: lights.surfaces().each_ref().map(|surface| level_of(surface, light, level)),
-                size: [(plan.light_texels >> level).max(1); 2],
-            });
-        }
-        Ok(reductions)
+            let targets = lights.surfaces().each_ref().map(|surface| level_of(surface, 0, level));
+            let size = plan.light_size().map(|side| (side >> level).max(1));
+            Ok(Reduction { level, block, group, targets, size })
+        };
+        (1..plan.light_levels()).map(reduction).collect()
     }
 
     /// Splats of every light and ring.
@@ -181,9 +172,9 @@ impl Passes {
                 let block = gpu.uniform("splat", &Splat::default());
                 let group = [
                     block.as_entire_binding(),
-                    texture(&lights.all[0]),
-                    texture(&lights.all[1]),
-                    texture(&lights.all[2]),
+                    texture(lights.views()[0]),
+                    texture(lights.views()[1]),
+                    texture(lights.views()[2]),
                     texture(&maps.visible[0].view),
                     texture(&maps.visible[1].view),
                 ];
@@ -245,14 +236,13 @@ impl Bindings for Bound {
     }
 
     fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, objects: &BindGroup, lap: Lap<'_>) {
-        let is_wanted =
-            |reduction: &&Reduction| reduction.light < group.lights && reduction.level < self.levels.count();
-        for reduction in self.reductions.iter().filter(is_wanted) {
+        for reduction in self.reductions.iter().filter(|reduction| reduction.level < self.levels.count()) {
             let targets = reduction.targets.each_ref();
             self.passes.tsm_reduce.record(encoder, &targets, &[&reduction.group], Rows::all(reduction.size));
         }
         lap("tsm mipmaps", encoder);
-        let clears = [FAR, Color::TRANSPARENT, Color::TRANSPARENT];
+        let far = Color { r: 0.0, g: 0.0, b: 0.0, a: FAR_MM };
+        let clears = [far, Color::TRANSPARENT, Color::TRANSPARENT];
         let attachments = Attachments {
             colours: &[0, 1, 2].map(|k| cleared(&self.maps.visible[k].view, clears[k])),
             depth: &self.maps.depth.view,

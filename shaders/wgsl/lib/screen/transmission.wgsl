@@ -12,9 +12,9 @@ struct Transmission {
 
 @group(1) @binding(2) var<uniform> transmission: Transmission;
 // Irradiance that enters, on a plane across the axis of the light.
-@group(1) @binding(3) var tsm_fluxes: TargetTextureArray;
+@group(1) @binding(3) var tsm_fluxes: TargetTexture;
 // Texture coordinates on the patch.
-@group(1) @binding(4) var tsm_uvs: TargetTextureArray;
+@group(1) @binding(4) var tsm_uvs: TargetTexture;
 
 // Remainder of c_l E of a plane that the light crosses, d mm behind it: sum over l and a of w_lma exp(-d^2 / 2 sigma_a^2) c_l E.
 fn attenuated(light: array<vec3<f32>, TERMS>, d: f32) -> array<vec3<f32>, TERMS> {
@@ -44,10 +44,10 @@ fn transmitted(i: u32, position_mm: vec3<f32>) -> array<vec3<f32>, TERMS> {
     let reach = clamp(0.8 * widest_mm / coord.texel_mm, 1.0, 128.0);
     for (var k = 0; k < 9; k++) {
         let step = vec2<i32>(k % 3 - 1, k / 3 - 1);
-        let texel = tsm_texel(vec2<i32>(floor(coord.texel + vec2<f32>(step) * reach)));
-        let flux = unpack(textureLoad(tsm_fluxes, texel, i, 0));
-        let d = abs(depth - unpack(textureLoad(tsm_positions, texel, i, 0)).w);
-        let uv = unpack(textureLoad(tsm_uvs, texel, i, 0)).xy;
+        let texel = tsm_texel(i, vec2<i32>(floor(coord.texel + vec2<f32>(step) * reach)));
+        let flux = unpack(textureLoad(tsm_fluxes, texel, 0));
+        let d = abs(depth - unpack(textureLoad(tsm_positions, texel, 0)).x);
+        let uv = unpack(textureLoad(tsm_uvs, texel, 0)).xy;
         // Binomial weights. Light that enters other groups does not come out of this one.
         let e = flux.xyz * select(0.0, 1.0, is_of_group(flux.w)) * f32((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
         var light: array<vec3<f32>, TERMS>;

@@ -1,20 +1,21 @@
 // Visibility of lights from their translucent shadow maps.
 
-// Positions relative to the middle of the scene, and depth along the axis, in mm; a layer for each light.
-@group(0) @binding(1) var tsm_positions: TargetTextureArray;
+// Depth along the axis of the light in mm, and positions relative to the middle of the scene where there is room for them; a
+// square tile for each light in one row.
+@group(0) @binding(1) var tsm_positions: TargetTexture;
 
-// Texel of a map, not rounded, and the edge of a texel at that depth in mm.
+// Texel of a tile, not rounded, and the edge of a texel at that depth in mm.
 struct TsmCoord {
     texel: vec2<f32>,
     texel_mm: f32,
 }
 
-// Texel of the map of light i that shows a position in mm.
+// Texel of the tile of light i that shows a position in mm.
 fn tsm_coord(i: u32, position_mm: vec3<f32>) -> TsmCoord {
     let source = scene.light[min(i, 3u)];
     let clip = source.clip_from_world * vec4<f32>(position_mm, 1.0);
-    let size = vec2<f32>(textureDimensions(tsm_positions));
-    let texel = (clip.xy / clip.w * vec2<f32>(0.5, -0.5) + 0.5) * size;
+    let side = f32(textureDimensions(tsm_positions).y);
+    let texel = (clip.xy / clip.w * vec2<f32>(0.5, -0.5) + 0.5) * side;
     var grown = 1.0;
     if source.is_local != 0u {
         grown = 1.0 + light_depth(i, position_mm) / source.middle_mm;
@@ -22,9 +23,10 @@ fn tsm_coord(i: u32, position_mm: vec3<f32>) -> TsmCoord {
     return TsmCoord(texel, source.texel_mm * grown);
 }
 
-// The texel, clamped to the size of the maps.
-fn tsm_texel(texel: vec2<i32>) -> vec2<i32> {
-    return clamp(texel, vec2<i32>(0), vec2<i32>(textureDimensions(tsm_positions)) - 1);
+// A texel of the tile of light i, clamped to it, in the row of all tiles.
+fn tsm_texel(i: u32, texel: vec2<i32>) -> vec2<i32> {
+    let side = i32(textureDimensions(tsm_positions).y);
+    return clamp(texel, vec2<i32>(0), vec2<i32>(side - 1)) + vec2<i32>(i32(i) * side, 0);
 }
 
 // Visibility of light i from a position in mm, 0 to 1: percentage-closer filtering over three texels by three, with weights
@@ -42,7 +44,7 @@ fn visibility(i: u32, position_mm: vec3<f32>, normal: vec3<f32>) -> f32 {
     var sum = 0.0;
     for (var y = -1; y <= 2; y++) {
         for (var x = -1; x <= 2; x++) {
-            let stored = unpack(textureLoad(tsm_positions, tsm_texel(first + vec2<i32>(x, y)), i, 0)).w;
+            let stored = unpack(textureLoad(tsm_positions, tsm_texel(i, first + vec2<i32>(x, y)), 0)).x;
             let weight = clamp(vec2<f32>(2.0) - abs(vec2<f32>(f32(x), f32(y)) - part), vec2<f32>(0.0), vec2<f32>(1.0));
             sum += weight.x * weight.y * select(0.0, 1.0, stored >= depth);
         }

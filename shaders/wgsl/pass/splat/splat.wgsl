@@ -17,7 +17,7 @@ struct Splat {
     middle_mm: f32,
     // Edge of a texel of this level at depth 0, in mm.
     texel_mm: f32,
-    // Number of the light.
+    // Number of the light, and of its tile.
     light: u32,
     // Mipmap level of the samples, and texels to a side of it.
     level: u32,
@@ -35,10 +35,10 @@ struct Splat {
 }
 
 @group(1) @binding(0) var<uniform> splat_block: Splat;
-// Translucent shadow maps with mipmap levels, a layer for each light.
-@group(1) @binding(1) var tsm_positions: texture_2d_array<f32>;
-@group(1) @binding(2) var tsm_fluxes: texture_2d_array<f32>;
-@group(1) @binding(3) var tsm_uvs: texture_2d_array<f32>;
+// Translucent shadow maps with mipmap levels, a square tile for each light in one row.
+@group(1) @binding(1) var tsm_positions: texture_2d<f32>;
+@group(1) @binding(2) var tsm_fluxes: texture_2d<f32>;
+@group(1) @binding(3) var tsm_uvs: texture_2d<f32>;
 // G-buffer: positions relative to the middle of the scene and depth, in mm; texture coordinates on the patch.
 @group(1) @binding(4) var positions: texture_2d<f32>;
 @group(1) @binding(5) var uvs: texture_2d<f32>;
@@ -73,8 +73,8 @@ fn share_of(stored: f32, level: u32) -> f32 {
 
 // Whether a texel is full, and flat along the axis of the light.
 fn is_smooth(texel: vec2<u32>, level: u32, texel_mm: f32) -> bool {
-    let range = textureLoad(tsm_uvs, texel, splat_block.light, level).zw;
-    let share = share_of(textureLoad(tsm_fluxes, texel, splat_block.light, level).w, level);
+    let range = textureLoad(tsm_uvs, texel, level).zw;
+    let share = share_of(textureLoad(tsm_fluxes, texel, level).w, level);
     return share > 0.99 && range.y - range.x < STEEP * texel_mm;
 }
 
@@ -94,12 +94,13 @@ fn patch_texel(uv: vec2<f32>) -> vec2<u32> {
 
 @vertex
 fn splat_quad(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance: u32) -> Sample {
-    let texel = min(vec2<u32>(instance % splat_block.side, instance / splat_block.side), vec2<u32>(splat_block.side - 1u));
-    let flux = textureLoad(tsm_fluxes, texel, splat_block.light, splat_block.level);
-    let position = textureLoad(tsm_positions, texel, splat_block.light, splat_block.level);
+    let of_tile = min(vec2<u32>(instance % splat_block.side, instance / splat_block.side), vec2<u32>(splat_block.side - 1u));
+    let texel = of_tile + vec2<u32>(splat_block.light * splat_block.side, 0u);
+    let flux = textureLoad(tsm_fluxes, texel, splat_block.level);
+    let position = textureLoad(tsm_positions, texel, splat_block.level);
     var texel_mm = splat_block.texel_mm;
     if splat_block.middle_mm > 0.0 {
-        texel_mm *= 1.0 + position.w / splat_block.middle_mm;
+        texel_mm *= 1.0 + position.x / splat_block.middle_mm;
     }
     var wanted = share_of(flux.w, splat_block.level) > 0.0 && max(flux.x, max(flux.y, flux.z)) > 0.0;
     if splat_block.refines != 0u {
@@ -107,7 +108,7 @@ fn splat_quad(@builtin(vertex_index) corner: u32, @builtin(instance_index) insta
     } else {
         wanted = wanted && is_smooth(texel, splat_block.level, texel_mm);
     }
-    let centre = splat_block.clip_from_centre * vec4<f32>(position.xyz, 1.0);
+    let centre = splat_block.clip_from_centre * vec4<f32>(position.yzw, 1.0);
     let radius = min(splat_block.fade_out.y, material.r_max_mm);
     // Nothing behind the eye is seen.
     if !wanted || centre.w < -radius {
@@ -118,7 +119,7 @@ fn splat_quad(@builtin(vertex_index) corner: u32, @builtin(instance_index) insta
     let half_size = splat_block.focal * radius / distance;
     let side = vec2<f32>(vec2<u32>(corner & 1u, corner >> 1u)) * 2.0 - 1.0;
     let clip = centre.xy / max(centre.w, distance) + side * half_size;
-    let uv = textureLoad(tsm_uvs, texel, splat_block.light, splat_block.level);
+    let uv = textureLoad(tsm_uvs, texel, splat_block.level);
     var light = flux.xyz * texel_mm * texel_mm;
     var softening_mm = 0.0;
     if splat_block.fade_in.y == 0.0 {
@@ -127,7 +128,7 @@ fn splat_quad(@builtin(vertex_index) corner: u32, @builtin(instance_index) insta
         softening_mm = SOFTENING * texel_mm * sqrt(1.0 + slope * slope);
         light *= softening_gain(softening_mm);
     }
-    return Sample(vec4<f32>(clip, 0.5, 1.0), position.xyz, light, pack_pixel(patch_texel(uv.xy)), softening_mm);
+    return Sample(vec4<f32>(clip, 0.5, 1.0), position.yzw, light, pack_pixel(patch_texel(uv.xy)), softening_mm);
 }
 
 // Share of the ring at a distance in mm, 0 to 1.

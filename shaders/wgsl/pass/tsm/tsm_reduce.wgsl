@@ -1,10 +1,10 @@
 // Needs: <target format>, fullscreen, tsm.
-// Next mipmap level of a translucent shadow map: four texels become one.
+// Next mipmap level of the translucent shadow maps: four texels become one.
 
 @group(0) @binding(0) var<uniform> tsm_light: TsmLight;
-@group(0) @binding(1) var positions: TargetTextureArray;
-@group(0) @binding(2) var fluxes: TargetTextureArray;
-@group(0) @binding(3) var uvs: TargetTextureArray;
+@group(0) @binding(1) var positions: TargetTexture;
+@group(0) @binding(2) var fluxes: TargetTexture;
+@group(0) @binding(3) var uvs: TargetTexture;
 
 @fragment
 fn tsm_reduce(@builtin(position) at: vec4<f32>) -> TsmTexel {
@@ -19,13 +19,13 @@ fn tsm_reduce(@builtin(position) at: vec4<f32>) -> TsmTexel {
     for (var k = 0u; k < 4u; k++) {
         let turn = (k + chosen) & 3u;
         let child = min(2u * texel + vec2<u32>(turn & 1u, turn >> 1u), last);
-        var child_flux = unpack(textureLoad(fluxes, child, tsm_light.light, 0));
+        var child_flux = unpack(textureLoad(fluxes, child, 0));
         if tsm_light.level == 1u {
             child_flux.w = select(0.0, 1.0, abs(child_flux.w - tsm_light.group) < 0.5);
         }
         if child_flux.w > 0.0 {
-            let child_uv = unpack(textureLoad(uvs, child, tsm_light.light, 0));
-            position += child_flux.w * unpack(textureLoad(positions, child, tsm_light.light, 0));
+            let child_uv = unpack(textureLoad(uvs, child, 0));
+            position += child_flux.w * unpack(textureLoad(positions, child, 0));
             range = vec2<f32>(min(range.x, child_uv.z), max(range.y, child_uv.w));
             if flux.w == 0.0 {
                 uv = child_uv.xy;
@@ -34,7 +34,7 @@ fn tsm_reduce(@builtin(position) at: vec4<f32>) -> TsmTexel {
         }
     }
     if flux.w == 0.0 {
-        return TsmTexel(pack(vec4<f32>(0.0, 0.0, 0.0, 60000.0)), pack(vec4<f32>(0.0)), pack(vec4<f32>(0.0)));
+        return TsmTexel(pack(vec4<f32>(60000.0, 0.0, 0.0, 0.0)), pack(vec4<f32>(0.0)), pack(vec4<f32>(0.0)));
     }
     return TsmTexel(pack(0.25 * position / flux.w), pack(flux), pack(vec4<f32>(uv, range)));
 }

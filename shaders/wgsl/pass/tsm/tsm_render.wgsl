@@ -32,7 +32,7 @@ fn tsm_render(in: LightVarying) -> TsmTexel {
     let depth = light_depth(tsm_light.light, in.position_mm);
     let uv = fract(patch_uv(in.position_mm, normal, in.uv) * 0.5) * 2.0;
     return TsmTexel(
-        pack(vec4<f32>(in.position_mm - scene.centre_mm, depth)),
+        pack(vec4<f32>(depth, in.position_mm - scene.centre_mm)),
         pack(vec4<f32>(min(from_light.irradiance * entered, BRIGHTEST), object.group)),
         pack(vec4<f32>(uv, depth, depth)),
     );

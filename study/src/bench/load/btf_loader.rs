@@ -5,31 +5,24 @@ use std::path::Path;
 use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::NestedBtf;
 use subsurf_encoder::capture::Folder;
-use subsurf_runtime::{
-    BtfImages, BtfLayout, BtfMaterial, Gpu, GpuMesh, Input, Material, Object, PictureTarget, Renderer, RuntimeOptions,
-    Technique, VertexData,
-};
-use subsurf_scene::{Mapping, Mesh, Scene, relief};
-use subsurf_viewer::{RenderRequest, parse_btf};
+use subsurf_runtime::{BtfLayout, Gpu};
+use subsurf_viewer::{Loader, Stored, parse_btf};
 
 use super::results::Steps;
 use crate::bench::timing::Clock;
 
 /// Pixels to a side of the first frame.
 const FRAME: [u32; 2] = [64; 2];
-/// Copies of the material on the mesh of the first frame.
-const COPIES: [f32; 2] = [4.0; 2];
 
 /// A BTF or its images, to be loaded again and again.
 pub(super) struct BtfLoader<'a> {
-    gpu: Option<&'a Gpu>,
     path: &'a Path,
     layout: BtfLayout,
     size: [u32; 2],
     lights: Vec<glam::Vec3>,
     views: Vec<glam::Vec3>,
-    scene: Scene,
-    drawn: Option<(Renderer, GpuMesh)>,
+    /// None if texels are looked up on the CPU.
+    loader: Option<Loader<'a>>,
 }
 
 impl<'a> BtfLoader<'a> {
@@ -38,23 +31,14 @@ impl<'a> BtfLoader<'a> {
         let folder = Folder::open(images)?;
         let is_array = path.extension().is_some_and(|extension| extension == "raw");
         let layout = if is_array { BtfLayout::Images } else { BtfLayout::Nested };
-        let mesh: Mesh = relief(20.0, 8, 22);
-        let draw = |gpu: &Gpu| -> anyhow::Result<_> {
-            let renderer = Renderer::for_technique(gpu, Technique::Btf(layout), RuntimeOptions::default())?;
-            let tangents = mesh.tangents()?;
-            let known = VertexData { tangents: Some(&tangents), ..Default::default() };
-            Ok((renderer, GpuMesh::upload(gpu, &mesh, known)?))
+        let [lights, views]: [Vec<glam::Vec3>; 2] =
+            [folder.lights(), folder.views()].map(|all| all.iter().map(|direction| direction.unit()).collect());
+        let stored = match layout {
+            BtfLayout::Nested => Stored::Btf,
+            BtfLayout::Images => Stored::Images { size: folder.size(), lights: lights.clone(), views: views.clone() },
         };
-        Ok(Self {
-            gpu,
-            path,
-            layout,
-            size: folder.size(),
-            lights: folder.lights().iter().map(|light| light.unit()).collect(),
-            views: folder.views().iter().map(|view| view.unit()).collect(),
-            scene: RenderRequest::usual(FRAME).scene(&mesh),
-            drawn: gpu.map(draw).transpose()?,
-        })
+        let loader = gpu.map(|gpu| Loader::new(gpu, stored)).transpose()?;
+        Ok(Self { path, layout, size: folder.size(), lights, views, loader })
     }
 
     /// File to picture, once; and the material's bytes on the device.
@@ -62,6 +46,10 @@ impl<'a> BtfLoader<'a> {
         let mut clock = Clock::new();
         let bytes = std::fs::read(self.path)?;
         let read = clock.lap();
+        if let Some(loader) = &self.loader {
+            let loading = loader.load(&bytes)?;
+            return Ok((Steps::of(read, &loading), loading.gpu_bytes));
+        }
         // There is nothing to check in an array but its length.
         let btf = match self.layout {
             BtfLayout::Nested => Some(parse_btf(self.path, &bytes)?),
@@ -69,26 +57,9 @@ impl<'a> BtfLoader<'a> {
             BtfLayout::Images => return Err(bad_request("the array has not the length of its images")),
         };
         let parse = clock.lap();
-        let (upload, first_frame, gpu_bytes) = match (self.gpu, &self.drawn) {
-            (Some(gpu), Some((renderer, mesh))) => {
-                let material = self.upload(gpu, btf.as_ref(), &bytes)?;
-                gpu.finish()?;
-                let upload = clock.lap();
-                let material = Material::Btf(material.into(), 0);
-                let objects = [Object::new(mesh, &material, Mapping::Uv(COPIES), self.scene.roughness)];
-                let input = Input::new(&self.scene, &objects, FRAME);
-                let picture = PictureTarget::new(gpu, FRAME, renderer.options())?;
-                let mut frame = renderer.prepare(gpu, &input, FRAME)?;
-                renderer.draw_now(gpu, &mut frame, &input, &picture.target())?;
-                gpu.finish()?;
-                (upload, clock.lap(), material.gpu_bytes())
-            }
-            _ => {
-                std::hint::black_box(self.picture(btf.as_ref(), &bytes));
-                (0.0, clock.lap(), 0)
-            }
-        };
-        Ok((Steps { read, parse, upload, first_frame, total: read + parse + upload + first_frame }, gpu_bytes))
+        std::hint::black_box(self.picture(btf.as_ref(), &bytes));
+        let first_frame = clock.lap();
+        Ok((Steps { read, parse, upload: 0.0, first_frame, total: read + parse + first_frame }, 0))
     }
 
     fn image_len(&self) -> usize {
@@ -100,15 +71,6 @@ impl<'a> BtfLoader<'a> {
         let len = self.image_len();
         let first = (light * self.views.len() + view) * len;
         bytes.get(first..first + len).unwrap_or(&[]).as_chunks().0
-    }
-
-    fn upload(&self, gpu: &Gpu, btf: Option<&NestedBtf<'_>>, bytes: &[u8]) -> anyhow::Result<BtfMaterial> {
-        Ok(if let Some(btf) = btf {
-            BtfMaterial::upload(gpu, btf)?
-        } else {
-            let images = BtfImages { size: self.size, lights: &self.lights, views: &self.views, white: 1.0 };
-            BtfMaterial::upload_images(gpu, &images, |light, view| self.image(bytes, light, view).to_vec())?
-        })
     }
 
     /// Texels under the last light, seen from the last view.

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use anyhow::Context;
 use subsurf_cli::info::parse;
-use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
 use subsurf_decoder::bssrdf::{BssrdfHeader, Coding};
 use subsurf_encoder::capture::{Capture, Overrides};
-use subsurf_runtime::{BssrdfPlanes, Gpu, MaterialLayout, PatchLight, PatchRenderer, Region, layout_of};
+use subsurf_runtime::{Gpu, MaterialLayout, layout_of};
 use subsurf_shaders::Rgb;
 use subsurf_shaders::cpu::{self, Reflectance};
+use subsurf_viewer::{Loader, Stored};
 
 use super::results::Steps;
 use crate::bench::timing::Clock;
@@ -49,14 +49,11 @@ fn header_of(capture: &Capture) -> anyhow::Result<BssrdfHeader> {
 
 /// A capture, or a file of a translucent material, to be loaded again and again.
 pub(super) struct FileLoader<'a> {
-    gpu: Option<&'a Gpu>,
     path: &'a Path,
     header: BssrdfHeader,
     layout: MaterialLayout,
-    /// What an application has before it loads its first material: pipelines, and light.
-    renderer: Option<PatchRenderer>,
-    irradiance: Vec<Rgb>,
-    region: Region,
+    /// None if the picture is drawn on the CPU.
+    loader: Option<Loader<'a>>,
 }
 
 impl<'a> FileLoader<'a> {
@@ -67,18 +64,11 @@ impl<'a> FileLoader<'a> {
         header: BssrdfHeader,
         layout: MaterialLayout,
     ) -> anyhow::Result<Self> {
-        let renderer = gpu.map(|gpu| PatchRenderer::new(gpu, layout)).transpose()?;
-        let size = [header.width.min(FRAME), header.height.min(FRAME)];
-        let origin = [(header.width - size[0]) / 2, (header.height - size[1]) / 2];
-        Ok(Self {
-            gpu,
-            path,
-            header,
-            layout,
-            renderer,
-            irradiance: vec![[1.0; 3]; (header.width * header.height) as usize],
-            region: Region { origin, size },
-        })
+        let stored = match layout {
+            MaterialLayout::Capture => Stored::Capture(header),
+            layout => Stored::Planes(layout),
+        };
+        Ok(Self { path, header, layout, loader: gpu.map(|gpu| Loader::new(gpu, stored)).transpose()? })
     }
 
     /// File to picture, once; and the material's bytes on the device.
@@ -86,46 +76,29 @@ impl<'a> FileLoader<'a> {
         let mut clock = Clock::new();
         let bytes = std::fs::read(self.path)?;
         let read = clock.lap();
-
-        // A capture's array starts where its header ends; there is nothing else to check.
-        let entries = match self.layout {
-            MaterialLayout::Capture => Some(self.entries_of(&bytes)?),
-            _ => None,
+        // A capture's array starts where its header ends.
+        let bytes = match self.layout {
+            MaterialLayout::Capture => self.entries_of(&bytes)?,
+            _ => &bytes,
         };
-        let material = if entries.is_none() { Some(parse(self.path, &bytes)?) } else { None };
+        if let Some(loader) = &self.loader {
+            let loading = loader.load(bytes)?;
+            return Ok((Steps::of(read, &loading), loading.gpu_bytes));
+        }
+        let mut clock = Clock::new();
+        let material = if self.layout == MaterialLayout::Capture { None } else { Some(parse(self.path, bytes)?) };
         let parse = clock.lap();
-
-        let (upload, first_frame, gpu_bytes) = match (self.gpu, &self.renderer) {
-            (Some(gpu), Some(renderer)) => {
-                let uploaded = self.upload(gpu, material.as_ref(), entries.unwrap_or(&[]))?;
-                let light = PatchLight::upload(gpu, [self.header.width, self.header.height], &self.irradiance)?;
-                gpu.finish()?;
-                let upload = clock.lap();
-                let exitance = renderer.gather(gpu, &uploaded, &light, self.region)?;
-                renderer.picture(gpu, &exitance, self.region.size, 1.0)?;
-                (upload, clock.lap(), uploaded.gpu_bytes())
-            }
-            _ => {
-                let (origin, size) = (self.region.origin, self.region.size);
-                let exitance = match &material {
-                    Some(material) => cpu::gather(material, &self.irradiance, origin, size),
-                    None => {
-                        let entries = Entries { header: self.header, entries: entries.unwrap_or(&[]) };
-                        cpu::gather(&entries, &self.irradiance, origin, size)
-                    }
-                };
-                std::hint::black_box(cpu::present(&exitance, size, size, 1.0));
-                (0.0, clock.lap(), 0)
-            }
+        let side = [self.header.width, self.header.height];
+        let irradiance = vec![[1.0; 3]; (side[0] * side[1]) as usize];
+        let size = side.map(|side| side.min(FRAME));
+        let origin = [0, 1].map(|k| (side[k] - size[k]) / 2);
+        let exitance = match &material {
+            Some(material) => cpu::gather(material, &irradiance, origin, size),
+            None => cpu::gather(&Entries { header: self.header, entries: bytes }, &irradiance, origin, size),
         };
-        Ok((Steps { read, parse, upload, first_frame, total: read + parse + upload + first_frame }, gpu_bytes))
-    }
-
-    fn upload(&self, gpu: &Gpu, material: Option<&Bssrdf<'_>>, entries: &[u8]) -> anyhow::Result<BssrdfPlanes> {
-        Ok(match material {
-            Some(material) => BssrdfPlanes::upload(gpu, material)?,
-            None => BssrdfPlanes::upload_capture(gpu, &self.header, entries)?,
-        })
+        std::hint::black_box(cpu::present(&exitance, size, size, 1.0));
+        let first_frame = clock.lap();
+        Ok((Steps { read, parse, upload: 0.0, first_frame, total: read + parse + first_frame }, 0))
     }
 
     fn entries_of<'b>(&self, bytes: &'b [u8]) -> anyhow::Result<&'b [u8]> {

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use subsurf_viewer::Loading;
+
 use crate::bench::timing::median;
 
 /// Microseconds of the steps from a file to a picture; medians once several runs are taken together.
@@ -22,6 +24,13 @@ pub(super) struct Steps {
 }
 
 impl Steps {
+    /// Steps of a load on a device, after so many microseconds of reading.
+    pub(super) fn of(read: f64, loading: &Loading) -> Self {
+        let [parse, upload, first_frame] =
+            [loading.parse, loading.upload, loading.first_frame].map(|time| 1e6 * time.as_secs_f64());
+        Self { read, parse, upload, first_frame, total: read + parse + upload + first_frame }
+    }
+
     /// Until the material can be drawn: read, parse, upload.
     pub(super) fn load(&self) -> f64 {
         self.read + self.parse + self.upload
