@@ -1,8 +1,9 @@
 # make demo: build, and do everything once: simulate, encode, judge, draw, time; pictures and tables in demo-out/
 # make test: the tests, on Vulkan and on OpenGL ES 3.0
-# Where there is no graphics card, both install Mesa's software drivers with apt-get.
+# make check-targets: whether all of it compiles for Windows and Macs, and what draws for browsers
+# Where there is no graphics card, the first two install Mesa's software drivers with apt-get.
 
-.PHONY: demo test
+.PHONY: demo test check-targets
 
 subsurf = cargo run --quiet --release --package subsurf-cli --
 study = cargo run --quiet --release --package subsurf-study --
@@ -16,3 +17,6 @@ demo:
 
 test:
 	scripts/test
+
+check-targets:
+	scripts/check-targets

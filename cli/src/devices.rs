@@ -30,10 +30,14 @@ pub(crate) fn run() -> anyhow::Result<()> {
 /// What draws: a graphics API, or the CPU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum BackendArg {
-    /// The first of Vulkan, OpenGL ES and CPU that works
+    /// The first of this system's APIs that works, or the CPU
     Auto,
     /// Vulkan
     Vulkan,
+    /// Metal, on a Mac
+    Metal,
+    /// Direct3D 12, on Windows
+    Dx12,
     /// OpenGL ES
     Gl,
     /// This machine's cores; needs no driver
@@ -41,28 +45,47 @@ pub enum BackendArg {
 }
 
 impl BackendArg {
+    /// Graphics APIs to try, in this order; none for the CPU.
+    fn backends(self) -> Vec<Backend> {
+        match self {
+            Self::Auto => Backend::ALL.to_vec(),
+            Self::Vulkan => vec![Backend::Vulkan],
+            Self::Metal => vec![Backend::Metal],
+            Self::Dx12 => vec![Backend::Dx12],
+            Self::Gl => vec![Backend::Gl],
+            Self::Cpu => Vec::new(),
+        }
+    }
+
     /// The device, opened; `None` stands for the CPU.
     pub fn open(self) -> anyhow::Result<Option<Gpu>> {
-        match self {
-            Self::Auto => Ok(Backend::ALL.into_iter().find_map(|backend| Gpu::open(backend).ok())),
-            Self::Vulkan => Ok(Some(Gpu::open(Backend::Vulkan)?)),
-            Self::Gl => Ok(Some(Gpu::open(Backend::Gl)?)),
-            Self::Cpu => Ok(None),
+        match self.first_that_works() {
+            Some(Err(error)) if self != Self::Auto => Err(error.into()),
+            opened => Ok(opened.and_then(Result::ok)),
         }
     }
 
     /// A device, opened, for what the CPU does not draw; `why` says so.
     pub(crate) fn open_device(self, why: &str) -> anyhow::Result<Gpu> {
-        match self {
-            Self::Cpu => Err(bad_request(format!("{why}: choose another --backend"))),
-            Self::Gl => Ok(Gpu::open(Backend::Gl)?),
-            Self::Vulkan => Ok(Gpu::open(Backend::Vulkan)?),
-            Self::Auto => {
-                let [first, second] = Backend::ALL.map(Gpu::open);
-                let opened = first.or(second);
-                opened.map_err(|error| anyhow::Error::new(error).context(format!("{why}, and there is no device")))
+        match self.first_that_works() {
+            None => Err(bad_request(format!("{why}: choose another --backend"))),
+            Some(Err(error)) if self == Self::Auto => {
+                Err(anyhow::Error::new(error).context(format!("{why}, and there is no device")))
+            }
+            Some(opened) => Ok(opened?),
+        }
+    }
+
+    /// The first device that opens, or why the last one does not; `None` for the CPU.
+    fn first_that_works(self) -> Option<Result<Gpu, subsurf_runtime::Error>> {
+        let mut opened = None;
+        for backend in self.backends() {
+            match opened {
+                Some(Ok(_)) => break,
+                _ => opened = Some(Gpu::open(backend)),
             }
         }
+        opened
     }
 }
 

@@ -65,10 +65,14 @@ pub(crate) struct Args {
 /// What draws to a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Api {
-    /// The first of Vulkan and OpenGL ES that works
+    /// The first of this system's APIs that works
     Auto,
     /// Vulkan
     Vulkan,
+    /// Metal, on a Mac
+    Metal,
+    /// Direct3D 12, on Windows
+    Dx12,
     /// OpenGL ES
     Gl,
 }
@@ -128,6 +132,8 @@ impl Args {
             backends: match self.backend {
                 Api::Auto => Backend::ALL.to_vec(),
                 Api::Vulkan => vec![Backend::Vulkan],
+                Api::Metal => vec![Backend::Metal],
+                Api::Dx12 => vec![Backend::Dx12],
                 Api::Gl => vec![Backend::Gl],
             },
             options: RuntimeOptions {

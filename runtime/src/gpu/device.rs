@@ -3,16 +3,15 @@
 use std::fmt;
 
 use half::f16;
-use pollster::block_on;
 use subsurf_shaders::TargetFormat;
 use wgpu::rwh::HasDisplayHandle;
 use wgpu::{
     Adapter, AdapterInfo, Color, Device, DeviceDescriptor, ErrorFilter, ExperimentalFeatures, Extent3d, Features,
-    Instance, Limits, MemoryHints, Queue, Surface, SurfaceTarget, TextureDescriptor, TextureDimension, TextureFormat,
-    TextureUsages, Trace,
+    Instance, Limits, MemoryHints, Queue, RequestAdapterOptions, Surface, SurfaceTarget, TextureDescriptor,
+    TextureDimension, TextureFormat, TextureUsages, Trace,
 };
 
-use super::backend::{Backend, adapters, instance};
+use super::backend::{Backend, adapters, instance, ready};
 use super::ledger::Ledger;
 use crate::error::{Error, Result};
 
@@ -52,7 +51,7 @@ fn target_format_of(device: &Device) -> TargetFormat {
         usage: TextureUsages::RENDER_ATTACHMENT,
         view_formats: &[],
     });
-    if block_on(scope.pop()).is_some() { TargetFormat::Packed } else { TargetFormat::Half }
+    if ready(scope.pop()).flatten().is_some() { TargetFormat::Packed } else { TargetFormat::Half }
 }
 
 impl Gpu {
@@ -80,7 +79,14 @@ impl Gpu {
         let instance = Instance::new(instance(backend).with_display_handle(Box::new(display)));
         let surface = instance.create_surface(window).map_err(|error| none(error.to_string()))?;
         let adapter = adapters(&instance, backend).into_iter().find(|adapter| adapter.is_surface_supported(&surface));
-        let adapter = adapter.ok_or_else(|| none("the driver lists none that draws to this window".to_owned()))?;
+        // WebGL2 has a device only for who has the canvas.
+        let of_surface = || {
+            let options = RequestAdapterOptions { compatible_surface: Some(&surface), ..Default::default() };
+            ready(instance.request_adapter(&options)).and_then(|adapter| adapter.ok())
+        };
+        let adapter = adapter
+            .or_else(of_surface)
+            .ok_or_else(|| none("the driver lists none that draws to this window".to_owned()))?;
         Ok(OnScreen { gpu: Self::of(&adapter, backend)?, surface, instance, adapter })
     }
 
@@ -94,7 +100,8 @@ impl Gpu {
             trace: Trace::Off,
         });
         let none = |reason: String| Error::NoDevice { backend, reason };
-        let (device, queue) = block_on(request).map_err(|error| none(error.to_string()))?;
+        let opened = ready(request).ok_or_else(|| none("it is not opened at once".to_owned()))?;
+        let (device, queue) = opened.map_err(|error| none(error.to_string()))?;
         Ok(Self::from_device(device, queue, adapter.get_info()))
     }
 
@@ -178,7 +185,7 @@ impl Gpu {
         let result = work();
         let mut failed = None;
         for scope in scopes.into_iter().rev() {
-            failed = failed.or(block_on(scope.pop()));
+            failed = failed.or(ready(scope.pop()).flatten());
         }
         failed.map_or(Ok(result), |error| Err(Error::Device(error.to_string())))
     }

@@ -8,6 +8,7 @@ use subsurf_cli::info::parse;
 use subsurf_cli::outln;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::basis::BasisSize;
+use subsurf_decoder::container::ENTRY_BYTES;
 use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, fit_basis, with_basis};
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_encoder::metrics::psnr_db;
@@ -50,6 +51,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 let fit = fit_basis(&material, &BasisOptions { choice, steps }, &())?;
                 let fit_s = begin.elapsed().as_secs_f64();
                 let kind = if steps == 0 { "start" } else { "joint" };
+                let section_bytes = ENTRY_BYTES + fit.to_bytes().len();
                 let with = with_basis(&bytes, &fit)?;
                 let material = Bssrdf::parse(&with)?;
                 let begin = Instant::now();
@@ -57,8 +59,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 std::hint::black_box(basis.albedo());
                 let projection_ms = 1e3 * begin.elapsed().as_secs_f64();
                 outln!(
-                    "  L = {terms}, A = {gaussians}, {kind}: fitted in {fit_s:.1} s, {} bytes more, projected in {projection_ms:.1} ms",
-                    with.len() - bytes.len(),
+                    "  L = {terms}, A = {gaussians}, {kind}: fitted in {fit_s:.1} s, {section_bytes} bytes more, projected in \
+                     {projection_ms:.1} ms"
                 );
                 let by_cpu = ("CPU, single precision".to_owned(), psnr_of(&lights, |light| Ok(basis.exitance(light)))?);
                 let by_gpu = |(backend, gpu): &(Backend, Gpu)| {
@@ -70,7 +72,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                     outln!("    {by:22} {:.1} / {:.1} / {:.1} dB", db[0], db[1], db[2]);
                     all.push(json!({
                         "file": stem(path), "terms": terms, "gaussians": gaussians, "fit": kind, "by": by, "psnr_db": db,
-                        "fit_s": fit_s, "projection_ms": projection_ms, "bytes": with.len() - bytes.len(),
+                        "fit_s": fit_s, "projection_ms": projection_ms, "bytes": section_bytes,
                         "sigmas_px": fit.sigmas,
                     }));
                 }

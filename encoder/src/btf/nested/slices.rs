@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::database::slice_mean;
 use crate::math::k_means::KMeans;
 use crate::math::k_means::shape_gain::Match;
+use crate::math::side_by_side::{SideBySide, WIDTH};
 
 /// Slices of `nodes` values, each with weights of its own for all of them.
 pub(super) struct Slices<'a> {
@@ -31,21 +32,25 @@ impl Slices<'_> {
 
     /// The row, and its gain, that leaves the least of each slice: Σ W x² − (Σ W x c)² / Σ W c².
     pub(super) fn search(&self, rows: &[f32]) -> Vec<Match> {
+        let rows = SideBySide::new(rows, self.nodes);
         let find = |number: usize| {
             let (values, weights) = self.slice(number);
             let mut best = (0, 0.0, f32::NEG_INFINITY);
-            for (index, row) in rows.chunks_exact(self.nodes).enumerate() {
-                let (mut xc, mut cc) = (0.0, 0.0);
-                for ((x, w), c) in values.iter().zip(weights).zip(row) {
-                    let wc = w * c;
-                    (xc, cc) = (xc + wc * x, cc + wc * c);
+            for (first, block) in rows.blocks() {
+                let (mut xc, mut cc) = ([0.0; WIDTH], [0.0; WIDTH]);
+                for ((x, w), c) in values.iter().zip(weights).zip(block) {
+                    for lane in 0..WIDTH {
+                        let wc = w * c[lane];
+                        xc[lane] += wc * x;
+                        cc[lane] += wc * c[lane];
+                    }
                 }
-                if cc <= 0.0 || xc <= 0.0 && !self.is_signed {
-                    continue;
-                }
-                let taken = xc * xc / cc;
-                if taken > best.2 {
-                    best = (index, xc / cc, taken);
+                for lane in 0..WIDTH {
+                    let (xc, cc) = (xc[lane], cc[lane]);
+                    let is_positive = cc > 0.0 && (xc > 0.0 || self.is_signed);
+                    if is_positive && xc * xc / cc > best.2 {
+                        best = (first + lane, xc / cc, xc * xc / cc);
+                    }
                 }
             }
             Match { index: u32::try_from(best.0).expect("fewer than 2³² rows"), gain: best.1 }

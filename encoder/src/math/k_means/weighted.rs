@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::KMeans;
+use crate::math::side_by_side::{SideBySide, WIDTH};
 
 /// Vectors of some dimensions, one after the other, with a weight for each value.
 pub(crate) struct Weighted<'a> {
@@ -27,10 +28,24 @@ impl Weighted<'_> {
 
     /// For every vector the centre where Σ w (x − c)² is least.
     pub(crate) fn nearest(&self, centres: &[f32]) -> Vec<u32> {
+        let count = centres.len() / self.dimensions;
+        let centres = SideBySide::new(centres, self.dimensions);
         let find = |number: usize| {
-            let distances = centres.chunks_exact(self.dimensions).map(|centre| self.distance(number, centre));
-            let least = (0_u32..).zip(distances).min_by(|a, b| a.1.total_cmp(&b.1));
-            least.map_or(0, |(index, _)| index)
+            let mut best = (0, f32::INFINITY);
+            for (first, block) in centres.blocks() {
+                let mut distances = [0.0; WIDTH];
+                for ((value, weight), centre) in self.at(number).zip(block) {
+                    for lane in 0..WIDTH {
+                        distances[lane] += weight * (value - centre[lane]) * (value - centre[lane]);
+                    }
+                }
+                for (index, distance) in (first..count).zip(distances) {
+                    if distance < best.1 {
+                        best = (index, distance);
+                    }
+                }
+            }
+            u32::try_from(best.0).expect("fewer than 2³² centres")
         };
         (0..self.len()).into_par_iter().map(find).collect()
     }
