@@ -247,6 +247,23 @@ fn objects_shadow_each_other() {
     assert!(shadowed < 0.75 * alone, "{shadowed} of {alone}");
 }
 
+/// What the camera does not see casts its shadow all the same.
+#[test]
+fn objects_out_of_view_cast_shadows() {
+    let stage = Stage::open(Backends::VULKAN);
+    let view = application::view();
+    // Along the light, far above the picture.
+    let towards = Vec3::new(-0.2, 1.0, 0.1).normalize();
+    let light = Light { shape: LightShape::Directional { towards }, irradiance: [3.0; 3] };
+    let blocker = Object { world_from_mesh: Mat4::from_translation(45.0 * towards), ..stage.leather() };
+    let [alone, hidden, shadowed] = [&[stage.jade()][..], &[blocker], &[stage.jade(), blocker]]
+        .map(|objects| stage.draw(view, objects, &[light], false));
+    assert!(hidden.iter().all(|pixel| pixel[3] == 0.0), "the blocker is out of view");
+    let (alone, shadowed) = (luminance(&alone), luminance(&shadowed));
+    println!("light of the jade alone: {alone}, in the shadow: {shadowed}");
+    assert!(shadowed < 0.6 * alone, "{shadowed} of {alone}");
+}
+
 /// A part of a target shows what a whole one of that size does.
 #[test]
 fn parts_of_a_target_are_pictures() {

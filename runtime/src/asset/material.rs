@@ -72,7 +72,7 @@ impl Material {
     pub fn gpu_bytes(&self) -> u64 {
         match self {
             Self::Gather(material) => material.planes.gpu_bytes(),
-            Self::Splat(material) => material.planes.gpu_bytes(),
+            Self::Splat(material) => material.gpu_bytes(),
             Self::Separable(material) => material.gpu_bytes(),
             Self::Btf(material, _) => material.gpu_bytes(),
         }

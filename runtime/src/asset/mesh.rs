@@ -41,8 +41,8 @@ struct Vertex {
 pub struct VertexData<'a> {
     /// Number of the vertex's point, [`subsurf_scene::SurfacePoints::point_of`]: for the gather.
     pub points: Option<&'a [u32]>,
-    /// Light from all around that scatters to the vertex, computed ahead of time: for splats and separable blurs, where it is
-    /// that of flat, open ground without it.
+    /// Light from all around that scatters to the vertex, computed ahead of time for the size that the mesh is
+    /// drawn in: for splats and separable blurs, where it is that of flat, open ground without it.
     pub ambient: Option<&'a [AmbientTransfer]>,
     /// Tangents, [`Mesh::tangents`]: for BTFs.
     pub tangents: Option<&'a [Vec4]>,

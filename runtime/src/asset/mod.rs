@@ -17,5 +17,6 @@ pub use material::{GatherMaterial, Material};
 pub use mesh::{GpuMesh, VertexData};
 pub(crate) use mesh::{TANGENTS, VERTICES};
 pub use points::GpuPoints;
+pub(crate) use points::LitBy;
 pub use separable::SeparableMaterial;
 pub use splat::SplatMaterial;

@@ -1,5 +1,7 @@
 //! Points of a mesh on the device, between which light scatters.
 
+use std::sync::Mutex;
+
 use subsurf_scene::SurfacePoints;
 use subsurf_shaders::uniform;
 use wgpu::{Buffer, TextureFormat};
@@ -20,7 +22,12 @@ pub struct GpuPoints {
     pub(crate) irradiance: Surface2d,
     pub(crate) exitance: Surface2d,
     pub(crate) count: usize,
+    /// What the exitance is of; none before the first gather.
+    pub(crate) lit_by: Mutex<Option<LitBy>>,
 }
+
+/// Lights and environment, and transform of the mesh.
+pub(crate) type LitBy = (uniform::Scene, glam::Mat4);
 
 impl GpuPoints {
     /// Uploads the points of a surface.
@@ -48,6 +55,7 @@ impl GpuPoints {
             irradiance: target("irradiance")?,
             exitance: target("exitance")?,
             count,
+            lit_by: Mutex::new(None),
         })
     }
 

@@ -7,6 +7,7 @@ use wgpu::{CommandEncoder, LoadOp, Operations, RenderPassColorAttachment, StoreO
 use super::input::{Input, Object, Target};
 use super::prepare::Frame;
 use super::renderer::Renderer;
+use crate::asset::Material;
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, attachment};
 use crate::technique::{Attachments, Group, Lap, OBJECT_STRIDE, group_number};
@@ -24,7 +25,7 @@ pub(crate) struct Placed {
 /// What a frame shows besides its objects.
 struct Seen {
     block: uniform::Scene,
-    /// Sphere that holds all visible objects.
+    /// Sphere that holds all objects.
     bounds: BoundingSphere,
 }
 
@@ -32,12 +33,14 @@ impl Renderer {
     /// Records a frame into the host's encoder. Nothing is submitted, waited for or allocated on the device; what a driver
     /// has to say comes by the device's own error handler. Where no object is seen, the target is cleared or left alone.
     ///
+    /// Lights' views hold all objects of the input, seen or not: what is far from the others makes them coarse.
+    ///
     /// Blocks are uploaded by the queue, which is done before the commands of the next submission: a frame can be recorded once
     /// for each submission, another [`Frame`] beside it.
     ///
     /// # Errors
-    /// [`Error::Usage`] if the frame was not prepared for a material, if there are too many objects, or an object lacks what
-    /// its material needs.
+    /// [`Error::Usage`] if the frame was not prepared for a material, if there are too many objects, an object lacks what its
+    /// material needs, the light of a gather was never summed, or the target is smaller than the frame.
     pub fn draw(
         &self,
         gpu: &Gpu,
@@ -55,7 +58,7 @@ impl Renderer {
     /// # Errors
     /// As [`Renderer::draw`], and [`Error::Device`] if the device fails.
     pub fn gather(&self, gpu: &Gpu, frame: &mut Frame, input: &Input<'_>) -> Result<()> {
-        let Some(seen) = frame.place(gpu, self, input)? else {
+        let Some(seen) = frame.place(gpu, input)? else {
             return Ok(());
         };
         let Frame { plan, common, slots, placed, .. } = frame;
@@ -78,15 +81,17 @@ impl Renderer {
         target: &Target<'_>,
         lap: Lap<'_>,
     ) -> Result<()> {
-        let Some(seen) = frame.place(gpu, self, input)? else {
+        expect_room(target, frame.plan.size)?;
+        let Some(seen) = frame.place(gpu, input)? else {
             clear(encoder, target);
             return Ok(());
         };
         let Frame { plan, common, lights, slots, placed, .. } = frame;
-        let draws = || {
-            let drawn = placed.iter().zip(input.objects).filter(|(placed, _)| placed.is_visible);
-            drawn.map(|(placed, object)| (object.mesh, placed.offset))
-        };
+        // What the camera does not see casts shadows all the same.
+        let draws = || placed.iter().zip(input.objects).map(|(placed, object)| (object.mesh, placed.offset));
+        if let Some(reason) = slots.iter().find_map(|slot| slot.bindings.is_waiting()) {
+            return Err(Error::Usage(reason.to_owned()));
+        }
         lights.record(encoder, self.tsm.of(plan), seen.block.lights, &common.object, draws);
         lap("shadow maps", encoder);
 
@@ -126,24 +131,28 @@ impl Renderer {
 
 impl Frame {
     /// Finds the materials and the blocks of all objects, and uploads the blocks; `None` if nothing is seen.
-    fn place(&mut self, gpu: &Gpu, renderer: &Renderer, input: &Input<'_>) -> Result<Option<Seen>> {
-        let room = renderer.options.objects;
-        if input.objects.len() > room as usize {
+    fn place(&mut self, gpu: &Gpu, input: &Input<'_>) -> Result<Option<Seen>> {
+        let room = self.common.objects.size() / u64::from(OBJECT_STRIDE);
+        if input.objects.len() as u64 > room {
             return Err(Error::Usage(format!("{} objects; the renderer has room for {room}", input.objects.len())));
         }
         self.placed.clear();
         for (object, number) in input.objects.iter().zip(0..) {
             object.expect_rigid()?;
             let unknown = || Error::Usage("a material that the frame was not prepared for".to_owned());
+            let slot = self.slots.iter().position(|slot| slot.material.is(object.material)).ok_or_else(unknown)?;
+            if let Material::Gather(_) = object.material {
+                expect_one(object, self.placed.iter().any(|placed| placed.slot == slot))?;
+            }
             self.placed.push(Placed {
-                slot: self.slots.iter().position(|slot| slot.material.is(object.material)).ok_or_else(unknown)?,
+                slot,
                 offset: number * OBJECT_STRIDE,
                 is_visible: input.view.sees(&object.bounds()),
             });
         }
-        let visible = input.objects.iter().zip(&self.placed).filter(|(_, placed)| placed.is_visible);
-        let bounds = visible.map(|(object, _)| object.bounds()).reduce(|all, bounds| all.union(&bounds));
-        let Some(bounds) = bounds else {
+        let bounds = input.objects.iter().map(Object::bounds).reduce(|all, bounds| all.union(&bounds));
+        let is_seen = self.placed.iter().any(|placed| placed.is_visible);
+        let Some(bounds) = bounds.filter(|_| is_seen) else {
             return Ok(None);
         };
         let lighting = &input.lighting;
@@ -170,10 +179,33 @@ impl Frame {
     }
 }
 
+/// Refuses what the gather does not draw: points are those of one object in its own size.
+fn expect_one(object: &Object<'_>, has_another: bool) -> Result<()> {
+    if has_another {
+        return Err(Error::Usage("a material for the gather is that of one object".to_owned()));
+    }
+    if (object.world_from_mesh.x_axis.truncate().length() - 1.0).abs() > 1e-3 {
+        return Err(Error::Usage("the gather draws meshes in their own size: no scale in a transform".to_owned()));
+    }
+    Ok(())
+}
+
 /// Sphere that holds the visible objects of one material; none if there are none.
 fn group_bounds(input: &Input<'_>, placed: &[Placed], slot: usize) -> Option<BoundingSphere> {
     let of_group = input.objects.iter().zip(placed).filter(|(_, placed)| placed.is_visible && placed.slot == slot);
     of_group.map(|(object, _)| Object::bounds(object)).reduce(|all, bounds| all.union(&bounds))
+}
+
+/// Refuses a target that has no room for a picture of `size` from its origin on.
+fn expect_room(target: &Target<'_>, size: [u32; 2]) -> Result<()> {
+    let texture = target.colour.texture();
+    let have = [texture.width(), texture.height()];
+    let is_beyond = |k: usize| u64::from(target.origin[k]) + u64::from(size[k]) > u64::from(have[k]);
+    if is_beyond(0) || is_beyond(1) {
+        let origin = target.origin;
+        return Err(Error::Usage(format!("a frame of {size:?} pixels from {origin:?} on, in a target of {have:?}")));
+    }
+    Ok(())
 }
 
 /// Clears what a host wants cleared.

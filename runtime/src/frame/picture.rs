@@ -8,7 +8,7 @@ use super::input::{Input, Target};
 use super::options::{BACKGROUND_COLOUR, RuntimeOptions};
 use super::prepare::Frame;
 use super::renderer::Renderer;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::gpu::{ColourTarget, Gpu, Surface2d, TextureSpec};
 
 /// Picture on the device, with depth and samples of its own.
@@ -128,7 +128,10 @@ impl Renderer {
                 times.push((name, begin.elapsed()));
                 begin = Instant::now();
             };
-            self.record(gpu, &mut new(), frame, input, target, &mut lap)
+            let mut encoder = new();
+            self.record(gpu, &mut encoder, frame, input, target, &mut lap)?;
+            gpu.queue.submit([encoder.finish()]);
+            Ok::<(), Error>(())
         })??;
         failed?;
         Ok(times)

@@ -10,7 +10,7 @@ use super::input::Input;
 use super::plan::Plan;
 use super::renderer::Renderer;
 use crate::asset::Material;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::gpu::Gpu;
 use crate::technique::{Bindings, Common, TranslucentShadowMaps, reflection_sampler, separable, splat};
 
@@ -49,11 +49,11 @@ struct Shared {
 impl Renderer {
     /// Makes room for pictures of `size` pixels with the materials and as many lights as an input has, within the budget:
     /// shadow maps and maps become coarser until everything fits. Maps are as fine as the view of the input needs; other
-    /// views, objects and lights may be drawn with them.
+    /// views and objects may be drawn with them, and as many lights or fewer: further ones do not shine.
     ///
     /// # Errors
     /// [`Error::OverBudget`](crate::Error::OverBudget) if even the coarsest does not fit, before anything is allocated;
-    /// [`Error::Usage`](crate::Error::Usage) if a technique was not compiled.
+    /// [`Error::Usage`] if a technique was not compiled, or the size is 0.
     pub fn prepare(&self, gpu: &Gpu, input: &Input<'_>, size: [u32; 2]) -> Result<Frame> {
         let mut materials: Vec<&Material> = Vec::new();
         for object in input.objects {
@@ -61,11 +61,14 @@ impl Renderer {
                 materials.push(object.material);
             }
         }
+        if size.contains(&0) {
+            return Err(Error::Usage(format!("a frame of {size:?} pixels")));
+        }
         #[allow(clippy::cast_possible_truncation, reason = "a handful")]
         let lights = input.lighting.lights.len().clamp(1, MAX_LIGHTS) as u32;
         let plan = Plan {
             size,
-            light_texels: self.options.light_texels,
+            light_texels: self.options.light_texels.min(largest_tile(gpu, lights)),
             lights,
             divisor: self.divisor(input, size),
             has_light_levels: materials.iter().any(|material| matches!(material, Material::Splat(_))),
@@ -165,6 +168,12 @@ impl Renderer {
         });
         divisors.min().unwrap_or(1)
     }
+}
+
+/// Most texels to a side of so many tiles in one row.
+fn largest_tile(gpu: &Gpu, lights: u32) -> u32 {
+    let most = (gpu.device.limits().max_texture_dimension_2d / lights).max(1);
+    1 << most.ilog2()
 }
 
 impl Frame {

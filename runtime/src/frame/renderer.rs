@@ -9,7 +9,7 @@ use super::options::RuntimeOptions;
 use super::plan::LEAST_LIGHT_TEXELS;
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
-use crate::technique::{Technique, TsmPasses, btf, gather, separable, splat};
+use crate::technique::{OBJECT_STRIDE, Technique, TsmPasses, btf, gather, separable, splat};
 
 /// Pipelines of the techniques that a host wants; made at load, never in a frame.
 #[derive(Debug)]
@@ -48,9 +48,11 @@ impl Renderer {
     /// Compiles what all techniques share.
     ///
     /// # Errors
-    /// [`Error::Usage`] if an option is out of range; [`Error::Device`] if the driver refuses a pass.
+    /// [`Error::Usage`] if an option is out of range; [`Error::Unsupported`] if it is beyond the device; [`Error::Device`] if
+    /// the driver refuses a pass.
     pub fn new(gpu: &Gpu, options: RuntimeOptions) -> Result<Self> {
-        let RuntimeOptions { light_texels, objects, .. } = options;
+        let RuntimeOptions { light_texels, objects, samples, depth, .. } = options;
+        let limits = gpu.device.limits();
         if !light_texels.is_power_of_two() || light_texels < LEAST_LIGHT_TEXELS {
             return Err(Error::Usage(format!(
                 "light_texels is {light_texels}; it must be a power of two, at least {LEAST_LIGHT_TEXELS}"
@@ -58,6 +60,20 @@ impl Renderer {
         }
         if objects == 0 {
             return Err(Error::Usage("objects is 0: a frame needs room for one at least".to_owned()));
+        }
+        if !matches!(samples, 1 | 4) {
+            return Err(Error::Usage(format!("samples is {samples}; it must be 1 or 4")));
+        }
+        if !depth.format.has_depth_aspect() {
+            return Err(Error::Usage(format!("the depth is of format {:?}, which holds none", depth.format)));
+        }
+        let (need, have) = (u64::from(objects) * u64::from(OBJECT_STRIDE), limits.max_buffer_size.min(1 << 31));
+        if need > have {
+            return Err(Error::Unsupported { what: "bytes of objects", need, have });
+        }
+        if light_texels > limits.max_texture_dimension_2d {
+            let (need, have) = (light_texels.into(), limits.max_texture_dimension_2d.into());
+            return Err(Error::Unsupported { what: "texels of a light's view", need, have });
         }
         Ok(Self {
             options,

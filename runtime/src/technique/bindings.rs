@@ -24,6 +24,11 @@ pub(crate) trait Bindings: Debug + Send + Sync {
         Ok(())
     }
 
+    /// What has to be done before a frame can be drawn, if anything.
+    fn is_waiting(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Records all passes between shadow maps and the picture; `lap` is called after each.
     fn record(&self, _encoder: &mut CommandEncoder, _group: &Group<'_>, _objects: &BindGroup, _lap: Lap<'_>) {}
 

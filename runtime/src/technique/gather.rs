@@ -1,6 +1,6 @@
 //! The gather, the reference: every vertex sums the light of all others within reach.
 
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 
 use subsurf_shaders::passes::{Choice, table};
 use subsurf_shaders::uniform::ROW;
@@ -10,8 +10,8 @@ use wgpu::{BindGroup, BindingResource};
 use super::bindings::{Bindings, Group};
 use super::common::Common;
 use super::mesh_pass::MeshPass;
-use crate::asset::GatherMaterial;
-use crate::error::{Error, Result};
+use crate::asset::{GatherMaterial, LitBy};
+use crate::error::Result;
 use crate::frame::RuntimeOptions;
 use crate::gpu::{FullscreenPass, Gpu, Rows, array_size};
 
@@ -26,7 +26,7 @@ pub(crate) struct Passes {
     shade: MeshPass,
 }
 
-/// Bind groups of the gather, and the light that its results are of.
+/// Bind groups of the gather.
 #[derive(Debug)]
 struct Bound {
     passes: Arc<Passes>,
@@ -34,8 +34,6 @@ struct Bound {
     irradiance: [BindGroup; 2],
     gather: [BindGroup; 2],
     shade: BindGroup,
-    /// Lights, environment and transform of the exitance; none before the first gather.
-    lit_by: Option<(uniform::Scene, glam::Mat4)>,
 }
 
 impl Passes {
@@ -76,7 +74,6 @@ impl Passes {
             gather: [self.gather.bind(gpu, 0, &planes.resources())?, self.gather.bind(gpu, 1, &of_points)?],
             shade: self.shade.bind(gpu, 1, &of_shade)?,
             material: material.clone(),
-            lit_by: None,
             passes: self.clone(),
         }))
     }
@@ -87,20 +84,20 @@ impl Bindings for Bound {
     /// it is known already.
     fn compute(&mut self, gpu: &Gpu, group: &Group<'_>, objects: &BindGroup) -> Result<()> {
         let mut of_group = group.input.objects.iter().zip(group.placed).filter(|(_, placed)| placed.slot == group.slot);
-        let (Some((object, placed)), None) = (of_group.next(), of_group.next()) else {
-            return Err(Error::Usage("a material for the gather is that of one object".to_owned()));
+        let Some((object, placed)) = of_group.next() else {
+            return Ok(());
         };
-        if (object.world_from_mesh.x_axis.truncate().length() - 1.0).abs() > 1e-3 {
-            return Err(Error::Usage("the gather draws meshes in their own size: no scale in a transform".to_owned()));
-        }
+        let points = &self.material.points;
         let lit_by = (lighting(group.block), object.world_from_mesh);
-        let is_same = |(block, transform): &(uniform::Scene, glam::Mat4)| {
+        let is_same = |(block, transform): &LitBy| {
             bytemuck::bytes_of(block) == bytemuck::bytes_of(&lit_by.0) && *transform == lit_by.1
         };
-        if self.lit_by.as_ref().is_some_and(is_same) {
+        // Unknown until all of it is summed.
+        let mut known = points.lit_by.lock().unwrap_or_else(PoisonError::into_inner);
+        if known.as_ref().is_some_and(is_same) {
             return Ok(());
         }
-        let points = &self.material.points;
+        *known = None;
         let size = array_size(points.count);
         let [scene, of_points] = &self.irradiance;
         let object = Some((objects, placed.offset));
@@ -109,8 +106,13 @@ impl Bindings for Bound {
         for rows in Rows::bands(size, u64::from(ROW) * NEIGHBOURS) {
             self.passes.gather.draw(gpu, &points.exitance.view, &[material, of_points], rows)?;
         }
-        self.lit_by = Some(lit_by);
+        *known = Some(lit_by);
         Ok(())
+    }
+
+    fn is_waiting(&self) -> Option<&'static str> {
+        let known = self.material.points.lit_by.lock().unwrap_or_else(PoisonError::into_inner);
+        known.is_none().then_some("the light of a gather was never summed: call Renderer::gather")
     }
 
     fn shade(&self) -> (&MeshPass, &BindGroup) {
@@ -124,6 +126,11 @@ fn lighting(block: &uniform::Scene) -> uniform::Scene {
     let mut light = block.light;
     for source in &mut light {
         source.clip_from_world = [[0.0; 4]; 4];
+        (source.middle_mm, source.texel_mm) = (0.0, 0.0);
+        // The axis of a light that shines all around is that of its view.
+        if source.cos_outer < -1.0 {
+            source.axis = [0.0; 3];
+        }
     }
     uniform::Scene { lights: block.lights, sky: block.sky, light, ..none }
 }

@@ -13,7 +13,7 @@ use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked, attachment, level_of};
 /// Depth where nothing is seen: 60 m away, nearly the largest that half floats hold.
 pub(crate) const FAR_MM: f64 = 60_000.0;
 
-/// Depth of what lights see: 16 bits over twice the radius of the scene order it finely enough.
+/// Depth of what lights see, by which the nearest is kept: 16 bits. Of a light within the scene they are coarse far from it.
 const LIGHT_DEPTH: DepthFormat = DepthFormat { format: TextureFormat::Depth16Unorm, is_reversed: false };
 
 /// Depths and positions, fluxes and places that lights see, a square tile for each light in one row.

@@ -13,7 +13,8 @@ fn summed(texel: vec2<u32>, maps: array<vec4<f32>, TERMS>) -> array<vec4<f32>, T
         for (var l = 0u; l < TERMS; l++) {
             sum += stage.weights[2u * l + m].xyz * light[l].xyz;
         }
-        total[m] = vec4<f32>(sum, light[0].w);
+        // Within half floats: infinities of both signs would meet.
+        total[m] = vec4<f32>(clamp(sum, vec3<f32>(-60000.0), vec3<f32>(60000.0)), light[0].w);
     }
     return total;
 }

@@ -27,8 +27,8 @@ fn separable_gbuffer(in: Varying) -> MapsAndSums {
     }
     var maps: array<vec4<f32>, TERMS>;
     for (var l = 0u; l < TERMS; l++) {
-        maps[l] = vec4<f32>(min(c[l] * e, BRIGHTEST), depth);
-        sums[l].w = depth;
+        maps[l] = vec4<f32>(clamp(c[l] * e, -BRIGHTEST, BRIGHTEST), depth);
+        sums[l] = vec4<f32>(clamp(sums[l].xyz, -BRIGHTEST, BRIGHTEST), depth);
     }
     return maps_and_sums_of(maps, sums);
 }
