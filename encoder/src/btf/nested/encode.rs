@@ -61,7 +61,7 @@ impl<'a> Prepared<'a> {
     /// Builds codebooks of at most these sizes, a stage each.
     ///
     /// # Errors
-    /// [`Error::Request`] for no stage or more than four, or too many materials.
+    /// [`Error::Request`](crate::Error::Request) for no stage or more than four, or too many materials.
     pub fn encode(&self, stages: &[Sizes], progress: &dyn Progress) -> Result<Database> {
         let (svd, options) = (self.svd, &self.options);
         check_stages(stages.len())?;
