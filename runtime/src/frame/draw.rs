@@ -63,7 +63,7 @@ impl Renderer {
         };
         let Frame { plan, common, slots, placed, .. } = frame;
         for (number, slot) in slots.iter_mut().enumerate() {
-            if let Some(bounds) = group_bounds(input, placed, number) {
+            if let Some(bounds) = slot.bounds {
                 let group = Group::new(input, placed, number, bounds, &seen.block, seen.bounds.radius_mm, plan);
                 slot.bindings.compute(gpu, &group, &common.object)?;
             }
@@ -89,25 +89,25 @@ impl Renderer {
         let Frame { plan, common, lights, slots, placed, .. } = frame;
         // What the camera does not see casts shadows all the same.
         let draws = || placed.iter().zip(input.objects).map(|(placed, object)| (object.mesh, placed.offset));
-        if let Some(reason) = slots.iter().find_map(|slot| slot.bindings.is_waiting()) {
+        let mut visible = slots.iter().filter(|slot| slot.bounds.is_some());
+        if let Some(reason) = visible.find_map(|slot| slot.bindings.is_waiting()) {
             return Err(Error::Usage(reason.to_owned()));
         }
         lights.record(encoder, self.tsm.of(plan), seen.block.lights, &common.object, draws);
         lap("shadow maps", encoder);
 
         // Materials with maps of their own come one after the other, each with its share of the picture.
-        let visible = placed.iter().filter(|placed| placed.is_visible);
-        let last = visible.map(|placed| placed.slot).max().unwrap_or(0);
+        let last = slots.iter().rposition(|slot| slot.bounds.is_some());
         let mut is_first = true;
         for (number, slot) in slots.iter_mut().enumerate() {
-            let Some(bounds) = group_bounds(input, placed, number) else {
+            let Some(bounds) = slot.bounds else {
                 continue;
             };
             let mut group = Group::new(input, placed, number, bounds, &seen.block, seen.bounds.radius_mm, plan);
             group.origin = target.origin;
             slot.bindings.update(gpu, &group);
             slot.bindings.record(encoder, &group, &common.object, lap);
-            let is_last = number == last;
+            let is_last = Some(number) == last;
             let attachments = Attachments {
                 colours: &[Some(RenderPassColorAttachment {
                     resolve_target: if is_last { target.resolve } else { None },
@@ -137,22 +137,29 @@ impl Frame {
             return Err(Error::Usage(format!("{} objects; the renderer has room for {room}", input.objects.len())));
         }
         self.placed.clear();
+        for slot in &mut self.slots {
+            slot.bounds = None;
+        }
+        let mut all: Option<BoundingSphere> = None;
         for (object, number) in input.objects.iter().zip(0..) {
             object.expect_rigid()?;
+            let bounds = object.bounds();
+            let with_this = |known: &Option<BoundingSphere>| known.map_or(bounds, |known| known.union(&bounds));
+            all = Some(with_this(&all));
             let unknown = || Error::Usage("a material that the frame was not prepared for".to_owned());
             let slot = self.slots.iter().position(|slot| slot.material.is(object.material)).ok_or_else(unknown)?;
             if let Material::Gather(_) = object.material {
                 expect_one(object, self.placed.iter().any(|placed| placed.slot == slot))?;
             }
-            self.placed.push(Placed {
-                slot,
-                offset: number * OBJECT_STRIDE,
-                is_visible: input.view.sees(&object.bounds()),
-            });
+            let is_visible = input.view.sees(&bounds);
+            if is_visible {
+                let of_slot = &mut self.slots[slot].bounds;
+                *of_slot = Some(with_this(of_slot));
+            }
+            self.placed.push(Placed { slot, offset: number * OBJECT_STRIDE, is_visible });
         }
-        let bounds = input.objects.iter().map(Object::bounds).reduce(|all, bounds| all.union(&bounds));
-        let is_seen = self.placed.iter().any(|placed| placed.is_visible);
-        let Some(bounds) = bounds.filter(|_| is_seen) else {
+        let is_seen = self.slots.iter().any(|slot| slot.bounds.is_some());
+        let Some(bounds) = all.filter(|_| is_seen) else {
             return Ok(None);
         };
         let lighting = &input.lighting;
@@ -164,7 +171,7 @@ impl Frame {
 
         self.blocks.clear();
         for (object, placed) in input.objects.iter().zip(&self.placed) {
-            let group = group_bounds(input, &self.placed, placed.slot).unwrap_or(bounds);
+            let group = self.slots[placed.slot].bounds.unwrap_or(bounds);
             let placement = object.material.placement(object.mesh, object.mapping)?;
             let block = uniform::Object {
                 depth_offset_mm: (bounds.centre_mm - group.centre_mm).dot(input.view.forward()),
@@ -188,12 +195,6 @@ fn expect_one(object: &Object<'_>, has_another: bool) -> Result<()> {
         return Err(Error::Usage("the gather draws meshes in their own size: no scale in a transform".to_owned()));
     }
     Ok(())
-}
-
-/// Sphere that holds the visible objects of one material; none if there are none.
-fn group_bounds(input: &Input<'_>, placed: &[Placed], slot: usize) -> Option<BoundingSphere> {
-    let of_group = input.objects.iter().zip(placed).filter(|(_, placed)| placed.is_visible && placed.slot == slot);
-    of_group.map(|(object, _)| Object::bounds(object)).reduce(|all, bounds| all.union(&bounds))
 }
 
 /// Refuses a target that has no room for a picture of `size` from its origin on.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use subsurf_scene::MAX_LIGHTS;
+use subsurf_scene::{BoundingSphere, MAX_LIGHTS};
 use wgpu::{BindGroup, BindingResource};
 
 use super::draw::Placed;
@@ -37,6 +37,8 @@ pub(super) struct Slot {
     /// Bind group 0 of the picture.
     pub(super) scene: BindGroup,
     pub(super) bindings: Box<dyn Bindings>,
+    /// Sphere that holds the visible objects of the material, as they were placed last; none if none is seen.
+    pub(super) bounds: Option<BoundingSphere>,
 }
 
 /// Maps of a frame, which the materials of a technique use one after the other.
@@ -44,6 +46,22 @@ pub(super) struct Slot {
 struct Shared {
     separable: Vec<(usize, Arc<separable::Maps>)>,
     splat: Option<Arc<splat::Maps>>,
+}
+
+impl Shared {
+    /// Maps for so many terms, made by the first material that wants them.
+    fn of_terms(
+        &mut self,
+        terms: usize,
+        make: impl FnOnce() -> Result<separable::Maps>,
+    ) -> Result<Arc<separable::Maps>> {
+        if let Some((_, maps)) = self.separable.iter().find(|(of, _)| *of == terms) {
+            return Ok(maps.clone());
+        }
+        let maps = Arc::new(make()?);
+        self.separable.push((terms, maps.clone()));
+        Ok(maps)
+    }
 }
 
 impl Renderer {
@@ -92,7 +110,7 @@ impl Renderer {
         for material in materials {
             let bindings = self.bind(gpu, (material, slots.len()), &common, &lights, &plan, &mut shared)?;
             let scene = bindings.shade().0.bind(gpu, 0, &of_scene)?;
-            slots.push(Slot { material: material.clone(), scene, bindings });
+            slots.push(Slot { material: material.clone(), scene, bindings, bounds: None });
         }
         let objects = self.options.objects as usize;
         Ok(Frame { plan, common, lights, slots, placed: Vec::with_capacity(objects), blocks: Vec::new() })
@@ -136,12 +154,7 @@ impl Renderer {
             Material::Separable(material) => {
                 let terms = material.terms();
                 let passes = self.separable.of(terms)?;
-                let known = shared.separable.iter().find(|(of, _)| *of == terms).map(|(_, maps)| maps.clone());
-                let maps = match known {
-                    Some(maps) => maps,
-                    None => Arc::new(separable::Maps::new(gpu, plan, &self.options, terms)?),
-                };
-                shared.separable.push((terms, maps.clone()));
+                let maps = shared.of_terms(terms, || separable::Maps::new(gpu, plan, &self.options, terms))?;
                 passes.bind(gpu, material, common, lights, &maps)
             }
             Material::Btf(material, number) => self.btf.of(material.layout())?.bind(gpu, material, *number),

@@ -49,11 +49,9 @@ pub(crate) struct Group<'a> {
     /// Sphere that holds the visible objects of the group.
     pub(crate) bounds: BoundingSphere,
     pub(crate) block: &'a uniform::Scene,
-    /// Radius of the sphere that holds all visible objects, in mm.
+    /// Radius of the sphere that holds all objects, in mm.
     pub(crate) radius_mm: f32,
     pub(crate) plan: &'a Plan,
-    /// Number of lights that shine and have a shadow map.
-    pub(crate) lights: u32,
     /// Pixel of the target where the picture begins.
     pub(crate) origin: [u32; 2],
 }
@@ -69,7 +67,7 @@ impl<'a> Group<'a> {
         radius_mm: f32,
         plan: &'a Plan,
     ) -> Self {
-        Self { input, placed, slot, bounds, block, radius_mm, plan, lights: block.lights, origin: [0; 2] }
+        Self { input, placed, slot, bounds, block, radius_mm, plan, origin: [0; 2] }
     }
 
     /// Meshes of the visible objects of the group.

@@ -205,7 +205,7 @@ impl Bindings for Bound {
         let block = group.block;
         let clip_from_world = Mat4::from_cols_array_2d(&block.clip_from_world);
         let clip_from_centre = clip_from_world * Mat4::from_translation(Vec3::from(block.centre_mm));
-        for draw in self.drawn(group.lights) {
+        for draw in self.drawn(group.block.lights) {
             let light = &block.light[draw.light as usize];
             #[allow(clippy::cast_precision_loss, reason = "small")]
             let texel_at = |level: u32| light.texel_mm * (1_u32 << level) as f32;
@@ -253,7 +253,7 @@ impl Bindings for Bound {
         self.passes.gbuffer.record(encoder, &attachments, [scene, albedo], objects, group.draws());
         lap("gbuffer", encoder);
         for (ring, number) in self.maps.rings.iter().zip(0..self.levels.rings) {
-            let draws = self.drawn(group.lights).filter(|draw| draw.ring == number);
+            let draws = self.drawn(group.block.lights).filter(|draw| draw.ring == number);
             let squares = |draw: &Draw| (group.plan.light_texels >> draw.level(&self.levels)).max(1).pow(2);
             let draws: Vec<_> = draws.map(|draw| (&draw.group, squares(draw))).collect();
             self.passes.splat.record(encoder, &ring.view, &self.planes, &draws);
