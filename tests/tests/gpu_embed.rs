@@ -71,6 +71,18 @@ impl Stage {
         Self { app, gpu, renderer, mesh, jade, splats, leather }
     }
 
+    /// Target of the application, drawn over what is there.
+    fn over<'a>(&'a self, colour: &'a wgpu::TextureView) -> Target<'a> {
+        Target {
+            colour,
+            load: LoadOp::Load,
+            resolve: None,
+            depth: &self.app.depth,
+            depth_ops: Operations { load: LoadOp::Load, store: StoreOp::Store },
+            origin: [0; 2],
+        }
+    }
+
     fn jade(&self) -> Object<'_> {
         Object::new(&self.mesh, &self.jade, Mapping::Box, 0.25)
     }
@@ -105,14 +117,9 @@ impl Stage {
             self.app.draw_cube(&mut encoder);
             (load, load_depth) = (LoadOp::Load, LoadOp::Load);
         }
-        let target = Target {
-            colour: &self.app.colour.create_view(&wgpu::TextureViewDescriptor::default()),
-            load,
-            resolve: None,
-            depth: &self.app.depth,
-            depth_ops: Operations { load: load_depth, store: StoreOp::Store },
-            origin,
-        };
+        let colour = self.app.colour.create_view(&wgpu::TextureViewDescriptor::default());
+        let depth_ops = Operations { load: load_depth, store: StoreOp::Store };
+        let target = Target { load, depth_ops, origin, ..self.over(&colour) };
         let scope = self.app.device.push_error_scope(wgpu::ErrorFilter::Validation);
         self.renderer.draw(&self.gpu, &mut encoder, &mut frame, &input, &target).unwrap();
         self.app.queue.submit([encoder.finish()]);
@@ -335,14 +342,8 @@ fn objects_come_and_go() {
         objects[2].world_from_mesh = out_of_view;
         let input = Input { objects: &objects[number % 4 % 3..], ..whole };
         let mut encoder = stage.app.device.create_command_encoder(&Default::default());
-        let target = Target {
-            colour: &view,
-            load: LoadOp::Load,
-            resolve: None,
-            depth: &stage.app.depth,
-            depth_ops: Operations { load: LoadOp::Clear(0.0), store: StoreOp::Store },
-            origin: [0; 2],
-        };
+        let cleared = Operations { load: LoadOp::Clear(0.0), store: StoreOp::Store };
+        let target = Target { depth_ops: cleared, ..stage.over(&view) };
         stage.renderer.draw(&stage.gpu, &mut encoder, &mut frame, &input, &target).unwrap();
         let commands = encoder.finish();
         // Recording is what is looked at; drawing a tenth of it is enough.
@@ -378,14 +379,7 @@ fn mistakes_are_the_callers() {
     {
         let mut encoder = stage.app.device.create_command_encoder(&Default::default());
         let view_of = stage.app.colour.create_view(&wgpu::TextureViewDescriptor::default());
-        let target = Target {
-            colour: &view_of,
-            load: LoadOp::Load,
-            resolve: None,
-            depth: &stage.app.depth,
-            depth_ops: Operations { load: LoadOp::Load, store: StoreOp::Store },
-            origin: [0; 2],
-        };
+        let target = stage.over(&view_of);
         let input = Input { objects, ..prepared };
         match stage.renderer.draw(&stage.gpu, &mut encoder, &mut frame, &input, &target) {
             Err(Error::Usage(said)) => assert!(said.contains(reason), "{said}"),

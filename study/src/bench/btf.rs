@@ -235,7 +235,9 @@ impl Setting<'_> {
         let mut session = RenderSession::new(gpu, asset, &scene, size, options)?;
         let times = timed(self.args.frames, self.bars, || {
             turn(&mut scene);
-            session.with(&scene, |renderer, frame, input, target| renderer.draw_now(gpu, frame, input, target))?;
+            session.with(&scene, |renderer, frame, input, picture| {
+                renderer.draw_now(gpu, frame, input, &picture.target())
+            })?;
             Ok(gpu.finish()?)
         })?;
         Ok(Row { device: self.backend.to_string(), layout, filtering, times, material_bytes })

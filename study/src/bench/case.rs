@@ -60,7 +60,8 @@ impl BenchCase {
 
     fn draw(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<f64> {
         let begin = Instant::now();
-        self.session.with(scene, |renderer, frame, input, target| renderer.draw_now(gpu, frame, input, target))?;
+        self.session
+            .with(scene, |renderer, frame, input, picture| renderer.draw_now(gpu, frame, input, &picture.target()))?;
         gpu.finish()?;
         Ok(ms(begin.elapsed()))
     }
@@ -68,7 +69,7 @@ impl BenchCase {
     fn draw_timed(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<()> {
         let passes = self
             .session
-            .with(scene, |renderer, frame, input, target| renderer.draw_timed(gpu, frame, input, target))?;
+            .with(scene, |renderer, frame, input, picture| renderer.draw_timed(gpu, frame, input, &picture.target()))?;
         self.times.order = passes.iter().map(|(name, _)| *name).collect();
         for (name, time) in passes {
             self.times.passes.entry(name).or_default().push(ms(time));

@@ -1,6 +1,6 @@
 //! Session: pictures of one size, of one asset.
 
-use subsurf_runtime::{Frame, Gpu, Input, PictureTarget, Renderer, RuntimeOptions, Target};
+use subsurf_runtime::{Frame, Gpu, Input, PictureTarget, Renderer, RuntimeOptions};
 use subsurf_scene::Scene;
 
 use super::exposure::exposure_of;
@@ -33,28 +33,25 @@ impl RenderSession {
         Ok(Self { asset, renderer, frame, picture, size })
     }
 
+    /// Hands everything that a frame takes to `draw`.
+    ///
+    /// # Errors
+    /// Those of `draw`.
+    pub fn with<T, E>(
+        &mut self,
+        scene: &Scene,
+        draw: impl FnOnce(&Renderer, &mut Frame, &Input<'_>, &PictureTarget) -> std::result::Result<T, E>,
+    ) -> std::result::Result<T, E> {
+        let objects = [self.asset.object(scene.roughness)];
+        draw(&self.renderer, &mut self.frame, &Input::new(scene, &objects, self.size), &self.picture)
+    }
+
     /// Draws a picture: sRGB bytes, row by row from the top.
     ///
     /// # Errors
     /// The device failed.
     pub fn picture(&mut self, gpu: &Gpu, scene: &Scene) -> Result<Vec<[u8; 3]>> {
-        let objects = [self.asset.object(scene.roughness)];
-        let input = Input::new(scene, &objects, self.size);
-        Ok(self.renderer.picture(gpu, &mut self.frame, &input, &self.picture)?)
-    }
-
-    /// Hands everything that a frame takes to `draw`.
-    ///
-    /// # Errors
-    /// Those of `draw`.
-    pub fn with<T>(
-        &mut self,
-        scene: &Scene,
-        draw: impl FnOnce(&Renderer, &mut Frame, &Input<'_>, &Target<'_>) -> subsurf_runtime::Result<T>,
-    ) -> Result<T> {
-        let objects = [self.asset.object(scene.roughness)];
-        let input = Input::new(scene, &objects, self.size);
-        Ok(draw(&self.renderer, &mut self.frame, &input, &self.picture.target())?)
+        Ok(self.with(scene, |renderer, frame, input, picture| renderer.picture(gpu, frame, input, picture))?)
     }
 
     /// The exposure that suits a picture of a scene.
@@ -62,9 +59,7 @@ impl RenderSession {
     /// # Errors
     /// The device failed.
     pub fn exposure(&mut self, gpu: &Gpu, scene: &Scene) -> Result<f32> {
-        let objects = [self.asset.object(scene.roughness)];
-        let input = Input::new(scene, &objects, self.size);
-        chosen_exposure(gpu, &self.renderer, &mut self.frame, &input, &self.picture)
+        self.with(scene, |renderer, frame, input, picture| chosen_exposure(gpu, renderer, frame, input, picture))
     }
 }
 
