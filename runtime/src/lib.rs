@@ -14,9 +14,10 @@ pub use asset::{
 };
 pub use error::{Error, Result};
 pub use frame::{
-    BACKGROUND, BACKGROUND_COLOUR, Frame, Input, Object, PictureTarget, Plan, Renderer, RuntimeOptions, Target,
+    BACKGROUND, BACKGROUND_COLOUR, Frame, Input, Object, PassTimes, PictureTarget, Plan, Renderer, RuntimeOptions,
+    Target,
 };
-pub use gpu::{Backend, ColourTarget, Gpu, Ledger, OnScreen, devices};
+pub use gpu::{Backend, ColourTarget, Gpu, Ledger, OnScreen, Purpose, devices};
 pub use subsurf_shaders::uniform::BtfFiltering;
 pub use subsurf_shaders::{BtfLayout, MaterialLayout, TargetFormat};
 pub use technique::{

@@ -63,6 +63,29 @@ impl View {
         Vec2::new(self.clip_from_view.x_axis.x, self.clip_from_view.y_axis.y).abs()
     }
 
+    /// Rectangle of the picture that holds what is seen of a sphere: lower left and upper right corner, −1 to 1 along rows and
+    /// upwards. All of the picture where the sphere reaches beside or behind the eye.
+    #[must_use]
+    pub fn rectangle(&self, bounds: &BoundingSphere) -> [Vec2; 2] {
+        let clip = self.clip_from_world();
+        let (centre, r2) = (bounds.centre_mm.extend(1.0), bounds.radius_mm.powi(2));
+        let w = clip.row(3);
+        // Planes x = t w through the eye touch the sphere where (x − t w)² = r² |n_x − t n_w|² at its middle: a t² − 2 b t + c = 0.
+        let a = w.dot(centre).powi(2) - r2 * w.truncate().length_squared();
+        if a <= 0.0 || w.dot(centre) <= 0.0 {
+            return [Vec2::NEG_ONE, Vec2::ONE];
+        }
+        let of_axis = |axis: usize| {
+            let x = clip.row(axis);
+            let b = x.dot(centre) * w.dot(centre) - r2 * x.truncate().dot(w.truncate());
+            let c = x.dot(centre).powi(2) - r2 * x.truncate().length_squared();
+            let root = (b * b - a * c).max(0.0).sqrt();
+            [b - root, b + root].map(|t| (t / a).clamp(-1.0, 1.0))
+        };
+        let [[left, right], [below, above]] = [of_axis(0), of_axis(1)];
+        [Vec2::new(left, below), Vec2::new(right, above)]
+    }
+
     /// Whether any of a sphere may be in the picture.
     #[must_use]
     pub fn sees(&self, bounds: &BoundingSphere) -> bool {
@@ -100,6 +123,31 @@ mod tests {
         let parallel = View { clip_from_view: orthographic(-2.0, 6.0, -1.0, 3.0, 1.0, 100.0), ..view };
         assert!(parallel.is_parallel(), "orthographic");
         assert!(parallel.focal().distance(Vec2::new(0.25, 0.5)) < 1e-6, "{}", parallel.focal());
+    }
+
+    #[test]
+    fn rectangles_hold_spheres_and_no_more() {
+        let oblique = View::new(&camera(), &BOUNDS, 1.5);
+        let parallel = View { clip_from_view: orthographic(-20.0, 60.0, -30.0, 30.0, 1.0, 100.0), ..oblique };
+        for view in [oblique, parallel] {
+            for shift in [Vec3::ZERO, Vec3::new(4.0, -3.0, 1.0)] {
+                let bounds = BoundingSphere { centre_mm: BOUNDS.centre_mm + shift, ..BOUNDS };
+                let [low, high] = view.rectangle(&bounds);
+                let (mut least, mut most) = (Vec2::ONE, Vec2::NEG_ONE);
+                for k in 0..20_000_u16 {
+                    let y = 1.0 - (f32::from(k) + 0.5) / 10_000.0;
+                    let (sin, cos) = (2.399_963 * f32::from(k)).sin_cos();
+                    let across = (1.0 - y * y).sqrt();
+                    let seen = view
+                        .clip_from_world()
+                        .project_point3(bounds.centre_mm + bounds.radius_mm * Vec3::new(across * cos, y, across * sin));
+                    (least, most) = (least.min(seen.truncate()), most.max(seen.truncate()));
+                }
+                assert!(low.distance(least) < 1e-3 && high.distance(most) < 1e-3, "{low} {least}, {high} {most}");
+            }
+        }
+        let around = BoundingSphere { centre_mm: camera().eye_mm, radius_mm: 5.0 };
+        assert_eq!(oblique.rectangle(&around), [Vec2::NEG_ONE, Vec2::ONE], "the eye is within");
     }
 
     #[test]

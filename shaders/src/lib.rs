@@ -6,13 +6,13 @@
 //! - [`separable`]: what the separable passes draw, the basis of a material with the coefficients of every pixel.
 //! - [`cpu`] (the gathers, on all cores, with the feature `gather`): a pass `wgsl/pass/…/NAME.wgsl` has a twin `cpu/NAME.rs` that gives the same numbers, but for these:
 //!
-//! * `blur_patch_first`, `blur_patch_rows`, `blur_patch_columns`, `blur_patch_last`: stages of one sum, which
+//! * `blur_patch_first`, `blur_patch`, `sum_patch`, `blur_patch_last`: stages of one sum, which
 //!   [`separable::ProjectedBasis::exitance`] computes as a whole.
 //! * `homogeneous`: a baseline that is timed, not looked at.
 //! * `btf_query`: its twin is the decoder.
 //! * `tsm_render`, `tsm_reduce`, `surface_gbuffer`, `splat`, `splat_resolve`, `shade_splat`: they approximate what
 //!   [`cpu::surface_gather`] computes exactly, from what lights and the camera see; their pictures are held to its pictures.
-//! * `separable_gbuffer`, `blur_screen_rows`, `blur_screen_columns`, `shade_separable`: likewise.
+//! * `separable_gbuffer`, `blur_screen`, `sum_screen`, `blur_screen_last`, `shade_separable`: likewise.
 
 pub mod cpu;
 mod mean_kernel;

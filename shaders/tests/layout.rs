@@ -55,7 +55,7 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(TsmLight: light, group, level);
     assert_layout_of!(Splat: softening_gain, clip_from_centre, fade_in, fade_out, focal, middle_mm, texel_mm, light, level, side, refines, stride, pitch_mm, group, is_parallel);
     assert_layout_of!(SplatRings: count, near_mm);
-    assert_layout_of!(Upsampling: texels_per_pixel, origin, near_mm);
+    assert_layout_of!(Upsampling: texels_per_pixel, origin, near_mm, last);
     assert_layout_of!(Transmission: weights, gaussians);
     assert_layout_of!(Frame: size, texels, exposure);
     assert_layout_of!(BlurStage: weights, axis, sigma, stride, taps, step, sparse, has_sum);
@@ -77,6 +77,20 @@ fn palette_codes_are_those_of_the_format() {
     use subsurf_decoder::bssrdf::layout::{MAX_CODED_RATIO, MAX_PAIRS};
     let text = gather(MaterialLayout::Bmpp2Palette);
     for wanted in [format!("code % {MAX_PAIRS}u"), format!("code / {MAX_PAIRS}u) / {MAX_CODED_RATIO}.0")] {
+        assert!(text.contains(&wanted), "{wanted}");
+    }
+}
+
+#[test]
+fn taps_on_the_screen_are_those_of_the_shader() {
+    use subsurf_shaders::uniform::MOST_TAPS;
+    let text = table::BLUR_SCREEN.with(Choice::Terms(1)).wgsl(TargetFormat::Half);
+    for wanted in [
+        format!("const MOST_TAPS: f32 = {MOST_TAPS:.1};"),
+        "let sigma = stage.step * texels_per_pixel;".to_owned(),
+        "let sparse = max(floor(stage.sparse * texels_per_pixel), 1.0);".to_owned(),
+        "let taps = clamp(ceil(3.2 * sigma / sparse), 1.0, MOST_TAPS);".to_owned(),
+    ] {
         assert!(text.contains(&wanted), "{wanted}");
     }
 }

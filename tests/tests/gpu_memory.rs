@@ -1,7 +1,9 @@
 //! Bytes on the device: within budgets, counted rightly, and given back.
 
 use subsurf_decoder::bssrdf::Addressing;
-use subsurf_runtime::{Backend, Error, Frame, Gpu, RuntimeOptions};
+use subsurf_decoder::bssrdf::basis::BasisSize;
+use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, add_basis};
+use subsurf_runtime::{Backend, Error, Frame, Gpu, PictureTarget, Purpose, RuntimeOptions};
 use subsurf_scene::{Scene, torus};
 use subsurf_tests::drawable;
 use subsurf_tests::frames::{Loaded, RenderMode, SIZE, device, scene};
@@ -77,18 +79,47 @@ fn a_thousand_loads_and_resizes_leave_nothing() {
     }
 }
 
-/// What one light sees takes 4 MiB at 512 × 512 texels.
+/// What one light sees takes 4 MiB at 512 × 512 texels, and a separable frame of 1280 × 720 pixels 20 MB with it and with a
+/// picture and its depth: also where the material is so fine on the screen that maps would have the size of the picture.
 #[test]
-fn views_of_lights_are_small() {
-    let file = drawable([31, 31], 6, Addressing::Mirror);
+fn views_of_lights_and_separable_frames_are_small() {
+    let size = [1280, 720];
     let mesh = torus(9.0, 4.0, 24);
-    let scene = scene(&mesh);
+    let near = scene(&mesh);
+    let mut far = near.clone();
+    far.camera.eye_mm *= 50.0;
     for gpu in Backend::ALL.map(device) {
-        let loaded = Loaded::new(&gpu, RenderMode::Separable, &file, &mesh);
-        let frame = prepared(&gpu, &loaded, &scene, None).unwrap();
-        assert_eq!(frame.plan().light_texels, 512, "texels to a side");
-        assert_eq!(frame.light_view_bytes(), 4 << 20, "bytes");
+        for terms in [1, 2] {
+            let loaded = Loaded::new(&gpu, RenderMode::Separable, &with_terms(terms), &mesh);
+            let kept = Purpose::ALL.map(|purpose| gpu.ledger().bytes_of(purpose));
+            let options = RuntimeOptions::default();
+            let renderer = loaded.renderer(&gpu, options).unwrap();
+            for scene in [&near, &far] {
+                let picture = PictureTarget::new(&gpu, size, &options).unwrap();
+                let frame = loaded.prepare(&gpu, &renderer, scene, size).unwrap();
+                let bytes = Purpose::ALL.map(|purpose| gpu.ledger().bytes_of(purpose) - kept[purpose as usize]);
+                println!("L = {terms}, maps {:?}: {bytes:?}", frame.plan().blur_size());
+                assert_eq!(frame.plan().light_texels, 512, "texels to a side");
+                assert_eq!(bytes[Purpose::LightView as usize], 4 << 20, "of what one light sees");
+                assert_eq!(bytes[..2], [0, 0], "a frame has neither materials nor meshes");
+                assert_eq!(bytes[Purpose::Other as usize], 1280 * 720 * (4 + 4), "of a picture and its depth");
+                let all: u64 = bytes.iter().sum();
+                assert!(all <= 20_000_000, "L = {terms}: {all} bytes, {bytes:?}");
+                drop((frame, picture));
+            }
+            // By wish maps are as fine as the picture, and take more.
+            let fine = RuntimeOptions { map_bytes_per_pixel: 100.0, ..options };
+            let frame = loaded.prepare(&gpu, &loaded.renderer(&gpu, fine).unwrap(), &far, size).unwrap();
+            assert_eq!(frame.plan().blur_size(), size, "full size");
+        }
     }
+}
+
+/// A small material with a basis of so many terms.
+fn with_terms(terms: usize) -> Vec<u8> {
+    let choice = BasisChoice::Size(BasisSize { terms, gaussians: 3 });
+    let file = drawable([31, 31], 6, Addressing::Mirror);
+    add_basis(&file, &BasisOptions { choice, steps: 0 }, &()).unwrap()
 }
 
 /// The ledger counts what wgpu's allocator counts, but for its alignment and what it needs itself.
@@ -107,7 +138,10 @@ fn the_ledger_agrees_with_the_allocator() {
         let frame = loaded.prepare(&gpu, &renderer, &scene, [640, 480]).unwrap();
         gpu.finish().unwrap();
         let (ours, theirs) = (gpu.ledger().bytes(), allocated() - before);
-        println!("{mode:?}: {ours} bytes by the ledger, {theirs} by the allocator");
+        let by_purpose = Purpose::ALL.map(|purpose| gpu.ledger().bytes_of(purpose));
+        println!("{mode:?}: {ours} bytes by the ledger, {by_purpose:?} by purpose, {theirs} by the allocator");
+        assert_eq!(by_purpose.iter().sum::<u64>(), ours, "{mode:?}: every byte has a purpose");
+        assert!(by_purpose[..4].iter().all(|bytes| *bytes > 0), "{mode:?}: {by_purpose:?}");
         assert!(ours <= theirs && theirs <= ours + ours / 8 + (2 << 20), "{mode:?}: {ours} {theirs}");
         drop((frame, renderer, loaded));
         gpu.finish().unwrap();

@@ -7,7 +7,7 @@ use subsurf_shaders::uniform::{self, BASE_ROWS, ROW};
 use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
 
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked, layers_of};
+use crate::gpu::{Gpu, Purpose, Surface2d, TextureSpec, Tracked, layers_of};
 
 /// Layout of a file on the device.
 #[must_use]
@@ -90,7 +90,7 @@ impl BssrdfPlanes {
         views: Vec<TextureView>,
     ) -> Self {
         let block = uniform::Material::new(header, layer);
-        Self { layout, header: *header, uniform: gpu.uniform("material", &block), textures, views }
+        Self { layout, header: *header, uniform: gpu.uniform(Purpose::Material, "material", &block), textures, views }
     }
 
     /// Layout of the material on the device.

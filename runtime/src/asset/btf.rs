@@ -6,7 +6,7 @@ use subsurf_shaders::uniform::{BtfCodebooks, BtfTexture};
 use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
 
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked};
+use crate::gpu::{Gpu, Purpose, Surface2d, TextureSpec, Tracked};
 
 /// BTF on the device: its file, word by word, and a block that says where its codebooks are; or its images.
 #[derive(Debug)]
@@ -37,7 +37,7 @@ impl BtfMaterial {
         let textures = (0..materials).filter_map(|number| BtfTexture::of(btf, number)).collect();
         let words = gpu.filled(&words, &bytes)?;
         let view = words.view.clone();
-        Ok(Self::new(BtfLayout::Nested, textures, words, view, gpu.uniform("codebooks", &books)))
+        Ok(Self::new(BtfLayout::Nested, textures, words, view, gpu.uniform(Purpose::Material, "codebooks", &books)))
     }
 
     pub(super) fn new(

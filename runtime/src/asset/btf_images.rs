@@ -7,7 +7,7 @@ use wgpu::TextureFormat;
 
 use super::btf::BtfMaterial;
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, TextureSpec, layers_of};
+use crate::gpu::{Gpu, Purpose, TextureSpec, layers_of};
 
 /// Size and directions of the images of one material, one for every pair of a light and a view.
 #[derive(Clone, Copy, Debug)]
@@ -144,7 +144,7 @@ impl BtfMaterial {
         };
         let all = layers_of(&texture);
         let textures = vec![BtfTexture::plain(images.size)];
-        Ok(Self::new(BtfLayout::Images, textures, texture, all, gpu.uniform("images", &block)))
+        Ok(Self::new(BtfLayout::Images, textures, texture, all, gpu.uniform(Purpose::Material, "images", &block)))
     }
 }
 

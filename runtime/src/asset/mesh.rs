@@ -5,7 +5,7 @@ use subsurf_scene::{AmbientTransfer, BoundingSphere, Mesh};
 use wgpu::{Buffer, BufferUsages, IndexFormat, RenderPass, VertexBufferLayout, VertexStepMode, vertex_attr_array};
 
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Tracked};
+use crate::gpu::{Gpu, Purpose, Tracked};
 
 /// Mesh on the device.
 #[derive(Debug)]
@@ -85,10 +85,11 @@ impl GpuMesh {
             return Err(Error::Unsupported { what: "buffers", need, have: limit });
         }
         let index_count = u32::try_from(3 * mesh.triangles.len());
-        let tangents = |tangents| gpu.buffer("tangents", bytemuck::cast_slice(tangents), BufferUsages::VERTEX);
+        let tangents =
+            |tangents| gpu.buffer(Purpose::Mesh, "tangents", bytemuck::cast_slice(tangents), BufferUsages::VERTEX);
         Ok(Self {
-            vertices: gpu.buffer("vertices", bytemuck::cast_slice(&vertices), BufferUsages::VERTEX),
-            indices: gpu.buffer("indices", bytemuck::cast_slice(&mesh.triangles), BufferUsages::INDEX),
+            vertices: gpu.buffer(Purpose::Mesh, "vertices", bytemuck::cast_slice(&vertices), BufferUsages::VERTEX),
+            indices: gpu.buffer(Purpose::Mesh, "indices", bytemuck::cast_slice(&mesh.triangles), BufferUsages::INDEX),
             tangents: known.tangents.map(tangents),
             index_count: index_count.map_err(|_| Error::Mesh("more than 2³² indices".to_owned()))?,
             points: known.points.into_iter().flatten().max().map_or(0, |largest| *largest as usize + 1),

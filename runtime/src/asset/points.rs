@@ -8,7 +8,7 @@ use wgpu::{Buffer, TextureFormat};
 
 use super::mesh::GpuMesh;
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked, array_size};
+use crate::gpu::{Gpu, Purpose, Surface2d, TextureSpec, Tracked, array_size};
 
 /// Points of a mesh on the device, and irradiance and exitance at them.
 #[derive(Debug)]
@@ -35,13 +35,20 @@ impl GpuPoints {
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no textures of that size.
     pub fn upload(gpu: &Gpu, surface: &SurfacePoints) -> Result<Self> {
-        let table = |label, len, format, bytes: &[u8]| gpu.filled(&TextureSpec::array(label, len, format), bytes);
-        let target =
-            |label| gpu.texture(&TextureSpec::target(label, array_size(surface.len()), gpu.target_texture_format()));
+        let purpose = Purpose::Mesh;
+        let table = |label, len, format, bytes: &[u8]| {
+            gpu.filled(&TextureSpec { purpose, ..TextureSpec::array(label, len, format) }, bytes)
+        };
+        let target = |label| {
+            gpu.texture(&TextureSpec {
+                purpose,
+                ..TextureSpec::target(label, array_size(surface.len()), gpu.target_texture_format())
+            })
+        };
         let count = surface.len();
         let float = TextureFormat::Rgba32Float;
         Ok(Self {
-            grid: gpu.uniform("grid", &uniform::PointGrid::new(surface)),
+            grid: gpu.uniform(purpose, "grid", &uniform::PointGrid::new(surface)),
             positions: table("positions", count, float, bytemuck::cast_slice(&surface.positions))?,
             normals: table("normals", count, float, bytemuck::cast_slice(&surface.normals))?,
             visibilities: table("visibilities", count, float, bytemuck::cast_slice(&surface.visibilities))?,

@@ -7,7 +7,7 @@ use wgpu::Buffer;
 
 use super::patch_layers::PatchLayers;
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Tracked};
+use crate::gpu::{Gpu, Purpose, Tracked};
 
 /// Separable material on the device: coefficients c_l and albedo over the patch, and blocks of the cascade of Gaussians.
 #[derive(Debug)]
@@ -35,9 +35,12 @@ impl SeparableMaterial {
             header: *basis.header(),
             terms,
             layers: PatchLayers::upload(gpu, basis.header(), layers.collect())?,
-            transmission: gpu.uniform("transmission", &uniform::Transmission::new(basis)),
+            transmission: gpu.uniform(Purpose::Material, "transmission", &uniform::Transmission::new(basis)),
             narrowest_pixels: basis.sigmas().first().copied().unwrap_or(1.0),
-            stages: stages.iter().map(|axes| axes.map(|block| gpu.uniform("stage", &block))).collect(),
+            stages: stages
+                .iter()
+                .map(|axes| axes.map(|block| gpu.uniform(Purpose::Material, "stage", &block)))
+                .collect(),
         })
     }
 

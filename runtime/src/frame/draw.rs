@@ -10,7 +10,7 @@ use super::renderer::Renderer;
 use crate::asset::Material;
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, attachment};
-use crate::technique::{Attachments, Group, Lap, OBJECT_STRIDE, group_number};
+use crate::technique::{Attachments, Group, Lap, OBJECT_STRIDE, Viewport, group_number};
 
 /// Object of the input in a frame.
 #[derive(Clone, Copy, Debug)]
@@ -94,7 +94,7 @@ impl Renderer {
             return Err(Error::Usage(reason.to_owned()));
         }
         lights.record(encoder, self.tsm.of(plan), seen.block.lights, &common.object, draws);
-        lap("shadow maps", encoder);
+        lap(self.tsm.of(plan).name(), encoder);
 
         // Materials with maps of their own come one after the other, each with its share of the picture.
         let last = slots.iter().rposition(|slot| slot.bounds.is_some());
@@ -118,11 +118,11 @@ impl Renderer {
                     load: if is_first { target.depth_ops.load } else { LoadOp::Load },
                     store: if is_last { target.depth_ops.store } else { StoreOp::Store },
                 },
-                viewport: Some((target.origin, plan.size)),
+                viewport: Some(Viewport::at(target.origin, plan.size)),
             };
             let (pass, material) = slot.bindings.shade();
             pass.record(encoder, &attachments, [&slot.scene, material], &common.object, group.draws());
-            lap("shade", encoder);
+            lap(pass.name(), encoder);
             is_first = false;
         }
         Ok(())

@@ -7,6 +7,7 @@ mod picture;
 mod plan;
 mod prepare;
 mod renderer;
+mod timed;
 
 pub(crate) use draw::Placed;
 pub use input::{Input, Object, Target};
@@ -15,3 +16,4 @@ pub use picture::PictureTarget;
 pub use plan::Plan;
 pub use prepare::Frame;
 pub use renderer::Renderer;
+pub use timed::PassTimes;

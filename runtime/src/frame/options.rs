@@ -21,6 +21,8 @@ pub struct RuntimeOptions {
     pub tone_mapping: bool,
     /// Texels to a side of what each light sees: a power of two, at least 128.
     pub light_texels: u32,
+    /// Most bytes of the maps of separable blurs for each pixel of the picture, more than 0: maps become coarser until they keep to them.
+    pub map_bytes_per_pixel: f32,
     /// Most objects of a frame.
     pub objects: u32,
     /// Filtering and sampling of BTFs.
@@ -36,6 +38,7 @@ impl Default for RuntimeOptions {
             depth: DepthFormat { format: DEPTH, is_reversed: false },
             tone_mapping: true,
             light_texels: 512,
+            map_bytes_per_pixel: 8.75,
             objects: 16,
             btf: BtfOptions::default(),
         }

@@ -1,15 +1,13 @@
-//! Pictures that are read back, and frames that are timed: for tools, which may wait.
+//! Pictures that are read back: for tools, which may wait.
 
-use std::time::{Duration, Instant};
-
-use wgpu::{CommandEncoder, CommandEncoderDescriptor, LoadOp, TextureView};
+use wgpu::{CommandEncoderDescriptor, LoadOp, TextureView};
 
 use super::input::{Input, Target};
 use super::options::{BACKGROUND_COLOUR, RuntimeOptions};
 use super::prepare::Frame;
 use super::renderer::Renderer;
-use crate::error::{Error, Result};
-use crate::gpu::{ColourTarget, Gpu, Surface2d, TextureSpec};
+use crate::error::Result;
+use crate::gpu::{ColourTarget, Gpu, Purpose, Surface2d, TextureSpec};
 
 /// Picture on the device, with depth and samples of its own.
 #[derive(Debug)]
@@ -29,7 +27,7 @@ impl PictureTarget {
     pub fn new(gpu: &Gpu, size: [u32; 2], options: &RuntimeOptions) -> Result<Self> {
         let attachment = |label, format| {
             let plain = TextureSpec::attachment(label, size, format);
-            gpu.texture(&TextureSpec { samples: options.samples, ..plain })
+            gpu.texture(&TextureSpec { purpose: Purpose::Other, samples: options.samples, ..plain })
         };
         Ok(Self {
             colour: gpu.target(size, options.format)?,
@@ -99,41 +97,5 @@ impl Renderer {
             gpu.queue.submit([encoder.finish()]);
             Ok(())
         })?
-    }
-
-    /// Draws pass by pass, and gives the name of each and the time until the device was through with it. The sum is more than
-    /// a frame takes, for nothing overlaps.
-    ///
-    /// # Errors
-    /// As [`Renderer::draw_now`].
-    pub fn draw_timed(
-        &self,
-        gpu: &Gpu,
-        frame: &mut Frame,
-        input: &Input<'_>,
-        target: &Target<'_>,
-    ) -> Result<Vec<(&'static str, Duration)>> {
-        let mut times = Vec::new();
-        let begin = Instant::now();
-        self.gather(gpu, frame, input)?;
-        gpu.finish()?;
-        times.push(("update", begin.elapsed()));
-        let new = || gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-        let mut failed = Ok(());
-        gpu.checked(|| {
-            let mut begin = Instant::now();
-            let mut lap = |name, encoder: &mut CommandEncoder| {
-                gpu.queue.submit([std::mem::replace(encoder, new()).finish()]);
-                failed = gpu.finish().and(std::mem::replace(&mut failed, Ok(())));
-                times.push((name, begin.elapsed()));
-                begin = Instant::now();
-            };
-            let mut encoder = new();
-            self.record(gpu, &mut encoder, frame, input, target, &mut lap)?;
-            gpu.queue.submit([encoder.finish()]);
-            Ok::<(), Error>(())
-        })??;
-        failed?;
-        Ok(times)
     }
 }

@@ -1,11 +1,9 @@
 //! Sizes of the buffers of a frame, and the bytes that they take, before any of them is made.
 
-use subsurf_scene::View;
-
 use crate::error::{Error, Result};
 
 /// Sizes of everything that a frame allocates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
     /// Width and height of the picture in pixels.
     pub size: [u32; 2],
@@ -13,14 +11,17 @@ pub struct Plan {
     pub light_texels: u32,
     /// Number of lights with a view.
     pub lights: u32,
-    /// Pixels of the picture to a side of a texel of the maps that scatter light.
-    pub divisor: u32,
+    /// Pixels of the picture to a side of a texel of the maps that scatter light, at least 1.
+    pub divisor: f32,
+    /// The same for maps of separable blurs where objects cover the whole picture, at least as many: their maps lie over what
+    /// objects cover, and are coarser than `divisor` only where that is much.
+    pub blur_divisor: f32,
     /// Whether lights' views have coarser levels, from which splats are drawn.
     pub has_light_levels: bool,
 }
 
 /// Largest divisor whose maps still look like the scene.
-const LARGEST_DIVISOR: u32 = 4;
+const LARGEST_DIVISOR: f32 = 4.0;
 /// Fewest texels to a side of shadow maps that still look like the scene.
 pub(crate) const LEAST_LIGHT_TEXELS: u32 = 128;
 
@@ -28,14 +29,15 @@ impl Plan {
     /// Width and height of the maps in texels.
     #[must_use]
     pub fn map_size(&self) -> [u32; 2] {
-        self.size.map(|side| side.div_ceil(self.divisor).max(1))
+        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "less than the picture has")]
+        self.size.map(|side| ((side as f32 / self.divisor).ceil() as u32).clamp(1, side.max(1)))
     }
 
-    /// Texels of the maps that a length spans which is as long as it is far from the eye.
-    pub(crate) fn texels_per_tangent(&self, view: &View) -> f32 {
-        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-        let height = self.map_size()[1] as f32;
-        0.5 * height * view.focal().y
+    /// Width and height of the maps of separable blurs in texels.
+    #[must_use]
+    pub fn blur_size(&self) -> [u32; 2] {
+        Self { divisor: self.divisor.max(self.blur_divisor), ..*self }.map_size()
     }
 
     /// Mipmap levels of lights' views.
@@ -55,7 +57,9 @@ impl Plan {
             return Some(Self { light_texels: self.light_texels / 2, ..self });
         }
         if self.divisor < LARGEST_DIVISOR {
-            return Some(Self { divisor: self.divisor + 1, ..self });
+            let coarser = |divisor: f32| divisor.max((divisor + 0.5).min(LARGEST_DIVISOR));
+            let (divisor, blur_divisor) = (coarser(self.divisor), coarser(self.blur_divisor));
+            return Some(Self { divisor, blur_divisor, ..self });
         }
         let light_texels = self.light_texels / 2;
         (light_texels >= LEAST_LIGHT_TEXELS).then_some(Self { light_texels, ..self })
@@ -86,7 +90,14 @@ mod tests {
 
     #[test]
     fn plans_shrink_until_they_fit_or_nothing_is_left() {
-        let plan = Plan { size: [1280, 720], light_texels: 512, lights: 1, divisor: 1, has_light_levels: false };
+        let plan = Plan {
+            size: [1280, 720],
+            light_texels: 512,
+            lights: 1,
+            divisor: 1.0,
+            blur_divisor: 1.0,
+            has_light_levels: false,
+        };
         let bytes = |plan: &Plan| u64::from(plan.light_texels).pow(2) * 16 + u64::from(plan.map_size()[0]) * 720;
         assert_eq!(plan.within(None, 0, bytes).unwrap(), plan);
         assert_eq!(plan.within(Some(1 << 30), 0, bytes).unwrap(), plan);

@@ -84,11 +84,13 @@ impl Renderer {
         }
         #[allow(clippy::cast_possible_truncation, reason = "a handful")]
         let lights = input.lighting.lights.len().clamp(1, MAX_LIGHTS) as u32;
+        let divisor = self.divisor(input, size);
         let plan = Plan {
             size,
             light_texels: self.options.light_texels.min(largest_tile(gpu, lights)),
             lights,
-            divisor: self.divisor(input, size),
+            divisor,
+            blur_divisor: self.blur_divisor(&materials, divisor),
             has_light_levels: materials.iter().any(|material| matches!(material, Material::Splat(_))),
         };
         let bytes = |plan: &Plan| {
@@ -118,17 +120,19 @@ impl Renderer {
 
     /// Bytes of the maps of some materials.
     fn map_bytes(&self, materials: &[&Material], plan: &Plan) -> u64 {
-        let mut terms: Vec<usize> = Vec::new();
-        let mut splats = false;
-        for material in materials {
-            match material {
-                Material::Separable(material) if !terms.contains(&material.terms()) => terms.push(material.terms()),
-                Material::Splat(_) => splats = true,
-                Material::Separable(_) | Material::Gather(_) | Material::Btf(..) => {}
-            }
-        }
-        let of_terms = terms.into_iter().map(|terms| separable::Maps::bytes_of(plan, &self.options, terms));
+        let of_terms = terms_of(materials).into_iter();
+        let of_terms = of_terms.map(|terms| separable::Maps::bytes_of(plan.blur_size(), terms, &self.options));
+        let splats = materials.iter().any(|material| matches!(material, Material::Splat(_)));
         of_terms.sum::<u64>() + if splats { splat::Maps::bytes_of(plan, &self.options) } else { 0 }
+    }
+
+    /// Pixels of the picture to a side of a texel of the maps of separable blurs, with which all of them keep to their bytes for each
+    /// pixel.
+    fn blur_divisor(&self, materials: &[&Material], divisor: f32) -> f32 {
+        let texels = terms_of(materials).into_iter();
+        let bytes: u64 = texels.map(|terms| separable::Maps::bytes_of([1, 1], terms, &self.options)).sum();
+        #[allow(clippy::cast_precision_loss, reason = "a few dozen")]
+        (bytes as f32 / self.options.map_bytes_per_pixel).sqrt().max(divisor)
     }
 
     /// Binds a material, number `slot` of the frame, to the maps of its technique.
@@ -162,7 +166,7 @@ impl Renderer {
     }
 
     /// Pixels of the picture to a side of a texel of the maps: as few as any object needs.
-    fn divisor(&self, input: &Input<'_>, size: [u32; 2]) -> u32 {
+    fn divisor(&self, input: &Input<'_>, size: [u32; 2]) -> f32 {
         let (view, light_texels) = (&input.view, self.options.light_texels);
         let bounds: Vec<_> = input.objects.iter().map(super::input::Object::bounds).collect();
         let radius_mm =
@@ -179,8 +183,21 @@ impl Renderer {
                 Material::Gather(_) | Material::Btf(..) => None,
             }
         });
-        divisors.min().unwrap_or(1)
+        divisors.reduce(f32::min).unwrap_or(1.0)
     }
+}
+
+/// Numbers L of the separable materials among some, each once.
+fn terms_of(materials: &[&Material]) -> Vec<usize> {
+    let mut all = Vec::new();
+    for material in materials {
+        if let Material::Separable(material) = material
+            && !all.contains(&material.terms())
+        {
+            all.push(material.terms());
+        }
+    }
+    all
 }
 
 /// Most texels to a side of so many tiles in one row.
@@ -194,11 +211,5 @@ impl Frame {
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
-    }
-
-    /// Bytes on the device of what lights see.
-    #[must_use]
-    pub fn light_view_bytes(&self) -> u64 {
-        self.lights.bytes()
     }
 }

@@ -51,12 +51,15 @@ impl Renderer {
     /// [`Error::Usage`] if an option is out of range; [`Error::Unsupported`] if it is beyond the device; [`Error::Device`] if
     /// the driver refuses a pass.
     pub fn new(gpu: &Gpu, options: RuntimeOptions) -> Result<Self> {
-        let RuntimeOptions { light_texels, objects, samples, depth, .. } = options;
+        let RuntimeOptions { light_texels, map_bytes_per_pixel, objects, samples, depth, .. } = options;
         let limits = gpu.device.limits();
         if !light_texels.is_power_of_two() || light_texels < LEAST_LIGHT_TEXELS {
             return Err(Error::Usage(format!(
                 "light_texels is {light_texels}; it must be a power of two, at least {LEAST_LIGHT_TEXELS}"
             )));
+        }
+        if map_bytes_per_pixel.is_nan() || map_bytes_per_pixel <= 0.0 {
+            return Err(Error::Usage(format!("map_bytes_per_pixel is {map_bytes_per_pixel}; it must be more than 0")));
         }
         if objects == 0 {
             return Err(Error::Usage("objects is 0: a frame needs room for one at least".to_owned()));

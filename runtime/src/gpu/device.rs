@@ -15,6 +15,9 @@ use super::backend::{Backend, adapters, instance, ready};
 use super::ledger::Ledger;
 use crate::error::{Error, Result};
 
+/// What timing passes takes. A device that has it is opened with it; none needs it.
+pub(crate) const TIMESTAMPS: Features = Features::TIMESTAMP_QUERY.union(Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
+
 /// Device and queue, within the limits of WebGL2, and the ledger of what lives on the device.
 #[derive(Debug)]
 pub struct Gpu {
@@ -93,7 +96,7 @@ impl Gpu {
     fn of(adapter: &Adapter, backend: Backend) -> Result<Self> {
         let request = adapter.request_device(&DeviceDescriptor {
             label: Some("subsurf"),
-            required_features: Features::empty(),
+            required_features: adapter.features() & TIMESTAMPS,
             required_limits: Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits()),
             experimental_features: ExperimentalFeatures::disabled(),
             memory_hints: MemoryHints::MemoryUsage,

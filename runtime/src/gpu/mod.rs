@@ -10,9 +10,10 @@ mod read;
 mod resource;
 
 pub use backend::{Backend, devices};
+pub(crate) use device::TIMESTAMPS;
 pub use device::{Gpu, OnScreen};
-pub use ledger::Ledger;
 pub(crate) use ledger::Tracked;
+pub use ledger::{Ledger, Purpose};
 pub(crate) use pass::{FullscreenPass, QuadPass, Rows};
 pub(crate) use pipeline::{Drawing, Pipeline, Program, attachment};
 pub use read::ColourTarget;

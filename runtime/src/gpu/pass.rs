@@ -21,6 +21,11 @@ impl FullscreenPass {
         Ok(Self(Pipeline::new(gpu, &program, Drawing::default())?))
     }
 
+    /// Name of the pass.
+    pub(crate) fn name(&self) -> &'static str {
+        self.0.name
+    }
+
     /// Binds resources, in order, to bind group number `group`.
     pub(crate) fn bind(&self, gpu: &Gpu, group: usize, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
         self.0.bind(gpu, group, resources)
@@ -95,6 +100,11 @@ impl QuadPass {
         let program = Program { variant, constants: &[], targets: &[target] };
         let drawing = Drawing { topology: PrimitiveTopology::TriangleStrip, blend, ..Default::default() };
         Ok(Self(Pipeline::new(gpu, &program, drawing)?))
+    }
+
+    /// Name of the pass.
+    pub(crate) fn name(&self) -> &'static str {
+        self.0.name
     }
 
     /// Binds resources, in order, to bind group number `group`.

@@ -17,6 +17,8 @@ use crate::error::Result;
 /// Render pipeline, and the layouts of its bind groups.
 #[derive(Debug)]
 pub(crate) struct Pipeline {
+    /// Name of the pass.
+    pub(crate) name: &'static str,
     pipeline: RenderPipeline,
     groups: Vec<BindGroupLayout>,
 }
@@ -90,7 +92,7 @@ impl Pipeline {
                 multiview_mask: None,
                 cache: None,
             });
-            Self { pipeline, groups }
+            Self { name: pass.name(), pipeline, groups }
         })
     }
 

@@ -2,9 +2,10 @@
 
 use bytemuck::Pod;
 use half::f16;
-use wgpu::{BufferUsages, CommandEncoderDescriptor, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture};
+use wgpu::{Buffer, BufferUsages, CommandEncoderDescriptor, TexelCopyBufferInfo, TexelCopyBufferLayout, Texture};
 
 use super::device::Gpu;
+use super::ledger::Purpose;
 use super::resource::{Surface2d, TextureSpec, extent};
 use crate::error::{Error, Result};
 
@@ -26,7 +27,9 @@ impl Gpu {
     /// # Errors
     /// [`Error::Unsupported`] if `size` is more than the device takes.
     pub fn target(&self, size: [u32; 2], format: wgpu::TextureFormat) -> Result<ColourTarget> {
-        Ok(ColourTarget(self.texture(&TextureSpec::target("picture", size, format))?))
+        Ok(ColourTarget(
+            self.texture(&TextureSpec { purpose: Purpose::Other, ..TextureSpec::target("picture", size, format) })?,
+        ))
     }
 
     /// Texels of a picture, row by row from the top, as they stand in it; the picture must have four bytes to a texel.
@@ -73,7 +76,7 @@ impl Gpu {
                 mapped_at_creation: false,
             })
         })?;
-        let buffer = self.ledger().enter(buffer, bytes);
+        let buffer = self.ledger().enter(Purpose::Other, buffer, bytes);
         self.checked(|| {
             let mut encoder = self.device.create_command_encoder(&CommandEncoderDescriptor::default());
             let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
@@ -83,6 +86,14 @@ impl Gpu {
             encoder.copy_texture_to_buffer(from, to, extent(size, 1));
             self.queue.submit([encoder.finish()]);
         })?;
+        let bytes: Vec<u8> = self.read_buffer(&buffer)?;
+        let rows = bytes.chunks(row as usize).map(|bytes| &bytes[..(width * texel) as usize]);
+        texels.extend(rows.flat_map(bytemuck::pod_collect_to_vec::<u8, T>));
+        Ok(())
+    }
+
+    /// Contents of a buffer that can be mapped, once the device has done everything.
+    pub(crate) fn read_buffer<T: Pod>(&self, buffer: &Buffer) -> Result<Vec<T>> {
         let (sender, receiver) = std::sync::mpsc::channel();
         buffer.map_async(wgpu::MapMode::Read, .., move |result| {
             // The receiver waits below; if it is gone, nobody wants the answer.
@@ -92,9 +103,7 @@ impl Gpu {
         let mapped = receiver.recv().map_err(|_| Error::Device("the device never answered".to_owned()))?;
         mapped.map_err(|error| Error::Device(error.to_string()))?;
         let bytes = buffer.get_mapped_range(..).map_err(|error| Error::Device(error.to_string()))?;
-        let rows = bytes.chunks(row as usize).map(|bytes| &bytes[..(width * texel) as usize]);
-        texels.extend(rows.flat_map(bytemuck::pod_collect_to_vec::<u8, T>));
-        Ok(())
+        Ok(bytemuck::pod_collect_to_vec(&bytes))
     }
 
     /// Linear rgb of every texel of a target of [`Gpu::map_format`], half floats or their bits, row by row.

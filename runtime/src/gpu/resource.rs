@@ -8,7 +8,7 @@ use wgpu::{
 };
 
 use super::device::Gpu;
-use super::ledger::Tracked;
+use super::ledger::{Purpose, Tracked};
 use crate::error::{Error, Result};
 
 /// Format of depth.
@@ -20,6 +20,8 @@ pub(crate) const HALF: TextureFormat = TextureFormat::Rgba16Float;
 pub(crate) struct TextureSpec {
     /// Name for debuggers.
     pub(crate) label: &'static str,
+    /// What it is entered into the ledger for.
+    pub(crate) purpose: Purpose,
     /// Width and height in texels.
     pub(crate) size: [u32; 2],
     /// Layers; more than one make an array.
@@ -33,10 +35,11 @@ pub(crate) struct TextureSpec {
 }
 
 impl TextureSpec {
-    /// Table: written from the CPU, read by shaders.
+    /// Table of a material: written from the CPU, read by shaders.
     pub(crate) fn table(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
         Self {
             label,
+            purpose: Purpose::Material,
             size,
             layers: 1,
             levels: 1,
@@ -46,15 +49,15 @@ impl TextureSpec {
         }
     }
 
-    /// Target: written and read by shaders, and read back.
+    /// Target of a frame: written and read by shaders, and read back.
     pub(crate) fn target(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
-        Self { usage, ..Self::table(label, size, format) }
+        Self { usage, purpose: Purpose::Frame, ..Self::table(label, size, format) }
     }
 
-    /// Attachment: only drawn to.
+    /// Attachment of a frame: only drawn to.
     pub(crate) fn attachment(label: &'static str, size: [u32; 2], format: TextureFormat) -> Self {
-        Self { usage: TextureUsages::RENDER_ATTACHMENT, ..Self::table(label, size, format) }
+        Self { usage: TextureUsages::RENDER_ATTACHMENT, ..Self::target(label, size, format) }
     }
 
     /// Table of layers, at least as many as asked for.
@@ -146,7 +149,7 @@ impl Gpu {
             })
         })?;
         let view = texture.create_view(&TextureViewDescriptor::default());
-        Ok(Surface2d { texture: self.ledger().enter(texture, spec.bytes()), view })
+        Ok(Surface2d { texture: self.ledger().enter(spec.purpose, texture, spec.bytes()), view })
     }
 
     /// Fills the finest level of one layer from `bytes`, row by row; texels beyond the last byte stay as they are.
@@ -190,7 +193,13 @@ impl Gpu {
     ///
     /// Where the device is lost or full, the buffer is invalid, and the first pass that uses it says so:
     /// `create_buffer_init` would panic.
-    pub(crate) fn buffer(&self, label: &'static str, contents: &[u8], usage: BufferUsages) -> Tracked<Buffer> {
+    pub(crate) fn buffer(
+        &self,
+        purpose: Purpose,
+        label: &'static str,
+        contents: &[u8],
+        usage: BufferUsages,
+    ) -> Tracked<Buffer> {
         let bytes = contents.len() as u64;
         let mut buffer = None;
         let filled = self.checked(|| {
@@ -203,12 +212,12 @@ impl Gpu {
             self.queue.write_buffer(buffer, 0, contents);
         });
         debug_assert!(filled.is_ok() || contents.len().is_multiple_of(4), "{label}: {bytes} bytes");
-        self.ledger().enter(buffer.expect("made above, valid or not"), bytes)
+        self.ledger().enter(purpose, buffer.expect("made above, valid or not"), bytes)
     }
 
     /// Creates the buffer of a uniform block.
-    pub(crate) fn uniform<T: Pod>(&self, label: &'static str, block: &T) -> Tracked<Buffer> {
-        self.buffer(label, bytemuck::bytes_of(block), BufferUsages::UNIFORM | BufferUsages::COPY_DST)
+    pub(crate) fn uniform<T: Pod>(&self, purpose: Purpose, label: &'static str, block: &T) -> Tracked<Buffer> {
+        self.buffer(purpose, label, bytemuck::bytes_of(block), BufferUsages::UNIFORM | BufferUsages::COPY_DST)
     }
 }
 

@@ -6,6 +6,7 @@ use subsurf_scene::BoundingSphere;
 use subsurf_shaders::uniform::{self, Upsampling};
 use wgpu::{BindGroup, CommandEncoder};
 
+use super::area::MapArea;
 use super::mesh_pass::{Draw, MeshPass};
 use crate::error::Result;
 use crate::frame::{Input, Placed, Plan};
@@ -90,14 +91,9 @@ impl<'a> Group<'a> {
         (self.bounds.centre_mm - self.input.view.eye_mm()).dot(self.input.view.forward())
     }
 
-    /// Block of how pixels of the target lie on the maps.
-    pub(crate) fn upsampling(&self) -> Upsampling {
-        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-        let [maps, picture, origin] =
-            [self.plan.map_size(), self.plan.size, self.origin].map(|size| size.map(|side| side as f32));
-        // Surfaces that are not seen at too flat an angle are the same two texels away.
-        let near_mm = 2.0 * self.middle_mm().max(1e-3) / self.plan.texels_per_tangent(&self.input.view);
-        Upsampling { texels_per_pixel: [maps[0] / picture[0], maps[1] / picture[1]], origin, near_mm, pad: [0; 3] }
+    /// Block of how pixels of the target lie on maps over an area.
+    pub(crate) fn upsampling(&self, area: &MapArea) -> Upsampling {
+        area.upsampling(&self.input.view, self.plan.size, self.origin, self.middle_mm())
     }
 }
 

@@ -12,7 +12,7 @@ use super::mesh_pass::MeshPass;
 use crate::asset::BtfMaterial;
 use crate::error::{Error, Result};
 use crate::frame::RuntimeOptions;
-use crate::gpu::{Gpu, Tracked};
+use crate::gpu::{Gpu, Purpose, Tracked};
 
 /// Filtering and sampling of BTFs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,7 +73,7 @@ impl Passes {
                 BtfLayout::Images => 4,
             };
         let block = material.textures().get(number).ok_or_else(missing)?.drawn(self.options.filtering, samples);
-        let texture = gpu.uniform("BTF texture", &block);
+        let texture = gpu.uniform(Purpose::Frame, "BTF texture", &block);
         let [of_material, pixels] = material.resources();
         let shade = self.shade.bind(gpu, 1, &[of_material, pixels, texture.as_entire_binding()])?;
         Ok(Box::new(Bound { passes: self.clone(), texture, shade }))

@@ -7,7 +7,7 @@ use wgpu::{BindingResource, CommandEncoderDescriptor, TextureFormat};
 
 use crate::asset::BtfMaterial;
 use crate::error::Result;
-use crate::gpu::{FullscreenPass, Gpu, Rows, Surface2d, TextureSpec, array_size};
+use crate::gpu::{FullscreenPass, Gpu, Purpose, Rows, Surface2d, TextureSpec, array_size};
 
 /// Texel and directions for which a BTF is evaluated and sampled. Directions are unit vectors: x along the rows, y down the columns, z the normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,13 +65,15 @@ impl BtfQueries {
         let lights = queries.iter().map(|q| [q.light[0], q.light[1], q.light[2], halves(q)[0]]);
         let views = queries.iter().map(|q| [q.view[0], q.view[1], q.view[2], halves(q)[1]]);
         let randoms = queries.iter().map(|q| [q.random[0], q.random[1], 0.0, 0.0]);
+        let purpose = Purpose::Other;
         let list = |label, values: Vec<[f32; 4]>| {
-            let spec = TextureSpec::array(label, queries.len(), TextureFormat::Rgba32Float);
+            let plain = TextureSpec::array(label, queries.len(), TextureFormat::Rgba32Float);
+            let spec = TextureSpec { purpose, ..plain };
             gpu.filled(&spec, bytemuck::cast_slice(&values))
         };
         let lists =
             [list("lights", lights.collect())?, list("views", views.collect())?, list("randoms", randoms.collect())?];
-        let target = |label| gpu.texture(&TextureSpec::target(label, size, BITS));
+        let target = |label| gpu.texture(&TextureSpec { purpose, ..TextureSpec::target(label, size, BITS) });
         let answers = [target("values")?, target("samples")?];
         let of_lists = lists.each_ref().map(|list| BindingResource::TextureView(&list.view));
         let groups = [self.pass.bind(gpu, 0, &of_lists)?, self.pass.bind(gpu, 1, &material.resources())?];

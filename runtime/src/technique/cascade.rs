@@ -5,11 +5,12 @@ use std::sync::Arc;
 use subsurf_shaders::passes::{Choice, Pass};
 use wgpu::{BindGroup, BindingResource, CommandEncoder, TextureView};
 
+use super::bindings::Lap;
 use crate::asset::SeparableMaterial;
 use crate::error::Result;
 use crate::gpu::{FullscreenPass, Gpu, HALF, Rows, Surface2d, TextureSpec, layer_of, layers_of};
 
-/// L maps in one array.
+/// L maps in one texture: layers of an array, a plain one if L = 1.
 #[derive(Debug)]
 pub(crate) struct Maps {
     surface: Surface2d,
@@ -20,143 +21,172 @@ pub(crate) struct Maps {
 }
 
 impl Maps {
-    pub(crate) fn new(gpu: &Gpu, label: &'static str, size: [u32; 2], terms: usize) -> Result<Self> {
-        let count = u32::try_from(terms).unwrap_or(u32::MAX);
-        let target = TextureSpec::target(label, size, gpu.target_texture_format());
-        let surface = gpu
-            .texture(&TextureSpec { usage: target.usage, ..TextureSpec::layered(label, size, count, target.format) })?;
-        let layers = (0..count).map(|layer| layer_of(&surface, layer)).collect();
-        Ok(Self { all: layers_of(&surface), layers, surface })
+    fn new(gpu: &Gpu, label: &'static str, size: [u32; 2], terms: usize) -> Result<Self> {
+        let spec = Self::spec(label, size, terms, gpu.target_texture_format());
+        let surface = gpu.texture(&spec)?;
+        let layers = (0..spec.layers).map(|layer| layer_of(&surface, layer)).collect();
+        let all = if spec.layers == 1 { surface.view.clone() } else { layers_of(&surface) };
+        Ok(Self { all, layers, surface })
     }
 
-    /// Bytes on the device of L maps of `size`.
-    pub(crate) fn bytes_of(size: [u32; 2], terms: usize) -> u64 {
-        let count = u32::try_from(terms).unwrap_or(u32::MAX);
-        TextureSpec::layered("", size, count, HALF).bytes()
-    }
-
-    pub(crate) fn bytes(&self) -> u64 {
-        self.surface.texture.bytes()
+    fn spec(label: &'static str, size: [u32; 2], terms: usize, format: wgpu::TextureFormat) -> TextureSpec {
+        let layers = u32::try_from(terms).unwrap_or(u32::MAX);
+        TextureSpec { layers, ..TextureSpec::target(label, size, format) }
     }
 }
 
 /// Passes of the cascade, for maps that lie on a patch or on the screen.
 #[derive(Debug)]
 pub(crate) struct BlurPasses {
-    rows: FullscreenPass,
-    columns: FullscreenPass,
+    /// Blur along rows, or along columns.
+    blur: FullscreenPass,
+    /// Sum over the stages so far.
+    sum: FullscreenPass,
 }
 
 impl BlurPasses {
-    /// Compiles the passes along rows and along columns for L = `terms`.
-    pub(crate) fn new(gpu: &Gpu, [rows, columns]: [&'static Pass; 2], terms: usize) -> Result<Self> {
-        let targets = vec![gpu.target_texture_format(); 2 * terms];
-        Ok(Self {
-            rows: FullscreenPass::new(gpu, rows.with(Choice::Terms(terms)), &targets[..terms])?,
-            columns: FullscreenPass::new(gpu, columns.with(Choice::Terms(terms)), &targets)?,
-        })
+    /// Compiles the passes that blur and that sum, for L = `terms`.
+    pub(crate) fn new(gpu: &Gpu, [blur, sum]: [&'static Pass; 2], terms: usize) -> Result<Self> {
+        let targets = vec![gpu.target_texture_format(); terms];
+        let pass = |pass: &'static Pass| FullscreenPass::new(gpu, pass.with(Choice::Terms(terms)), &targets);
+        Ok(Self { blur: pass(blur)?, sum: pass(sum)? })
     }
 }
 
 /// Maps of one size that a cascade blurs.
+///
+/// Each stage blurs the first maps along rows into a free texture and back along columns, then writes their sum with that of the stages
+/// before into the free one, which leaves the other free. The last stage writes its sum over the first maps.
 #[derive(Debug)]
 pub(crate) struct CascadeMaps {
-    size: [u32; 2],
-    /// Maps c_l E, blurred in place stage by stage; and the same between rows and columns.
-    pub(crate) irradiance: [Maps; 2],
-    /// Sums S_m of the stages before and with this one, by turns.
-    sums: [Maps; 2],
+    /// Maps c_l E, blurred stage by stage; in the end the sums S_m.
+    blurred: Maps,
+    /// By turns: what is between rows and columns, and the sums of the stages before.
+    turns: [Maps; 2],
 }
 
 impl CascadeMaps {
     pub(crate) fn new(gpu: &Gpu, size: [u32; 2], terms: usize) -> Result<Self> {
         let map = |label| Maps::new(gpu, label, size, terms);
         Ok(Self {
-            size,
-            irradiance: [map("weighted irradiance")?, map("irradiance blurred along rows")?],
-            sums: [map("sums of stages")?, map("sums of stages, by turns")?],
+            blurred: map("weighted irradiance")?,
+            turns: [map("blurred along rows, or sums of stages")?, map("sums of stages, or blurred along rows")?],
         })
     }
 
     /// Bytes on the device.
     pub(crate) fn bytes_of(size: [u32; 2], terms: usize) -> u64 {
-        4 * Maps::bytes_of(size, terms)
-    }
-}
-
-/// Bind groups of the passes that blur maps by the Gaussians of a material.
-#[derive(Debug)]
-pub(crate) struct Cascade {
-    pub(crate) maps: Arc<CascadeMaps>,
-    groups: Vec<[BindGroup; 2]>,
-}
-
-impl Cascade {
-    /// Binds a material to maps. `domain` is the block of the screen, or a sampler that wraps as the patch does.
-    pub(crate) fn new(
-        gpu: &Gpu,
-        passes: &BlurPasses,
-        material: &SeparableMaterial,
-        domain: &BindingResource<'_>,
-        maps: &Arc<CascadeMaps>,
-    ) -> Result<Self> {
-        let CascadeMaps { irradiance, sums, .. } = &**maps;
-        let texture = BindingResource::TextureView;
-        let groups = material.stages().iter().enumerate().map(|(a, [rows, columns])| {
-            let of_rows = [rows.as_entire_binding(), domain.clone(), texture(&irradiance[0].all)];
-            let so_far = texture(&sums[(a + 1) % 2].all);
-            let of_columns = [columns.as_entire_binding(), domain.clone(), texture(&irradiance[1].all), so_far];
-            Ok([passes.rows.bind(gpu, 0, &of_rows)?, passes.columns.bind(gpu, 0, &of_columns)?])
-        });
-        let groups = groups.collect::<Result<_>>()?;
-        Ok(Self { maps: maps.clone(), groups })
+        3 * Maps::spec("", size, terms, HALF).bytes()
     }
 
-    pub(crate) fn bytes(&self) -> u64 {
-        self.maps.irradiance.iter().chain(&self.maps.sums).map(Maps::bytes).sum()
+    /// Maps c_l E before the first stage.
+    pub(crate) fn irradiance(&self) -> &Maps {
+        &self.blurred
     }
 
     /// Sums S_m before the first stage: light of the pass that makes the maps, on the screen.
     pub(crate) fn begun_sums(&self) -> &Maps {
-        &self.maps.sums[1]
+        self.sums_before(0)
     }
 
-    /// Sums S_m after the last stage.
+    /// Sums S_m after the last stage, where the last pass draws them.
     pub(crate) fn sums(&self) -> &Maps {
-        &self.maps.sums[(self.groups.len() + 1) % 2]
+        &self.blurred
     }
 
-    /// Sums S_m before the last stage.
-    pub(crate) fn sums_before_last(&self) -> &Maps {
-        &self.maps.sums[self.groups.len() % 2]
+    /// Maps between rows and columns of a stage.
+    pub(crate) fn between(&self, stage: usize) -> &Maps {
+        &self.turns[stage % 2]
     }
 
-    /// Records all stages, from the maps to the sums; with `ends`, other passes take the place of the first and the last.
-    pub(crate) fn record(&self, encoder: &mut CommandEncoder, passes: &BlurPasses, ends: Option<Ends<'_>>) {
-        let CascadeMaps { size, irradiance: [maps, between], sums } = &*self.maps;
-        let all = Rows::all(*size);
-        let last = self.groups.len() - 1;
-        for (a, [of_rows, of_columns]) in self.groups.iter().enumerate() {
-            let to: Vec<&TextureView> = between.layers.iter().collect();
-            match ends {
-                Some(Ends { first: (rows, of_rows), .. }) if a == 0 => rows.record(encoder, &to, &[of_rows], all),
-                _ => passes.rows.record(encoder, &to, &[of_rows], all),
-            }
-            let to: Vec<&TextureView> = maps.layers.iter().chain(&sums[a % 2].layers).collect();
-            match ends {
-                Some(Ends { last: (columns, of_columns), target, .. }) if a == last => {
-                    columns.record(encoder, &[target], &[of_columns], all);
-                }
-                _ => passes.columns.record(encoder, &to, &[of_columns], all),
-            }
-        }
+    /// Sums S_m before a stage.
+    pub(crate) fn sums_before(&self, stage: usize) -> &Maps {
+        &self.turns[(stage + 1) % 2]
     }
 }
 
-/// Passes in place of the first along rows and the last along columns, with their bind groups and the last's target.
-#[derive(Clone, Copy)]
-pub(crate) struct Ends<'a> {
-    pub(crate) first: (&'a FullscreenPass, &'a BindGroup),
-    pub(crate) last: (&'a FullscreenPass, &'a BindGroup),
-    pub(crate) target: &'a TextureView,
+/// Bind groups of the passes that blur maps by the Gaussians of a material, and of the pass that ends them.
+#[derive(Debug)]
+pub(crate) struct Cascade {
+    pub(crate) maps: Arc<CascadeMaps>,
+    stages: Vec<Stage>,
+    last: BindGroup,
+}
+
+/// Bind groups of a stage.
+#[derive(Debug)]
+struct Stage {
+    rows: BindGroup,
+    columns: BindGroup,
+    sum: BindGroup,
+}
+
+impl Cascade {
+    /// Binds a material to maps. `domain` is the block of the screen, or a sampler that wraps as the patch does; `last` blurs along
+    /// columns and adds up, and is bound to `more` besides.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        passes: &BlurPasses,
+        (last, more): (&FullscreenPass, Option<BindingResource<'_>>),
+        material: &SeparableMaterial,
+        domain: &BindingResource<'_>,
+        maps: &Arc<CascadeMaps>,
+    ) -> Result<Self> {
+        let texture = BindingResource::TextureView;
+        let blurred = texture(&maps.blurred.all);
+        let stages = material.stages().iter().enumerate().map(|(a, [rows, columns])| {
+            let (between, before) = (texture(&maps.between(a).all), texture(&maps.sums_before(a).all));
+            let [rows, columns] = [rows, columns].map(|block| block.as_entire_binding());
+            Ok(Stage {
+                rows: passes.blur.bind(gpu, 0, &[rows, domain.clone(), blurred.clone()])?,
+                columns: passes.blur.bind(gpu, 0, &[columns.clone(), domain.clone(), between])?,
+                sum: passes.sum.bind(gpu, 0, &[columns, domain.clone(), blurred.clone(), before])?,
+            })
+        });
+        let stages: Vec<Stage> = stages.collect::<Result<_>>()?;
+        let a = stages.len() - 1;
+        let [_, columns] = &material.stages()[a];
+        let (between, before) = (texture(&maps.between(a).all), texture(&maps.sums_before(a).all));
+        let of_last = [columns.as_entire_binding(), domain.clone(), between, before];
+        let of_last: Vec<_> = of_last.into_iter().chain(more).collect();
+        Ok(Self { maps: maps.clone(), last: last.bind(gpu, 0, &of_last)?, stages })
+    }
+
+    /// Bytes of the maps on the device.
+    pub(crate) fn bytes(&self) -> u64 {
+        let maps = [&self.maps.blurred, &self.maps.turns[0], &self.maps.turns[1]];
+        maps.iter().map(|maps| maps.surface.texture.bytes()).sum()
+    }
+
+    /// Records all stages over `size` texels of the maps: `last` draws to `targets` in the end. With `first`, another pass takes the place of the first along rows.
+    pub(crate) fn record(
+        &self,
+        encoder: &mut CommandEncoder,
+        size: [u32; 2],
+        passes: &BlurPasses,
+        first: Option<(&FullscreenPass, &BindGroup)>,
+        (last, targets): (&FullscreenPass, &[&TextureView]),
+        lap: Lap<'_>,
+    ) {
+        let all = Rows::all(size);
+        let mut draw = |pass: &FullscreenPass, group: &BindGroup, targets: &[&TextureView]| {
+            pass.record(encoder, targets, &[group], all);
+            lap(pass.name(), encoder);
+        };
+        for (a, stage) in self.stages.iter().enumerate() {
+            let [blurred, between] =
+                [&self.maps.blurred, self.maps.between(a)].map(|maps| maps.layers.iter().collect());
+            let (blurred, between): (Vec<_>, Vec<_>) = (blurred, between);
+            match first {
+                Some((pass, group)) if a == 0 => draw(pass, group, &between),
+                _ => draw(&passes.blur, &stage.rows, &between),
+            }
+            if a + 1 == self.stages.len() {
+                draw(last, &self.last, targets);
+            } else {
+                draw(&passes.blur, &stage.columns, &blurred);
+                draw(&passes.sum, &stage.sum, &between);
+            }
+        }
+    }
 }

@@ -10,7 +10,7 @@ use wgpu::{
 
 use super::mesh_pass::MeshPass;
 use crate::error::Result;
-use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked};
+use crate::gpu::{Gpu, Purpose, Surface2d, TextureSpec, Tracked};
 
 /// Distance of blocks of objects in their buffer, in bytes: what every device takes.
 pub(crate) const OBJECT_STRIDE: u32 = 256;
@@ -37,16 +37,19 @@ impl Common {
 
     /// Makes room for so many objects; `pass` is any over meshes.
     pub(crate) fn new(gpu: &Gpu, pass: &MeshPass, objects: u32) -> Result<Self> {
-        let spec = TextureSpec::table("reflections", REFLECTION_SIZE, TextureFormat::Rgba16Float);
+        let spec = TextureSpec {
+            purpose: Purpose::Frame,
+            ..TextureSpec::table("reflections", REFLECTION_SIZE, TextureFormat::Rgba16Float)
+        };
         let blocks = vec![0; objects as usize * OBJECT_STRIDE as usize];
-        let objects = gpu.buffer("objects", &blocks, BufferUsages::UNIFORM);
+        let objects = gpu.buffer(Purpose::Frame, "objects", &blocks, BufferUsages::UNIFORM);
         let one = BindingResource::Buffer(BufferBinding {
             buffer: &objects,
             offset: 0,
             size: BufferSize::new(size_of::<uniform::Object>() as u64),
         });
         Ok(Self {
-            scene: gpu.uniform("scene", &<uniform::Scene as bytemuck::Zeroable>::zeroed()),
+            scene: gpu.uniform(Purpose::Frame, "scene", &<uniform::Scene as bytemuck::Zeroable>::zeroed()),
             object: pass.bind(gpu, 2, &[one])?,
             objects,
             reflections: gpu.texture(&TextureSpec { levels: REFLECTION_LEVELS, ..spec })?,

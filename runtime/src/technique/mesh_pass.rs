@@ -53,8 +53,25 @@ pub(crate) struct Attachments<'a> {
     pub(crate) colours: &'a [Option<RenderPassColorAttachment<'a>>],
     pub(crate) depth: &'a TextureView,
     pub(crate) depth_ops: Operations<f32>,
-    /// First pixel and size of what is drawn; all if `None`.
-    pub(crate) viewport: Option<([u32; 2], [u32; 2])>,
+    /// Part of the targets that is drawn to; all if `None`.
+    pub(crate) viewport: Option<Viewport>,
+}
+
+/// Part of targets that a picture is drawn to.
+pub(crate) struct Viewport {
+    /// Texel of the target where the picture begins; it may lie to the left of it or above.
+    pub(crate) origin: [i64; 2],
+    /// Width and height of the picture.
+    pub(crate) size: [u32; 2],
+    /// First texel, width and height of what is drawn of it.
+    pub(crate) scissor: [[u32; 2]; 2],
+}
+
+impl Viewport {
+    /// All of a picture of some size, from a texel on.
+    pub(crate) fn at(origin: [u32; 2], size: [u32; 2]) -> Self {
+        Self { origin: origin.map(i64::from), size, scissor: [origin, size] }
+    }
 }
 
 /// Colour target that is cleared.
@@ -107,6 +124,11 @@ impl MeshPass {
         Ok(Self(Pipeline::new(gpu, program, drawing)?))
     }
 
+    /// Name of the pass.
+    pub(crate) fn name(&self) -> &'static str {
+        self.0.name
+    }
+
     /// Binds resources, in order, to bind group number `group`.
     pub(crate) fn bind(&self, gpu: &Gpu, group: usize, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
         self.0.bind(gpu, group, resources)
@@ -124,9 +146,9 @@ impl MeshPass {
         let depth = Some((attachments.depth, attachments.depth_ops));
         let mut pass = self.0.begin(encoder, attachments.colours, depth, &[first, second]);
         #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-        if let Some((origin, size)) = attachments.viewport {
-            let [x, y, width, height] = [origin[0], origin[1], size[0], size[1]];
+        if let Some(Viewport { origin: [x, y], size: [width, height], scissor }) = attachments.viewport {
             pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
+            let [[x, y], [width, height]] = scissor;
             pass.set_scissor_rect(x, y, width, height);
         }
         for (mesh, offset) in draws {

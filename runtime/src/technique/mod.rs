@@ -2,6 +2,7 @@
 //!
 //! A technique implements [`bindings::Bindings`]; `frame/renderer.rs` compiles it, and `frame/prepare.rs` binds its materials.
 
+mod area;
 mod bindings;
 pub(crate) mod btf;
 mod btf_query;
@@ -20,8 +21,8 @@ pub use btf::BtfOptions;
 pub use btf_query::{BtfAnswer, BtfQueries, BtfQuery};
 pub(crate) use common::{Common, OBJECT_STRIDE, reflection_sampler};
 pub use kind::Technique;
-pub(crate) use mesh_pass::Attachments;
 pub use mesh_pass::DepthFormat;
+pub(crate) use mesh_pass::{Attachments, Viewport};
 pub use patch::{
     Exitance, HomogeneousPatch, HomogeneousRenderer, PatchLight, PatchRenderer, Region, SeparablePatch,
     SeparableRenderer,

@@ -7,15 +7,16 @@ use subsurf_shaders::passes::{Choice, table};
 use subsurf_shaders::uniform::{ScreenDomain, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder};
 
+use super::area::MapArea;
 use super::bindings::{Bindings, Group, Lap};
 use super::cascade::{BlurPasses, Cascade, CascadeMaps};
 use super::common::Common;
-use super::mesh_pass::{Attachments, DepthFormat, MeshPass, cleared};
+use super::mesh_pass::{Attachments, DepthFormat, MeshPass, Viewport, cleared};
 use super::tsm::{FAR_MM, TranslucentShadowMaps};
 use crate::asset::SeparableMaterial;
 use crate::error::{Error, Result};
 use crate::frame::{Plan, RuntimeOptions};
-use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked};
+use crate::gpu::{FullscreenPass, Gpu, Purpose, Surface2d, TextureSpec, Tracked};
 
 /// Texels of the narrowest Gaussian, σ, at the middle of the scene: maps are made as coarse as that.
 const NARROWEST_TEXELS: f32 = 0.8;
@@ -26,6 +27,7 @@ pub(crate) struct Passes {
     depth: DepthFormat,
     gbuffer: MeshPass,
     blur: BlurPasses,
+    last: FullscreenPass,
     shade: MeshPass,
 }
 
@@ -47,28 +49,28 @@ struct Bound {
     gbuffer: [BindGroup; 2],
     shade: BindGroup,
     pitch_mm: f32,
+    /// Area of the maps in the last frame.
+    area: MapArea,
     /// What maps hold where nothing is seen.
     far: Color,
 }
 
 /// Pixels of the picture to a side of a texel of the maps, when a mm of the material covers `pixels_per_mm`.
-pub(crate) fn divisor(material: &SeparableMaterial, pixels_per_mm: f32) -> u32 {
+pub(crate) fn divisor(material: &SeparableMaterial, pixels_per_mm: f32) -> f32 {
     let narrowest = material.narrowest_pixels() * material.header().pitch_mm * pixels_per_mm;
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-    let divisor = (narrowest / NARROWEST_TEXELS).clamp(1.0, 4.0) as u32;
+    let divisor = (narrowest / NARROWEST_TEXELS).floor().clamp(1.0, 4.0);
     // Of what is no number nothing is left.
-    divisor.max(1)
+    divisor.max(1.0)
 }
 
 impl Maps {
-    /// Bytes on the device.
-    pub(crate) fn bytes_of(plan: &Plan, options: &RuntimeOptions, terms: usize) -> u64 {
-        let size = plan.map_size();
+    /// Bytes on the device of maps of so many texels.
+    pub(crate) fn bytes_of(size: [u32; 2], terms: usize, options: &RuntimeOptions) -> u64 {
         CascadeMaps::bytes_of(size, terms) + TextureSpec::attachment("", size, options.depth.format).bytes()
     }
 
     pub(crate) fn new(gpu: &Gpu, plan: &Plan, options: &RuntimeOptions, terms: usize) -> Result<Self> {
-        let size = plan.map_size();
+        let size = plan.blur_size();
         Ok(Self {
             cascade: Arc::new(CascadeMaps::new(gpu, size, terms)?),
             depth: gpu.texture(&TextureSpec::attachment("map depth", size, options.depth.format))?,
@@ -86,7 +88,8 @@ impl Passes {
         Ok(Self {
             depth: options.depth,
             gbuffer: MeshPass::new(gpu, table::SEPARABLE_GBUFFER.with(choice), &maps, options.depth)?,
-            blur: BlurPasses::new(gpu, [&table::BLUR_SCREEN_ROWS, &table::BLUR_SCREEN_COLUMNS], terms)?,
+            blur: BlurPasses::new(gpu, [&table::BLUR_SCREEN, &table::SUM_SCREEN], terms)?,
+            last: FullscreenPass::new(gpu, table::BLUR_SCREEN_LAST.with(choice), &maps[..terms])?,
             shade: MeshPass::picture(gpu, table::SHADE_SEPARABLE.with(choice), options)?,
         })
     }
@@ -100,9 +103,10 @@ impl Passes {
         lights: &TranslucentShadowMaps,
         maps: &Arc<Maps>,
     ) -> Result<Box<dyn Bindings>> {
-        let domain = gpu.uniform("screen", &ScreenDomain::default());
-        let cascade = Cascade::new(gpu, &self.blur, material, &domain.as_entire_binding(), &maps.cascade)?;
-        let upsampling = gpu.uniform("upsampling", &Upsampling::default());
+        let domain = gpu.uniform(Purpose::Frame, "screen", &ScreenDomain::default());
+        let last = (&self.last, None);
+        let cascade = Cascade::new(gpu, &self.blur, last, material, &domain.as_entire_binding(), &maps.cascade)?;
+        let upsampling = gpu.uniform(Purpose::Frame, "upsampling", &Upsampling::default());
         let texture = BindingResource::TextureView;
         let basis = [texture(&material.layers.all), BindingResource::Sampler(&material.layers.sampler)];
         let of_gbuffer = [
@@ -113,13 +117,14 @@ impl Passes {
             texture(lights.views()[2]),
         ];
         let of_scene = [common.scene.as_entire_binding(), texture(lights.views()[0])];
-        let sums = &cascade.sums().all;
+        let sums = &maps.cascade.sums().all;
         let of_shade = [basis[0].clone(), basis[1].clone(), upsampling.as_entire_binding(), texture(sums)];
         Ok(Box::new(Bound {
             gbuffer: [self.gbuffer.bind(gpu, 0, &of_scene)?, self.gbuffer.bind(gpu, 1, &of_gbuffer)?],
             shade: self.shade.bind(gpu, 1, &of_shade)?,
             far: gpu.clear_colour(Color { r: 0.0, g: 0.0, b: 0.0, a: FAR_MM }),
             pitch_mm: material.header().pitch_mm,
+            area: MapArea::default(),
             maps: maps.clone(),
             cascade,
             domain,
@@ -132,33 +137,41 @@ impl Passes {
 impl Bindings for Bound {
     /// Tells the passes how large things are on the screen.
     fn update(&mut self, gpu: &Gpu, group: &Group<'_>) {
-        let view = &group.input.view;
+        let (view, plan) = (&group.input.view, group.plan);
+        self.area = MapArea::over(view, &group.bounds, plan.size, plan.blur_size(), plan.divisor);
         let domain = ScreenDomain {
-            size: group.plan.map_size(),
-            focal_texels: group.plan.texels_per_tangent(view) * self.pitch_mm,
+            size: self.area.size,
+            focal_texels: self.area.texels_per_tangent(view) * self.pitch_mm,
             middle_mm: group.middle_mm(),
             pitch_mm: self.pitch_mm,
             perspective: if view.is_parallel() { 0.0 } else { 1.0 },
             pad: [0; 2],
         };
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
-        gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&group.upsampling()));
+        gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&group.upsampling(&self.area)));
     }
 
     fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, objects: &BindGroup, lap: Lap<'_>) {
-        let layers = self.cascade.maps.irradiance[0].layers.iter().chain(&self.cascade.begun_sums().layers);
+        let Maps { cascade: maps, depth } = &*self.maps;
+        let MapArea { whole, first, size } = self.area;
+        let layers = maps.irradiance().layers.iter().chain(&maps.begun_sums().layers);
         let colours: Vec<_> = layers.map(|view| cleared(view, self.far)).collect();
         let attachments = Attachments {
             colours: &colours,
-            depth: &self.maps.depth.view,
+            depth: &depth.view,
             depth_ops: self.passes.depth.own(),
-            viewport: None,
+            viewport: Some(Viewport {
+                origin: first.map(|texel| -i64::from(texel)),
+                size: whole,
+                scissor: [[0; 2], size],
+            }),
         };
         let [scene, basis] = &self.gbuffer;
-        self.passes.gbuffer.record(encoder, &attachments, [scene, basis], objects, group.draws());
-        lap("gbuffer", encoder);
-        self.cascade.record(encoder, &self.passes.blur, None);
-        lap("blur", encoder);
+        let Passes { gbuffer, blur, last, .. } = &*self.passes;
+        gbuffer.record(encoder, &attachments, [scene, basis], objects, group.draws());
+        lap(gbuffer.name(), encoder);
+        let targets: Vec<_> = maps.sums().layers.iter().collect();
+        self.cascade.record(encoder, size, blur, None, (last, &targets), lap);
     }
 
     fn shade(&self) -> (&MeshPass, &BindGroup) {

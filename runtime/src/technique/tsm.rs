@@ -5,10 +5,10 @@ use subsurf_shaders::passes::table;
 use subsurf_shaders::uniform::TsmLight;
 use wgpu::{BindGroup, Buffer, Color, CommandEncoder, LoadOp, Operations, StoreOp, TextureFormat, TextureView};
 
-use super::mesh_pass::{Attachments, DepthFormat, Draw, MeshPass};
+use super::mesh_pass::{Attachments, DepthFormat, Draw, MeshPass, Viewport};
 use crate::error::Result;
 use crate::frame::Plan;
-use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked, attachment, level_of};
+use crate::gpu::{Gpu, Purpose, Surface2d, TextureSpec, Tracked, attachment, level_of};
 
 /// Depth where nothing is seen: 60 m away, nearly the largest that half floats hold.
 pub(crate) const FAR_MM: f64 = 60_000.0;
@@ -57,15 +57,18 @@ fn formats(gpu: &Gpu, has_positions: bool) -> [TextureFormat; 3] {
 
 /// Textures of the three targets, and that of depth.
 fn specs(gpu: &Gpu, plan: &Plan) -> [TextureSpec; 4] {
-    let size = plan.light_size();
+    let (size, purpose) = (plan.light_size(), Purpose::LightView);
     let [positions, fluxes, places] = formats(gpu, plan.has_light_levels);
-    let target =
-        |label, format| TextureSpec { levels: plan.light_levels(), ..TextureSpec::target(label, size, format) };
+    let target = |label, format| TextureSpec {
+        purpose,
+        levels: plan.light_levels(),
+        ..TextureSpec::target(label, size, format)
+    };
     [
         target("positions seen", positions),
         target("fluxes seen", fluxes),
         target("places seen", places),
-        TextureSpec::attachment("light depth", size, LIGHT_DEPTH.format),
+        TextureSpec { purpose, ..TextureSpec::attachment("light depth", size, LIGHT_DEPTH.format) },
     ]
 }
 
@@ -94,7 +97,7 @@ impl TranslucentShadowMaps {
         let surfaces = [gpu.texture(&positions)?, gpu.texture(&fluxes)?, gpu.texture(&places)?];
         let tile = |light| {
             let block: Tracked<Buffer> =
-                gpu.uniform("tile of a light", &TsmLight { light, group: 0.0, level: 0, pad: 0 });
+                gpu.uniform(Purpose::Frame, "tile of a light", &TsmLight { light, group: 0.0, level: 0, pad: 0 });
             let group = pass.bind(gpu, 1, &[block.as_entire_binding()])?;
             Ok(Tile { block, group })
         };
@@ -128,15 +131,10 @@ impl TranslucentShadowMaps {
                 colours: &[0, 1, 2].map(|k| Some(attachment(&self.targets[k], load(clears[k])))),
                 depth: &self.depth.view,
                 depth_ops: Operations { load: depth_load, store },
-                viewport: Some(([number * self.side, 0], [self.side; 2])),
+                viewport: Some(Viewport::at([number * self.side, 0], [self.side; 2])),
             };
             pass.record(encoder, &attachments, [&self.scene, &tile.group], objects, draws());
         }
-    }
-
-    /// Bytes on the device of all textures.
-    pub(crate) fn bytes(&self) -> u64 {
-        self.surfaces.iter().chain([&self.depth]).map(|surface| surface.texture.bytes()).sum()
     }
 
     /// Views of all levels of positions, fluxes and places.

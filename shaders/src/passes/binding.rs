@@ -28,3 +28,14 @@ pub enum Binding {
     /// Array of unsigned integer textures.
     UintLayers,
 }
+
+impl Binding {
+    /// The same with one layer in place of an array of maps.
+    pub(super) fn plain(self) -> Self {
+        match self {
+            Self::FloatLayers => Self::Float,
+            Self::TargetLayers => Self::Target,
+            other => other,
+        }
+    }
+}

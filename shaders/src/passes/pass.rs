@@ -45,6 +45,9 @@ pub enum Part {
 pub enum Group {
     /// The same bindings for all variants.
     Fixed(&'static [Binding]),
+    /// Bindings in which arrays of maps, of targets or of floats, are plain textures where L = 1: the GL backend makes no array
+    /// of one layer.
+    Maps(&'static [Binding]),
     /// Bindings of the [`MaterialLayout`].
     Material,
     /// Bindings of the [`BtfLayout`], and more after them.
@@ -177,6 +180,8 @@ impl Variant {
     pub fn groups(&self) -> Vec<Vec<Binding>> {
         let of_group = |group: &Group| match (group, self.choice) {
             (Group::Fixed(bindings), _) => bindings.to_vec(),
+            (Group::Maps(bindings), Choice::Terms(1)) => bindings.iter().map(|binding| binding.plain()).collect(),
+            (Group::Maps(bindings), Choice::Terms(_)) => bindings.to_vec(),
             (Group::Material, Choice::Material(layout)) => layout.bindings().to_vec(),
             (Group::Btf(more), Choice::Btf(layout) | Choice::LitBtf(layout, _)) => [layout.bindings(), more].concat(),
             (group, choice) => panic!("{}: {choice:?} for {group:?}", self.pass.name()),

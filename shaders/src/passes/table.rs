@@ -86,25 +86,25 @@ pub static BLUR_PATCH_FIRST: Pass = fullscreen(
     &[Group::Fixed(&[Uniform, Nearest, FilteredLayers, Float])],
 );
 
-/// Later stages of the cascade on a flat patch, along rows.
-pub static BLUR_PATCH_ROWS: Pass = fullscreen(
-    wgsl!("pass/patch/blur_patch_rows"),
+/// Stages of the cascade on a flat patch, along rows or along columns, but for the first and the last.
+pub static BLUR_PATCH: Pass = fullscreen(
+    wgsl!("pass/patch/blur_patch"),
     &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_STAGE],
-    &[Group::Fixed(&[Uniform, Nearest, FloatLayers])],
+    &[Group::Maps(&[Uniform, Nearest, FloatLayers])],
 );
 
-/// Stages of the cascade on a flat patch but for the last, along columns, and the sum over the stages.
-pub static BLUR_PATCH_COLUMNS: Pass = fullscreen(
-    wgsl!("pass/patch/blur_patch_columns"),
+/// Sum over the stages of the cascade on a flat patch so far, once one of them is through.
+pub static SUM_PATCH: Pass = fullscreen(
+    wgsl!("pass/patch/sum_patch"),
     &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_STAGE, STAGE_SUM],
-    &[Group::Fixed(&[Uniform, Nearest, FloatLayers, TargetLayers])],
+    &[Group::Maps(&[Uniform, Nearest, FloatLayers, TargetLayers])],
 );
 
 /// Last stage of the cascade on a flat patch, along columns, and the exitance.
 pub static BLUR_PATCH_LAST: Pass = fullscreen(
     wgsl!("pass/patch/blur_patch_last"),
     &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_STAGE, STAGE_SUM],
-    &[Group::Fixed(&[Uniform, Nearest, FloatLayers, TargetLayers, FilteredLayers])],
+    &[Group::Maps(&[Uniform, Nearest, FloatLayers, TargetLayers, FilteredLayers])],
 );
 
 /// Irradiance that enters a surface at each of its points.
@@ -210,18 +210,25 @@ pub static SEPARABLE_GBUFFER: Pass = pass(
     &[Group::Fixed(&[Uniform, Target]), Group::Fixed(&[FilteredLayers, Sampler, Uniform, Target, Target]), OF_OBJECT],
 );
 
-/// Stages of the cascade on the screen, along rows.
-pub static BLUR_SCREEN_ROWS: Pass = fullscreen(
-    wgsl!("pass/separable/blur_screen_rows"),
+/// Stages of the cascade on the screen, along rows or along columns.
+pub static BLUR_SCREEN: Pass = fullscreen(
+    wgsl!("pass/separable/blur_screen"),
     &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_SCREEN, BLUR],
-    &[Group::Fixed(&[Uniform, Uniform, TargetLayers])],
+    &[Group::Maps(&[Uniform, Uniform, TargetLayers])],
 );
 
-/// Stages of the cascade on the screen, along columns, and the sum over the stages.
-pub static BLUR_SCREEN_COLUMNS: Pass = fullscreen(
-    wgsl!("pass/separable/blur_screen_columns"),
+/// Sum over the stages of the cascade on the screen so far, once one of them is through.
+pub static SUM_SCREEN: Pass = fullscreen(
+    wgsl!("pass/separable/sum_screen"),
     &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_SCREEN, BLUR, STAGE_SUM],
-    &[Group::Fixed(&[Uniform, Uniform, TargetLayers, TargetLayers])],
+    &[Group::Maps(&[Uniform, Uniform, TargetLayers, TargetLayers])],
+);
+
+/// Last stage of the cascade on the screen, along columns, and the sum over all stages.
+pub static BLUR_SCREEN_LAST: Pass = fullscreen(
+    wgsl!("pass/separable/blur_screen_last"),
+    &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_SCREEN, BLUR, STAGE_SUM],
+    &[Group::Maps(&[Uniform, Uniform, TargetLayers, TargetLayers])],
 );
 
 /// Picture of a mesh from L blurred maps on the screen.
@@ -246,7 +253,7 @@ pub static SHADE_SEPARABLE: Pass = picture(
         UPSAMPLING,
         SHADING,
     ],
-    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, TargetLayers]), OF_OBJECT],
+    &[LIT, Group::Maps(&[FilteredLayers, Sampler, Uniform, TargetLayers]), OF_OBJECT],
 );
 
 /// Values and light samples of a BTF for lists of directions.
@@ -278,13 +285,13 @@ pub static SHADE_BTF: Pass = picture(
 );
 
 /// All passes.
-pub static ALL: [&Pass; 22] = [
+pub static ALL: [&Pass; 23] = [
     &GATHER,
     &PRESENT,
     &HOMOGENEOUS,
     &BLUR_PATCH_FIRST,
-    &BLUR_PATCH_ROWS,
-    &BLUR_PATCH_COLUMNS,
+    &BLUR_PATCH,
+    &SUM_PATCH,
     &BLUR_PATCH_LAST,
     &IRRADIANCE,
     &SURFACE_GATHER,
@@ -296,8 +303,9 @@ pub static ALL: [&Pass; 22] = [
     &SPLAT_RESOLVE,
     &SHADE_SPLAT,
     &SEPARABLE_GBUFFER,
-    &BLUR_SCREEN_ROWS,
-    &BLUR_SCREEN_COLUMNS,
+    &BLUR_SCREEN,
+    &SUM_SCREEN,
+    &BLUR_SCREEN_LAST,
     &SHADE_SEPARABLE,
     &BTF_QUERY,
     &SHADE_BTF,

@@ -54,6 +54,20 @@ impl BlurStage {
     }
 }
 
+/// Most taps to one side on the screen: `MOST_TAPS` of `domain_screen.wgsl`.
+pub const MOST_TAPS: f32 = 16.0;
+
+impl BlurStage {
+    /// Taps to each side on the screen where a pixel of the material covers so many texels: `taps_at` of `domain_screen.wgsl`.
+    #[must_use]
+    pub fn screen_taps(&self, texels_per_pixel: f32) -> u32 {
+        let sparse = (self.sparse * texels_per_pixel).floor().max(1.0);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let taps = (3.2 * self.step * texels_per_pixel / sparse).ceil().clamp(1.0, MOST_TAPS) as u32;
+        taps
+    }
+}
+
 /// `ScreenDomain` of `domain_screen.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
@@ -107,10 +121,12 @@ impl Transmission {
 pub struct Upsampling {
     /// Texels of the maps to a pixel of the picture, along rows and columns.
     pub texels_per_pixel: [f32; 2],
-    /// Pixel of the target where the picture begins.
+    /// Pixel of the target where the first texel of the maps lies, from the left and from the top.
     pub origin: [f32; 2],
     /// Difference of depth in mm by which the weight of a texel falls to a half.
     pub near_mm: f32,
     #[doc(hidden)]
-    pub pad: [u32; 3],
+    pub pad: u32,
+    /// Last column and row of the maps that hold anything.
+    pub last: [i32; 2],
 }

@@ -8,7 +8,7 @@ mod patch;
 mod scene;
 mod splat;
 
-pub use blur::{BlurStage, ScreenDomain, Transmission, Upsampling};
+pub use blur::{BlurStage, MOST_TAPS, ScreenDomain, Transmission, Upsampling};
 pub use btf::{BtfCodebooks, BtfFiltering, BtfImages, BtfTable, BtfTexture, MAX_LEVELS, MAX_RINGS_OF_DIRECTIONS};
 pub use material::{BASE_ROWS, Material, ROW};
 pub use object::{Blocks, Object};

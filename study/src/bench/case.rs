@@ -7,7 +7,7 @@ use glam::{Quat, Vec3};
 use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::Progress as _;
-use subsurf_runtime::{Gpu, RuntimeOptions};
+use subsurf_runtime::{Gpu, Purpose, RuntimeOptions};
 use subsurf_scene::{LightShape, Mesh, Scene};
 use subsurf_viewer::{Asset, RenderRequest, RenderSession};
 
@@ -21,13 +21,24 @@ pub(super) struct BenchCase {
 pub(super) struct Times {
     /// Times of whole frames in ms.
     pub(super) frames: Vec<f64>,
-    /// Times of each pass by itself in ms, by its name.
+    /// Times of each pass in ms, by its name.
     pub(super) passes: BTreeMap<&'static str, Vec<f64>>,
     /// Names of passes in the order of the frame.
     pub(super) order: Vec<&'static str>,
-    pub(super) material_bytes: u64,
-    /// Bytes of everything but the material and the mesh.
-    pub(super) buffer_bytes: u64,
+    /// Whether the device took the times of the passes; else they were waited for one by one.
+    pub(super) is_by_device: bool,
+    /// Bytes on the device by their purpose.
+    pub(super) bytes: [(Purpose, u64); Purpose::ALL.len()],
+}
+
+impl Times {
+    /// Bytes of the material, and of everything but the material and the mesh.
+    pub(super) fn bytes_of_material_and_buffers(&self) -> [u64; 2] {
+        let of = |purposes: &[Purpose]| {
+            self.bytes.iter().filter(|(purpose, _)| purposes.contains(purpose)).map(|(_, bytes)| bytes).sum()
+        };
+        [of(&[Purpose::Material]), of(&[Purpose::LightView, Purpose::Frame, Purpose::Other])]
+    }
 }
 
 impl BenchCase {
@@ -39,16 +50,16 @@ impl BenchCase {
         size: [u32; 2],
     ) -> anyhow::Result<Self> {
         let options = RuntimeOptions::default();
-        let before = gpu.ledger().bytes();
+        let of = |purpose| gpu.ledger().bytes_of(purpose);
+        let before = Purpose::ALL.map(of);
         let asset = asset.upload(gpu, material, mesh)?;
-        let [material_bytes, mesh_bytes] = [asset.material_bytes(), asset.mesh_bytes()];
         let session = RenderSession::new(gpu, asset, &RenderRequest::usual(size).scene(mesh), size, options)?;
         let times = Times {
             frames: Vec::new(),
             passes: BTreeMap::new(),
             order: Vec::new(),
-            material_bytes,
-            buffer_bytes: gpu.ledger().bytes() - before - material_bytes - mesh_bytes,
+            is_by_device: false,
+            bytes: std::array::from_fn(|k| (Purpose::ALL[k], of(Purpose::ALL[k]) - before[k])),
         };
         Ok(Self { session, times })
     }
@@ -67,18 +78,19 @@ impl BenchCase {
     }
 
     fn draw_timed(&mut self, gpu: &Gpu, scene: &Scene) -> anyhow::Result<()> {
-        let passes = self
+        let times = self
             .session
             .with(scene, |renderer, frame, input, picture| renderer.draw_timed(gpu, frame, input, &picture.target()))?;
-        self.times.order = passes.iter().map(|(name, _)| *name).collect();
-        for (name, time) in passes {
+        self.times.is_by_device = times.is_by_device;
+        self.times.order = times.passes.iter().map(|(name, _)| *name).collect();
+        for (name, time) in times.passes {
             self.times.passes.entry(name).or_default().push(ms(time));
         }
         Ok(())
     }
 }
 
-/// Draws `frames` frames of each under a light that turns, after one that does not count, and as many again pass by pass.
+/// Draws `frames` frames of each under a light that turns, after one that does not count, and as many again whose passes are timed.
 /// Cases take turns: what else the machine does falls on all of them alike. If `frames` is 0, the first one counts.
 pub(super) fn run(
     gpu: &Gpu,

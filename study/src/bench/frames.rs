@@ -20,8 +20,9 @@ use super::timing::{median, quantile};
 
 /// Time frames of meshes of 5 to 871 thousand triangles, pass by pass, on every device there is.
 ///
-/// The light turns a little from frame to frame, so that everything is computed anew; paths take turns. Times are
-/// wall-clock milliseconds until the device is through; compare those of one run.
+/// The light turns a little from frame to frame, so that everything is computed anew; paths take turns. Times of frames are
+/// wall-clock milliseconds until the device is through; those of passes are timestamps of the device within whole frames where
+/// it has them (Vulkan), else each pass is waited for. Compare those of one run. Bytes are those of the ledger, by purpose.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The .subsurf file
@@ -82,6 +83,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             case::run(gpu, &mut cases, mesh, args.size.0, args.frames)?;
             for (case, (mode, ..)) in cases.iter().zip(&assets) {
                 outln!("  {backend:10} {mode:26} {}", line(&case.times));
+                outln!("  {:10} {:26} {}", "", "", memory(&case.times));
                 all.push(report(&case.times, *backend, name, mode));
             }
         }
@@ -99,20 +101,33 @@ fn bumpy_sphere(rings: u16) -> anyhow::Result<(String, Mesh)> {
 fn line(times: &Times) -> String {
     let passes = times.order.iter().map(|name| format!("{name} {:.1}", median(&times.passes[name])));
     format!(
-        "{:8.1} ms, p95 {:.1} ({}); buffers {}",
+        "{:8.1} ms, p95 {:.1}; passes {}: {}",
         median(&times.frames),
         quantile(&times.frames, 0.95),
+        timed_by(times),
         passes.collect::<Vec<_>>().join(", "),
-        human(times.buffer_bytes),
     )
+}
+
+/// Bytes on the device by their purpose, and how many there are besides material and mesh.
+fn memory(times: &Times) -> String {
+    let by_purpose = times.bytes.iter().map(|(purpose, bytes)| format!("{purpose} {}", human(*bytes)));
+    let [_, buffers] = times.bytes_of_material_and_buffers();
+    format!("{}; without material and mesh {}", by_purpose.collect::<Vec<_>>().join(", "), human(buffers))
+}
+
+fn timed_by(times: &Times) -> &'static str {
+    if times.is_by_device { "by timestamps" } else { "one by one" }
 }
 
 fn report(times: &Times, backend: Backend, mesh: &str, mode: &str) -> Value {
     let of = |values: &[f64]| json!({ "median_ms": median(values), "p95_ms": quantile(values, 0.95) });
     let passes: serde_json::Map<String, Value> =
         times.order.iter().map(|name| ((*name).to_owned(), of(&times.passes[name]))).collect();
+    let bytes: serde_json::Map<String, Value> =
+        times.bytes.iter().map(|(purpose, bytes)| (purpose.to_string(), json!(bytes))).collect();
     json!({
         "backend": backend.to_string(), "mesh": mesh, "path": mode, "frame": of(&times.frames), "passes": passes,
-        "material_bytes": times.material_bytes, "buffer_bytes": times.buffer_bytes,
+        "passes_timed": timed_by(times), "bytes": bytes,
     })
 }

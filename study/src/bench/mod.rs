@@ -10,12 +10,14 @@ mod meshes;
 mod patch;
 mod render;
 mod timing;
+mod traffic;
 
 /// Measure this machine.
 #[derive(clap::Subcommand)]
 pub(crate) enum Command {
     Load(load::Args),
     Frames(frames::Args),
+    Traffic(traffic::Args),
     Patch(patch::Args),
     Basis(basis::Args),
     Btf(btf::Args),
@@ -28,6 +30,7 @@ pub(crate) fn run(command: &Command) -> anyhow::Result<()> {
     match command {
         Command::Load(args) => load::run(args),
         Command::Frames(args) => frames::run(args),
+        Command::Traffic(args) => traffic::run(args),
         Command::Patch(args) => patch::run(args),
         Command::Basis(args) => basis::run(args),
         Command::Btf(args) => btf::run(args),

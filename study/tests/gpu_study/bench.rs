@@ -88,6 +88,51 @@ fn files_of_ones_own_are_timed() {
     assert_refused(&run(folder, "bench load --files p.subsurf p.subsurf p.npy"), &["p.npy"]);
 }
 
+/// Passes have the names of the shaders' table; Vulkan times them itself. Bytes are told by their purpose.
+#[test]
+fn frames_are_timed_pass_by_pass() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("a.subsurf"), drawable([13, 11], 3, Addressing::Clamp)).unwrap();
+    let rows = json(folder, "bench frames a.subsurf --mesh sphere --size 64x48 --frames 1 --json");
+    let rows = rows.as_array().unwrap();
+    assert_eq!(rows.len(), 8, "four techniques on two devices");
+    for row in rows {
+        let timed = if row["backend"] == "Vulkan" { "by timestamps" } else { "one by one" };
+        assert_eq!(row["passes_timed"], timed, "{row}");
+        let has = |pass: &str| row["passes"][pass]["median_ms"].is_number();
+        assert!(has("tsm_render"), "{row}");
+        let is_blurred = row["path"] == "separable" || row["path"] == "homogeneous";
+        for pass in ["separable_gbuffer", "blur_screen", "blur_screen_last", "shade_separable"] {
+            assert_eq!(has(pass), is_blurred, "{pass}: {row}");
+        }
+        let bytes = |purpose: &str| row["bytes"][purpose].as_u64().unwrap();
+        assert_eq!(bytes("other"), 64 * 48 * (4 + 4), "the picture and its depth");
+        assert_eq!(bytes("light view") == 4 << 20, is_blurred, "{row}");
+        assert!(bytes("material") > 0 && bytes("mesh") > 0 && bytes("frame") > 0, "{row}");
+    }
+}
+
+/// A table for each size, whose sums are those of its rows.
+#[test]
+fn traffic_of_a_frame_is_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("a.subsurf"), drawable([13, 11], 3, Addressing::Clamp)).unwrap();
+    let tables = json(folder, "bench traffic a.subsurf --size 64x48 --size 128x96 --json");
+    let tables = tables.as_array().unwrap();
+    assert_eq!(tables.len(), 2, "one for each size");
+    for table in tables {
+        let rows = table["passes"].as_array().unwrap();
+        let passes: Vec<&str> = rows.iter().map(|row| row["pass"].as_str().unwrap()).collect();
+        let expected =
+            ["tsm_render", "separable_gbuffer", "blur_screen", "sum_screen", "blur_screen_last", "shade_separable"];
+        assert_eq!(passes, expected);
+        let sum: f64 = rows.iter().map(|row| row["bytes_written"].as_f64().unwrap()).sum();
+        assert_eq!(table["bytes_written"].as_f64(), Some(sum), "{table}");
+    }
+}
+
 /// Bases are told apart by what the fit began with and what it came to.
 #[test]
 fn bases_are_compared() {

@@ -158,9 +158,10 @@ fn tell(ui: &mut Ui, facts: &Facts) {
 
 /// What the frame's buffers are like.
 fn plan_line(plan: &Plan) -> String {
-    let maps = match plan.divisor {
-        1 => "maps in full size".to_owned(),
-        divisor => format!("maps 1/{divisor}"),
+    let maps = if plan.divisor > 1.0 {
+        format!("maps 1/{}", (10.0 * plan.divisor).round() / 10.0)
+    } else {
+        "maps in full size".to_owned()
     };
     format!("plan: {maps}, light view {0} × {0}", plan.light_texels)
 }
@@ -171,9 +172,16 @@ mod tests {
 
     #[test]
     fn plans_in_words() {
-        let plan = Plan { size: [640, 480], light_texels: 512, lights: 1, divisor: 1, has_light_levels: false };
+        let plan = Plan {
+            size: [640, 480],
+            light_texels: 512,
+            lights: 1,
+            divisor: 1.0,
+            blur_divisor: 1.0,
+            has_light_levels: false,
+        };
         assert_eq!(plan_line(&plan), "plan: maps in full size, light view 512 × 512");
-        let coarse = Plan { divisor: 3, light_texels: 256, ..plan };
+        let coarse = Plan { divisor: 3.0, light_texels: 256, ..plan };
         assert_eq!(plan_line(&coarse), "plan: maps 1/3, light view 256 × 256");
     }
 }

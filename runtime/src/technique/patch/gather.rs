@@ -7,7 +7,7 @@ use wgpu::{BindingResource, TextureFormat};
 use super::surface::{Exitance, PatchLight, Region};
 use crate::asset::BssrdfPlanes;
 use crate::error::Result;
-use crate::gpu::{FullscreenPass, Gpu, Rows, TextureSpec};
+use crate::gpu::{FullscreenPass, Gpu, Purpose, Rows, TextureSpec};
 
 /// Pipelines of the gather on flat patches of one layout; made once.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ impl PatchRenderer {
         light.expect([material.header().width, material.header().height])?;
         let spec = TextureSpec::target("exitance", region.size, gpu.target_texture_format());
         let surface = gpu.texture(&spec)?;
-        let block = gpu.uniform("region", &uniform::PatchRegion { origin: region.origin, pad: [0; 2] });
+        let block = gpu.uniform(Purpose::Frame, "region", &uniform::PatchRegion { origin: region.origin, pad: [0; 2] });
         let of_material = self.gather.bind(gpu, 0, &material.resources())?;
         let of_region = [block.as_entire_binding(), BindingResource::TextureView(light.view())];
         let of_region = self.gather.bind(gpu, 1, &of_region)?;
@@ -56,9 +56,12 @@ impl PatchRenderer {
     /// # Errors
     /// [`crate::Error::Device`] if the device is lost.
     pub fn picture(&self, gpu: &Gpu, exitance: &Exitance, size: [u32; 2], exposure: f32) -> Result<Vec<[u8; 3]>> {
-        let target = gpu.texture(&TextureSpec::target("picture", size, TextureFormat::Rgba8Unorm))?;
+        let target = gpu.texture(&TextureSpec {
+            purpose: Purpose::Other,
+            ..TextureSpec::target("picture", size, TextureFormat::Rgba8Unorm)
+        })?;
         let frame = uniform::Frame { size, texels: exitance.size, exposure, pad: [0.0; 3] };
-        let frame = gpu.uniform("frame", &frame);
+        let frame = gpu.uniform(Purpose::Frame, "frame", &frame);
         let resources = [frame.as_entire_binding(), BindingResource::TextureView(&exitance.surface.view)];
         let group = self.present.bind(gpu, 0, &resources)?;
         self.present.draw(gpu, &target.view, &[&group], Rows::all(size))?;

@@ -7,7 +7,7 @@ use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoderDescriptor, Texture
 
 use super::surface::{Exitance, PatchLight, nearest};
 use crate::error::{Error, Result};
-use crate::gpu::{FullscreenPass, Gpu, HALF, Rows, Surface2d, TextureSpec};
+use crate::gpu::{FullscreenPass, Gpu, HALF, Purpose, Rows, Surface2d, TextureSpec};
 
 /// Pipeline of flat patches with one kernel for all pixels: what heterogeneity is compared with.
 #[derive(Debug)]
@@ -52,7 +52,7 @@ impl HomogeneousRenderer {
             let (need, have) = (kernel.len() as u64, MAX_KERNEL as u64);
             return Err(Error::Unsupported { what: "kernels", need, have });
         }
-        let [rows, columns] = Kernel::new(kernel).map(|block| gpu.uniform("kernel", &block));
+        let [rows, columns] = Kernel::new(kernel).map(|block| gpu.uniform(Purpose::Frame, "kernel", &block));
         let between = gpu.texture(&TextureSpec::target("between rows and columns", size, HALF))?;
         let bind = |block: &Buffer, image: &TextureView| {
             let image = BindingResource::TextureView(image);

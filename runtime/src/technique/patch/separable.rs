@@ -9,7 +9,7 @@ use super::surface::{Exitance, PatchLight, nearest};
 use crate::asset::SeparableMaterial;
 use crate::error::Result;
 use crate::gpu::{FullscreenPass, Gpu, HALF, TextureSpec};
-use crate::technique::cascade::{BlurPasses, Cascade, CascadeMaps, Ends};
+use crate::technique::cascade::{BlurPasses, Cascade, CascadeMaps};
 
 /// Pipelines of separable blurs on flat patches of L terms; made once.
 #[derive(Debug)]
@@ -25,7 +25,6 @@ pub struct SeparableRenderer {
 pub struct SeparablePatch {
     cascade: Cascade,
     first: BindGroup,
-    last: BindGroup,
     exitance: Exitance,
 }
 
@@ -40,7 +39,7 @@ impl SeparableRenderer {
         Ok(Self {
             terms,
             first: FullscreenPass::new(gpu, table::BLUR_PATCH_FIRST.with(choice), &vec![HALF; terms])?,
-            blur: BlurPasses::new(gpu, [&table::BLUR_PATCH_ROWS, &table::BLUR_PATCH_COLUMNS], terms)?,
+            blur: BlurPasses::new(gpu, [&table::BLUR_PATCH, &table::SUM_PATCH], terms)?,
             last: FullscreenPass::new(gpu, table::BLUR_PATCH_LAST.with(choice), &[HALF])?,
         })
     }
@@ -57,23 +56,15 @@ impl SeparableRenderer {
         let nearest = nearest(gpu, header.addressing);
         let nearest = BindingResource::Sampler(&nearest);
         let maps = Arc::new(CascadeMaps::new(gpu, size, self.terms)?);
-        let cascade = Cascade::new(gpu, &self.blur, material, &nearest, &maps)?;
         let texture = BindingResource::TextureView;
-        let [rows, _] = &material.stages()[0];
-        let [_, columns] = &material.stages()[material.stages().len() - 1];
         let basis = texture(&material.layers.all);
-        let of_first = [rows.as_entire_binding(), nearest.clone(), basis.clone(), texture(light.view())];
-        let of_last = [
-            columns.as_entire_binding(),
-            nearest.clone(),
-            texture(&maps.irradiance[1].all),
-            texture(&cascade.sums_before_last().all),
-            basis,
-        ];
+        let last = (&self.last, Some(basis.clone()));
+        let cascade = Cascade::new(gpu, &self.blur, last, material, &nearest, &maps)?;
+        let [rows, _] = &material.stages()[0];
+        let of_first = [rows.as_entire_binding(), nearest, basis, texture(light.view())];
         let surface = gpu.texture(&TextureSpec::target("exitance", size, HALF))?;
         Ok(SeparablePatch {
             first: self.first.bind(gpu, 0, &of_first)?,
-            last: self.last.bind(gpu, 0, &of_last)?,
             cascade,
             exitance: Exitance::new(surface, size),
         })
@@ -84,11 +75,11 @@ impl SeparableRenderer {
     /// # Errors
     /// [`Error::Device`](crate::Error::Device) if the device is lost.
     pub fn draw<'a>(&self, gpu: &Gpu, patch: &'a SeparablePatch) -> Result<&'a Exitance> {
-        let ends =
-            Ends { first: (&self.first, &patch.first), last: (&self.last, &patch.last), target: patch.exitance.view() };
         gpu.checked(|| {
             let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-            patch.cascade.record(&mut encoder, &self.blur, Some(ends));
+            let first = Some((&self.first, &patch.first));
+            let last = (&self.last, &[patch.exitance.view()][..]);
+            patch.cascade.record(&mut encoder, patch.exitance.size, &self.blur, first, last, &mut |_, _| {});
             gpu.queue.submit([encoder.finish()]);
         })?;
         Ok(&patch.exitance)

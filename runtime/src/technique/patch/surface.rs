@@ -4,7 +4,7 @@ use subsurf_decoder::bssrdf::Addressing;
 use wgpu::{AddressMode, Sampler, SamplerDescriptor, TextureFormat, TextureView};
 
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Surface2d, TextureSpec};
+use crate::gpu::{Gpu, Purpose, Surface2d, TextureSpec};
 
 /// Irradiance on a patch, on the device.
 #[derive(Debug)]
@@ -33,7 +33,8 @@ impl PatchLight {
     /// [`crate::Error::Unsupported`] if the patch is too large for a texture.
     pub fn upload(gpu: &Gpu, size: [u32; 2], irradiance: &[[f32; 3]]) -> Result<Self> {
         let texels: Vec<[f32; 4]> = irradiance.iter().map(|[r, g, b]| [*r, *g, *b, 1.0]).collect();
-        let spec = TextureSpec::table("patch irradiance", size, TextureFormat::Rgba32Float);
+        let table = TextureSpec::table("patch irradiance", size, TextureFormat::Rgba32Float);
+        let spec = TextureSpec { purpose: Purpose::Frame, ..table };
         Ok(Self(gpu.filled(&spec, bytemuck::cast_slice(&texels))?))
     }
 

@@ -12,7 +12,8 @@ use super::passes::Passes;
 use crate::asset::SplatMaterial;
 use crate::error::Result;
 use crate::frame::{Plan, RuntimeOptions};
-use crate::gpu::{Gpu, HALF, Rows, Surface2d, TextureSpec, Tracked, level_of};
+use crate::gpu::{Gpu, HALF, Purpose, Rows, Surface2d, TextureSpec, Tracked, level_of};
+use crate::technique::area::MapArea;
 use crate::technique::bindings::{Bindings, Group, Lap, group_number};
 use crate::technique::common::Common;
 use crate::technique::mesh_pass::{Attachments, MeshPass, cleared};
@@ -114,11 +115,11 @@ impl Passes {
     ) -> Result<Box<dyn Bindings>> {
         let texture = BindingResource::TextureView;
         let of_albedo = [texture(&material.albedo.all), BindingResource::Sampler(&material.albedo.sampler)];
-        let rings_block = gpu.uniform("rings", &SplatRings::default());
+        let rings_block = gpu.uniform(Purpose::Frame, "rings", &SplatRings::default());
         let mut of_resolve =
             vec![rings_block.as_entire_binding(), texture(&maps.visible[0].view), texture(&maps.visible[2].view)];
         of_resolve.extend(maps.rings.iter().map(|ring| texture(&ring.view)));
-        let upsampling = gpu.uniform("upsampling", &Upsampling::default());
+        let upsampling = gpu.uniform(Purpose::Frame, "upsampling", &Upsampling::default());
         let of_shade =
             [of_albedo[0].clone(), of_albedo[1].clone(), upsampling.as_entire_binding(), texture(&maps.resolved.view)];
         Ok(Box::new(Bound {
@@ -151,7 +152,7 @@ impl Passes {
     ) -> Result<Vec<Reduction>> {
         let reduction = |level| {
             let block = TsmLight { light: 0, group: group_number(slot), level, pad: 0 };
-            let block = gpu.uniform("level of a shadow map", &block);
+            let block = gpu.uniform(Purpose::Frame, "level of a shadow map", &block);
             let from = lights.surfaces().each_ref().map(|surface| level_of(surface, 0, level - 1));
             let mut resources = vec![block.as_entire_binding()];
             resources.extend(from.iter().map(BindingResource::TextureView));
@@ -169,7 +170,7 @@ impl Passes {
         let mut draws = Vec::new();
         for (light, ring) in (0..plan.lights).flat_map(|light| (0..RINGS).map(move |ring| (light, ring))) {
             for refines in [false, true] {
-                let block = gpu.uniform("splat", &Splat::default());
+                let block = gpu.uniform(Purpose::Frame, "splat", &Splat::default());
                 let group = [
                     block.as_entire_binding(),
                     texture(lights.views()[0]),
@@ -197,7 +198,7 @@ impl Bindings for Bound {
     /// Tells the passes where lights and eye are.
     fn update(&mut self, gpu: &Gpu, group: &Group<'_>) {
         self.levels = Levels::new(&self.header, group.radius_mm, group.plan.light_texels);
-        let upsampling = group.upsampling();
+        let upsampling = group.upsampling(&MapArea::whole(group.plan.map_size()));
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&upsampling));
         let rings = SplatRings { count: self.levels.rings, near_mm: upsampling.near_mm, pad: [0; 2] };
         gpu.queue.write_buffer(&self.rings_block, 0, bytemuck::bytes_of(&rings));
@@ -240,7 +241,7 @@ impl Bindings for Bound {
             let targets = reduction.targets.each_ref();
             self.passes.tsm_reduce.record(encoder, &targets, &[&reduction.group], Rows::all(reduction.size));
         }
-        lap("tsm mipmaps", encoder);
+        lap(self.passes.tsm_reduce.name(), encoder);
         let far = Color { r: 0.0, g: 0.0, b: 0.0, a: FAR_MM };
         let clears = [far, Color::TRANSPARENT, Color::TRANSPARENT];
         let attachments = Attachments {
@@ -251,17 +252,17 @@ impl Bindings for Bound {
         };
         let [scene, albedo] = &self.gbuffer;
         self.passes.gbuffer.record(encoder, &attachments, [scene, albedo], objects, group.draws());
-        lap("gbuffer", encoder);
+        lap(self.passes.gbuffer.name(), encoder);
         for (ring, number) in self.maps.rings.iter().zip(0..self.levels.rings) {
             let draws = self.drawn(group.block.lights).filter(|draw| draw.ring == number);
             let squares = |draw: &Draw| (group.plan.light_texels >> draw.level(&self.levels)).max(1).pow(2);
             let draws: Vec<_> = draws.map(|draw| (&draw.group, squares(draw))).collect();
             self.passes.splat.record(encoder, &ring.view, &self.planes, &draws);
         }
-        lap("splat", encoder);
+        lap(self.passes.splat.name(), encoder);
         let resolved = [&self.maps.resolved.view];
         self.passes.resolve.record(encoder, &resolved, &[&self.resolve], Rows::all(self.maps.size));
-        lap("resolve", encoder);
+        lap(self.passes.resolve.name(), encoder);
     }
 
     fn shade(&self) -> (&MeshPass, &BindGroup) {

@@ -43,14 +43,13 @@ impl Levels {
 }
 
 /// Pixels of the picture to a side of a texel of the finest target, when a mm of the material covers `pixels_per_mm`.
-pub(crate) fn divisor(header: &BssrdfHeader, radius_mm: f32, light_texels: u32, pixels_per_mm: f32) -> u32 {
+pub(crate) fn divisor(header: &BssrdfHeader, radius_mm: f32, light_texels: u32, pixels_per_mm: f32) -> f32 {
     let levels = Levels::new(header, radius_mm, light_texels);
     #[allow(clippy::cast_precision_loss, reason = "small")]
     let sample_mm = 2.0 * radius_mm / light_texels as f32 * (1_u32 << levels.first) as f32;
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-    let divisor = (sample_mm * pixels_per_mm / TEXELS_PER_SAMPLE).clamp(1.0, 8.0) as u32;
+    let divisor = (sample_mm * pixels_per_mm / TEXELS_PER_SAMPLE).floor().clamp(1.0, 8.0);
     // Of what is no number nothing is left.
-    divisor.max(1)
+    divisor.max(1.0)
 }
 
 /// Size of a ring's target, when the finest has `size`.

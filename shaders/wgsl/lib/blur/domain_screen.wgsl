@@ -17,7 +17,7 @@ struct ScreenDomain {
 
 @group(0) @binding(1) var<uniform> domain: ScreenDomain;
 // c_l E, blurred by the stages before; depth in mm in the fourth channel.
-@group(0) @binding(2) var maps: TargetTextureArray;
+@group(0) @binding(2) var maps: TargetMaps;
 
 // Most taps to one side, close to the eye.
 const MOST_TAPS: f32 = 16.0;
@@ -49,7 +49,7 @@ fn maps_at(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
     let texel = clamp(x, vec2<i32>(0), vec2<i32>(domain.size) - 1);
     var all: array<vec4<f32>, TERMS>;
     for (var l = 0u; l < TERMS; l++) {
-        all[l] = unpack(textureLoad(maps, texel, l, 0));
+        all[l] = load_map(maps, texel, l);
     }
     return all;
 }

@@ -1,6 +1,9 @@
-// One weighted irradiance map, L = 1: targets of the passes that draw them.
+// One weighted irradiance map, L = 1: a plain texture, and targets of the passes that draw it.
 
 const TERMS: u32 = 1u;
+
+alias TargetMaps = TargetTexture;
+alias FloatMaps = texture_2d<f32>;
 
 struct Maps {
     @location(0) first: TargetTexel,
@@ -9,6 +12,16 @@ struct Maps {
 struct MapsAndSums {
     @location(0) first: TargetTexel,
     @location(1) first_sum: TargetTexel,
+}
+
+// Map l at a texel.
+fn load_map(maps: TargetMaps, texel: vec2<i32>, l: u32) -> vec4<f32> {
+    return unpack(textureLoad(maps, texel, 0));
+}
+
+// Map l at texture coordinates.
+fn sample_map(maps: FloatMaps, map_sampler: sampler, uv: vec2<f32>, l: u32) -> vec4<f32> {
+    return textureSampleLevel(maps, map_sampler, uv, 0.0);
 }
 
 // Targets for the maps.

@@ -1,6 +1,9 @@
-// Two weighted irradiance maps, L = 2: targets of the passes that draw them.
+// Two weighted irradiance maps, L = 2: layers of a texture, and targets of the passes that draw them.
 
 const TERMS: u32 = 2u;
+
+alias TargetMaps = TargetTextureArray;
+alias FloatMaps = texture_2d_array<f32>;
 
 struct Maps {
     @location(0) first: TargetTexel,
@@ -12,6 +15,16 @@ struct MapsAndSums {
     @location(1) second: TargetTexel,
     @location(2) first_sum: TargetTexel,
     @location(3) second_sum: TargetTexel,
+}
+
+// Map l at a texel.
+fn load_map(maps: TargetMaps, texel: vec2<i32>, l: u32) -> vec4<f32> {
+    return unpack(textureLoad(maps, texel, l, 0));
+}
+
+// Map l at texture coordinates.
+fn sample_map(maps: FloatMaps, map_sampler: sampler, uv: vec2<f32>, l: u32) -> vec4<f32> {
+    return textureSampleLevel(maps, map_sampler, uv, l, 0.0);
 }
 
 // Targets for the maps.

@@ -9,7 +9,6 @@ fn exitance(in: Varying, normal: vec3<f32>) -> vec3<f32> {
     let slopes = derivatives(in.position_mm, in.uv);
     let albedo = layer_at(0u, in.position_mm, normal, in.uv, slopes);
     let depth = depth_of(in.position_mm);
-    let last = vec2<i32>(textureDimensions(resolved)) - 1;
     let coord = bilinear_coord(in.clip.xy);
     var sum = vec3<f32>(0.0);
     var weights = 0.0;
@@ -17,7 +16,7 @@ fn exitance(in: Varying, normal: vec3<f32>) -> vec3<f32> {
         if k == 4u && weights > ENOUGH {
             break;
         }
-        let value = textureLoad(resolved, clamp(coord.first + neighbour(k), vec2<i32>(0), last), 0);
+        let value = textureLoad(resolved, clamp(coord.first + neighbour(k), vec2<i32>(0), upsampling.last), 0);
         let weight = near_weight(linear_weight(k, coord.part), (value.w - depth) / upsampling.near_mm);
         weights += weight;
         sum += weight * value.xyz;

@@ -106,6 +106,7 @@ fn compare(
         for ((path, _), mut case) in paths.into_iter().zip(cases) {
             let found = case.picture(gpu, &scene)?;
             let times = case.times;
+            let [material_bytes, buffer_bytes] = times.bytes_of_material_and_buffers();
             let (psnr_db, ssim) = similarity(&reference, &found, size[0]);
             let row = Row {
                 material: material_name.to_owned(),
@@ -116,8 +117,8 @@ fn compare(
                 ssim,
                 frame_ms: (args.frames > 0).then(|| [0.5, 0.95].map(|share| quantile(&times.frames, share))),
                 gather_ms,
-                material_bytes: times.material_bytes,
-                buffer_bytes: times.buffer_bytes,
+                material_bytes,
+                buffer_bytes,
             };
             outln!("{}", row.line());
             page.rows.push(row);

@@ -1,7 +1,7 @@
 // Needs: <target format>, <terms>, fullscreen, domain_screen, blur.
-// Stages of the cascade on the screen, along rows.
+// Stages of the cascade on the screen, along rows or along columns.
 
 @fragment
-fn blur_screen_rows(@builtin(position) at: vec4<f32>) -> Maps {
+fn blur_screen(@builtin(position) at: vec4<f32>) -> Maps {
     return maps_of(blurred(vec2<i32>(at.xy)));
 }
