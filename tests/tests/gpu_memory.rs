@@ -98,7 +98,7 @@ fn views_of_lights_and_separable_frames_are_small() {
                 let picture = PictureTarget::new(&gpu, size, &options).unwrap();
                 let frame = loaded.prepare(&gpu, &renderer, scene, size).unwrap();
                 let bytes = Purpose::ALL.map(|purpose| gpu.ledger().bytes_of(purpose) - kept[purpose as usize]);
-                println!("L = {terms}, maps {:?}: {bytes:?}", frame.plan().blur_size());
+                println!("L = {terms}, maps {:?}: {bytes:?}", frame.plan().blur_size);
                 assert_eq!(frame.plan().light_texels, 512, "texels to a side");
                 assert_eq!(bytes[Purpose::LightView as usize], 4 << 20, "of what one light sees");
                 assert_eq!(bytes[..2], [0, 0], "a frame has neither materials nor meshes");
@@ -110,7 +110,7 @@ fn views_of_lights_and_separable_frames_are_small() {
             // By wish maps are as fine as the picture, and take more.
             let fine = RuntimeOptions { map_bytes_per_pixel: 100.0, ..options };
             let frame = loaded.prepare(&gpu, &loaded.renderer(&gpu, fine).unwrap(), &far, size).unwrap();
-            assert_eq!(frame.plan().blur_size(), size, "full size");
+            assert_eq!(frame.plan().blur_size, size, "full size");
         }
     }
 }

@@ -13,9 +13,9 @@ pub struct Plan {
     pub lights: u32,
     /// Pixels of the picture to a side of a texel of the maps that scatter light, at least 1.
     pub divisor: f32,
-    /// The same for maps of separable blurs where objects cover the whole picture, at least as many: their maps lie over what
-    /// objects cover, and are coarser than `divisor` only where that is much.
-    pub blur_divisor: f32,
+    /// Width and height of the maps of separable blurs in texels: they lie over what objects cover, and are coarser than
+    /// `divisor` says only where that is more than they hold.
+    pub blur_size: [u32; 2],
     /// Whether lights' views have coarser levels, from which splats are drawn.
     pub has_light_levels: bool,
 }
@@ -32,12 +32,6 @@ impl Plan {
         #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "less than the picture has")]
         self.size.map(|side| ((side as f32 / self.divisor).ceil() as u32).clamp(1, side.max(1)))
-    }
-
-    /// Width and height of the maps of separable blurs in texels.
-    #[must_use]
-    pub fn blur_size(&self) -> [u32; 2] {
-        Self { divisor: self.divisor.max(self.blur_divisor), ..*self }.map_size()
     }
 
     /// Mipmap levels of lights' views.
@@ -57,9 +51,9 @@ impl Plan {
             return Some(Self { light_texels: self.light_texels / 2, ..self });
         }
         if self.divisor < LARGEST_DIVISOR {
-            let coarser = |divisor: f32| divisor.max((divisor + 0.5).min(LARGEST_DIVISOR));
-            let (divisor, blur_divisor) = (coarser(self.divisor), coarser(self.blur_divisor));
-            return Some(Self { divisor, blur_divisor, ..self });
+            let divisor = (self.divisor + 0.5).min(LARGEST_DIVISOR);
+            let blur_size = self.blur_size.map(|side| (side * 4 / 5).max(1));
+            return Some(Self { divisor, blur_size, ..self });
         }
         let light_texels = self.light_texels / 2;
         (light_texels >= LEAST_LIGHT_TEXELS).then_some(Self { light_texels, ..self })
@@ -95,7 +89,7 @@ mod tests {
             light_texels: 512,
             lights: 1,
             divisor: 1.0,
-            blur_divisor: 1.0,
+            blur_size: [1280, 720],
             has_light_levels: false,
         };
         let bytes = |plan: &Plan| u64::from(plan.light_texels).pow(2) * 16 + u64::from(plan.map_size()[0]) * 720;

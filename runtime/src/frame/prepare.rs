@@ -6,13 +6,13 @@ use subsurf_scene::{BoundingSphere, MAX_LIGHTS};
 use wgpu::{BindGroup, BindingResource};
 
 use super::draw::Placed;
-use super::input::Input;
+use super::input::{Input, Object};
 use super::plan::Plan;
 use super::renderer::Renderer;
 use crate::asset::Material;
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
-use crate::technique::{Bindings, Common, TranslucentShadowMaps, reflection_sampler, separable, splat};
+use crate::technique::{Bindings, Common, MapArea, TranslucentShadowMaps, reflection_sampler, separable, splat};
 
 /// Bytes that uniform blocks of the passes of one material are sure not to exceed.
 const UNIFORMS: u64 = 48 << 10;
@@ -90,7 +90,7 @@ impl Renderer {
             light_texels: self.options.light_texels.min(largest_tile(gpu, lights)),
             lights,
             divisor,
-            blur_divisor: self.blur_divisor(&materials, divisor),
+            blur_size: self.blur_size(input, &materials, divisor, size),
             has_light_levels: materials.iter().any(|material| matches!(material, Material::Splat(_))),
         };
         let bytes = |plan: &Plan| {
@@ -121,18 +121,26 @@ impl Renderer {
     /// Bytes of the maps of some materials.
     fn map_bytes(&self, materials: &[&Material], plan: &Plan) -> u64 {
         let of_terms = terms_of(materials).into_iter();
-        let of_terms = of_terms.map(|terms| separable::Maps::bytes_of(plan.blur_size(), terms, &self.options));
+        let of_terms = of_terms.map(|terms| separable::Maps::bytes_of(plan.blur_size, terms, &self.options));
         let splats = materials.iter().any(|material| matches!(material, Material::Splat(_)));
         of_terms.sum::<u64>() + if splats { splat::Maps::bytes_of(plan, &self.options) } else { 0 }
     }
 
-    /// Pixels of the picture to a side of a texel of the maps of separable blurs, with which all of them keep to their bytes for each
-    /// pixel.
-    fn blur_divisor(&self, materials: &[&Material], divisor: f32) -> f32 {
+    /// Width and height of the maps of separable blurs: as many texels as their bytes for each pixel allow, in the shape of what the
+    /// objects of a material cover.
+    fn blur_size(&self, input: &Input<'_>, materials: &[&Material], divisor: f32, size: [u32; 2]) -> [u32; 2] {
         let texels = terms_of(materials).into_iter();
         let bytes: u64 = texels.map(|terms| separable::Maps::bytes_of([1, 1], terms, &self.options)).sum();
         #[allow(clippy::cast_precision_loss, reason = "a few dozen")]
-        (bytes as f32 / self.options.map_bytes_per_pixel).sqrt().max(divisor)
+        let held = bytes as f32 / self.options.map_bytes_per_pixel;
+        let covered = materials.iter().filter_map(|material| {
+            let of_material = |object: &&Object<'_>| object.material.is(material);
+            let bounds = input.objects.iter().filter(of_material).map(Object::bounds);
+            let seen = bounds.filter(|bounds| input.view.sees(bounds)).reduce(|all, bounds| all.union(&bounds))?;
+            matches!(material, Material::Separable(_)).then(|| input.view.rectangle(&seen))
+        });
+        let covered = covered.map(|[low, high]| 0.5 * (high - low)).reduce(glam::Vec2::max);
+        MapArea::shape(size, divisor, held.sqrt(), covered.unwrap_or(glam::Vec2::ONE))
     }
 
     /// Binds a material, number `slot` of the frame, to the maps of its technique.
@@ -168,7 +176,7 @@ impl Renderer {
     /// Pixels of the picture to a side of a texel of the maps: as few as any object needs.
     fn divisor(&self, input: &Input<'_>, size: [u32; 2]) -> f32 {
         let (view, light_texels) = (&input.view, self.options.light_texels);
-        let bounds: Vec<_> = input.objects.iter().map(super::input::Object::bounds).collect();
+        let bounds: Vec<_> = input.objects.iter().map(Object::bounds).collect();
         let radius_mm =
             bounds.iter().copied().reduce(|all, bounds| all.union(&bounds)).map_or(1.0, |all| all.radius_mm);
         let divisors = input.objects.iter().zip(&bounds).filter_map(|(object, bounds)| {

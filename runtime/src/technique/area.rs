@@ -1,5 +1,6 @@
 //! Area of the picture that maps lie over.
 
+use glam::Vec2;
 use subsurf_scene::{BoundingSphere, View};
 use subsurf_shaders::uniform::Upsampling;
 
@@ -54,6 +55,21 @@ impl MapArea {
         Self { whole: [width, height], first: [left, top], size: [columns, rows] }
     }
 
+    /// Width and height of maps for areas that cover `covered` of a picture along rows and columns: no finer than a texel to
+    /// `divisor` pixels, and no more texels than the whole picture has with one to `least` pixels.
+    pub(crate) fn shape(picture: [u32; 2], divisor: f32, least: f32, covered: Vec2) -> [u32; 2] {
+        let size = Vec2::new(float(picture[0]), float(picture[1]));
+        let (whole, fewest) = ((size / divisor.max(1.0)).max(Vec2::ONE), size / divisor.max(least).max(1.0));
+        let texels = (fewest.x * fewest.y).max(1.0);
+        let aspect = (covered.x * size.x).max(1.0) / (covered.y * size.y).max(1.0);
+        // What does not fit into one side goes to the other.
+        let width = (texels * aspect).sqrt().clamp(1.0, whole.x);
+        let height = (texels / width).clamp(1.0, whole.y);
+        let width = (texels / height).clamp(1.0, whole.x);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "texels of a picture")]
+        [width, height].map(|side| (side - 1e-3).ceil() as u32)
+    }
+
     /// Texels that a length spans which is as long as it is far from the eye.
     pub(crate) fn texels_per_tangent(&self, view: &View) -> f32 {
         0.5 * float(self.whole[1]) * view.focal().y
@@ -81,6 +97,19 @@ mod tests {
     use subsurf_scene::Camera;
 
     use super::*;
+
+    #[test]
+    fn maps_have_the_shape_of_what_is_covered() {
+        let shape = |divisor, least, x, y| MapArea::shape([1280, 720], divisor, least, Vec2::new(x, y));
+        assert_eq!(shape(1.0, 0.5, 1.0, 1.0), [1280, 720], "everything, and room for it");
+        assert_eq!(shape(1.0, 2.0, 1.0, 1.0), [640, 360], "everything");
+        assert_eq!(shape(1.0, 2.0, 0.5625, 1.0), [480, 480], "a square");
+        assert_eq!(shape(1.0, 2.0, 0.1, 1.0), [320, 720], "a column: no higher than the picture");
+        assert_eq!(shape(1.0, 2.0, 1.0, 0.01), [1280, 180], "a row");
+        assert_eq!(shape(3.0, 2.0, 0.5625, 1.0), [427, 240], "coarse enough as it is");
+        assert_eq!(shape(4.0, 2.0, 0.0, 0.0), [320, 180], "nothing");
+        assert_eq!(MapArea::shape([1, 1], 4.0, 2.0, Vec2::ONE), [1, 1], "a pixel");
+    }
 
     #[test]
     fn areas_are_as_fine_as_maps_can_hold_them() {

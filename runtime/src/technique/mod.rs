@@ -16,6 +16,7 @@ pub(crate) mod separable;
 pub(crate) mod splat;
 mod tsm;
 
+pub(crate) use area::MapArea;
 pub(crate) use bindings::{Bindings, Group, Lap, group_number};
 pub use btf::BtfOptions;
 pub use btf_query::{BtfAnswer, BtfQueries, BtfQuery};

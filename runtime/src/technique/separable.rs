@@ -70,7 +70,7 @@ impl Maps {
     }
 
     pub(crate) fn new(gpu: &Gpu, plan: &Plan, options: &RuntimeOptions, terms: usize) -> Result<Self> {
-        let size = plan.blur_size();
+        let size = plan.blur_size;
         Ok(Self {
             cascade: Arc::new(CascadeMaps::new(gpu, size, terms)?),
             depth: gpu.texture(&TextureSpec::attachment("map depth", size, options.depth.format))?,
@@ -138,7 +138,7 @@ impl Bindings for Bound {
     /// Tells the passes how large things are on the screen.
     fn update(&mut self, gpu: &Gpu, group: &Group<'_>) {
         let (view, plan) = (&group.input.view, group.plan);
-        self.area = MapArea::over(view, &group.bounds, plan.size, plan.blur_size(), plan.divisor);
+        self.area = MapArea::over(view, &group.bounds, plan.size, plan.blur_size, plan.divisor);
         let domain = ScreenDomain {
             size: self.area.size,
             focal_texels: self.area.texels_per_tangent(view) * self.pitch_mm,

@@ -177,7 +177,7 @@ mod tests {
             light_texels: 512,
             lights: 1,
             divisor: 1.0,
-            blur_divisor: 1.0,
+            blur_size: [640, 480],
             has_light_levels: false,
         };
         assert_eq!(plan_line(&plan), "plan: maps in full size, light view 512 × 512");

@@ -59,7 +59,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let mut session = RenderSession::new(gpu, uploaded, &scene, *size, RuntimeOptions::default())?;
         let plan = *session.frame.plan();
         let view = session.with(&scene, |_, _, input: &Input<'_>, _| Ok::<_, anyhow::Error>(input.view))?;
-        let maps = plan.blur_size();
+        let maps = plan.blur_size;
         let pitch_texels = basis.header().pitch_mm * texels_per_mm(&view, &mesh, maps[1]);
         let numbers = FrameNumbers {
             terms: basis.size().terms,
