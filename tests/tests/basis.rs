@@ -4,7 +4,7 @@ use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, Coding};
 use subsurf_decoder::container::{Container, Crc};
 use subsurf_decoder::{Bssrdf, Section};
-use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, add_basis, with_basis};
+use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, add_basis, fit_basis, with_basis};
 use subsurf_encoder::bssrdf::{profiles, write_file};
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_encoder::metrics::psnr_db;
@@ -108,13 +108,28 @@ fn every_kind_of_file_takes_a_basis() {
 /// Materials that give back nothing, next to nothing, or far too much.
 #[test]
 fn black_and_brilliant_materials_are_drawn_or_refused() {
-    // 5 × 4 pixels of 0.5 mm, R = 2, one base material with one value at all of its three nodes.
-    let filled = |log: f32| {
+    // 5 × 4 pixels of 0.5 mm, R = 2, one base material with one value a channel at all of its three nodes.
+    let of_channels = |logs: [f32; 3]| {
         let shape = Shape { size: [5, 4], radius: 2, samples: 3, base_materials: 1, addressing: Addressing::Clamp };
         let header = BssrdfHeader { model: 1, ..shape.header() };
-        let sections = [profiles(std::iter::repeat_n(log, 9), false), (Section::BaseIndices, vec![0; 20])];
+        let sections = [profiles(logs.into_iter().cycle().take(9), false), (Section::BaseIndices, vec![0; 20])];
         write_file(&header, &sections)
     };
+    let filled = |log: f32| of_channels([log; 3]);
+    // So dark that nothing is left in single precision, in all channels or in one.
+    for logs in [[-1000.0; 3], [-2.0, -2.5, -1000.0], [-1000.0, -3.0, -1000.0]] {
+        for terms in [1, 2] {
+            let file = of_channels(logs);
+            let fit = fit_basis(&Bssrdf::parse(&file).unwrap(), &of_size(terms, 3, 3), &()).unwrap();
+            assert!(fit.psnr_db > 30.0, "L = {terms}, {logs:?}: {} dB", fit.psnr_db);
+            let file = with_basis(&file, &fit).unwrap();
+            let basis = ProjectedBasis::of(&Bssrdf::parse(&file).unwrap()).unwrap();
+            for (found, log) in basis.albedo().iter().flat_map(|albedo| albedo.iter().zip(logs)) {
+                let expected = 25.0 * f64::from(log).exp() * 0.25;
+                assert!((f64::from(*found) - expected).abs() < 0.02 * expected + 1e-30, "{logs:?}: {found}");
+            }
+        }
+    }
     for log in [-87.0, -40.0, -12.0, 0.0] {
         let file = add_basis(&filled(log), &of_size(2, 2, 2), &()).unwrap();
         let basis = ProjectedBasis::of(&Bssrdf::parse(&file).unwrap()).unwrap();

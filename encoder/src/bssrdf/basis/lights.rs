@@ -44,9 +44,25 @@ fn drawn(size: [usize; 2], is_lit: impl Fn([f64; 2]) -> bool) -> Vec<f32> {
 }
 
 /// Place number `k` on the patch, spread evenly: multiples of two numbers that no pattern keeps step with.
-pub(super) fn place(k: usize, size: [usize; 2]) -> [f64; 2] {
+fn place(k: usize, size: [usize; 2]) -> [f64; 2] {
     let at = |ratio: f64, side: usize| (0.5 + float(k) * ratio).fract() * float(side);
     [at(0.754_877_666, size[0]), at(0.569_840_290, size[1])]
+}
+
+/// Numbers of up to `count` pixels, all of them if there are no more; rising.
+pub(super) fn spread(size: [usize; 2], count: usize) -> Vec<usize> {
+    if size[0] * size[1] <= count {
+        return (0..size[0] * size[1]).collect();
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the patch")]
+    let number = |k: usize| {
+        let [x, y] = place(k, size).map(|k| k as usize);
+        y.min(size[1] - 1) * size[0] + x.min(size[0] - 1)
+    };
+    let mut all: Vec<usize> = (0..count).map(number).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
 }
 
 #[allow(clippy::cast_precision_loss, reason = "pixels of a patch")]

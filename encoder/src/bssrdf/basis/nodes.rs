@@ -2,6 +2,8 @@
 
 use subsurf_decoder::Bssrdf;
 
+use super::lights::spread;
+
 /// Nodes that are taken at most: every one takes an exponential of every pixel when the file is loaded.
 const MOST: usize = 16;
 /// Share of the brightest node's mean from which a node says something.
@@ -26,11 +28,8 @@ impl Nodes {
         let count = samples.min(MOST);
         let at: Vec<usize> = (0..count).map(|k| k * (samples - 1) / (count - 1)).collect();
         let [width, height] = [header.width as usize, header.height as usize];
-        let stride = (width * height).div_ceil(PIXELS);
-        // By a prime number of pixels where there are many: no pattern keeps step.
-        let stride = if stride > 1 { stride | 1 } else { 1 };
         let mut scale = vec![[0.0; 3]; count];
-        let pixels = (0..width * height).step_by(stride);
+        let pixels = spread([width, height], PIXELS);
         #[allow(clippy::cast_precision_loss, reason = "a few thousand")]
         let share = 1.0 / pixels.len() as f64;
         for pixel in pixels {

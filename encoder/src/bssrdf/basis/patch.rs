@@ -3,7 +3,7 @@
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 
-use super::lights::{self, judges, place};
+use super::lights::{self, judges, spread};
 use super::nodes::Nodes;
 use super::params::Params;
 use super::rings::{Rings, profiles};
@@ -13,6 +13,10 @@ use super::targets::gather;
 const WHOLE: usize = 16_384;
 /// Least side of a tile in pixels.
 const TILE: usize = 64;
+/// Pixels of all tiles, at most where one has fewer: of wider windows one tile is looked at.
+const TILES: usize = 262_144;
+/// Pixels of a patch that the fit starts from, at most.
+const STARTED: usize = 16_384;
 /// Pixels of all patches whose exitance is compared, at most.
 const SAMPLES: usize = 2_048;
 /// Pairs of pixels that are gathered for them, about.
@@ -26,7 +30,9 @@ pub(super) struct Patch {
     pub(super) addressing: Addressing,
     /// f_x at the nodes, each divided by its scale; shape `[c][node][pixel]`.
     pub(super) f: [Vec<Vec<f32>>; 3],
-    /// f_x at 64 distances up to r_max, shape `[pixel][distance][rgb]`, mm⁻¹.
+    /// Numbers of the pixels that the fit starts from.
+    pub(super) started: Vec<usize>,
+    /// f_x of these at 64 distances up to r_max, shape `[pixel][distance][rgb]`, mm⁻¹.
     pub(super) profiles: Vec<[f32; 3]>,
     /// Numbers of the pixels whose exitance is compared.
     pub(super) samples: Vec<usize>,
@@ -66,10 +72,11 @@ pub(super) fn patches(material: &Bssrdf<'_>, nodes: &Nodes) -> Vec<Patch> {
         (size, vec![[0; 2]], header.addressing)
     } else {
         let tile = size.map(|side| side.min(TILE.max(2 * usize::from(header.window_radius) + 1)));
+        let has_room = 4 * tile[0] * tile[1] <= TILES;
         // Two to an axis, in the middle of its halves.
         let starts = |axis: usize| -> Vec<usize> {
             let rest = size[axis] - tile[axis];
-            if rest >= tile[axis] { vec![rest / 4, rest - rest / 4] } else { vec![rest / 2] }
+            if has_room && rest >= tile[axis] { vec![rest / 4, rest - rest / 4] } else { vec![rest / 2] }
         };
         let origins = starts(1).into_iter().flat_map(|y| starts(0).into_iter().map(move |x| [x, y])).collect();
         (tile, origins, Addressing::Clamp)
@@ -85,7 +92,8 @@ pub(super) fn patches(material: &Bssrdf<'_>, nodes: &Nodes) -> Vec<Patch> {
             all.filter(|(k, _)| *k == 0 || k % count == number).map(|(_, light)| light).collect();
         let fitted = of_fit.len();
         let lights: Vec<Vec<f32>> = of_fit.into_iter().chain(judges(tile)).collect();
-        let samples = spread(tile, samples.max(1));
+        let (samples, started) = (spread(tile, samples.max(1)), spread(tile, STARTED));
+        let of_start: Vec<[i32; 2]> = started.iter().map(|number| pixels[*number]).collect();
         let size = tile.map(|side| u32::try_from(side).expect("a side is below 65,536"));
         let targets = gather(material, &rings, &pixels, (size, addressing), &lights, &samples);
         let mut lit: Vec<Lit> =
@@ -95,29 +103,14 @@ pub(super) fn patches(material: &Bssrdf<'_>, nodes: &Nodes) -> Vec<Patch> {
             size,
             addressing,
             f: scaled_nodes(material, nodes, &pixels),
-            profiles: profiles(material, &pixels, &radii_mm(material)),
+            profiles: profiles(material, &of_start, &radii_mm(material)),
+            started,
             samples,
             lit,
             judged,
         }
     };
     origins.into_iter().enumerate().map(of).collect()
-}
-
-/// Numbers of up to `count` pixels, all of them if there are no more; rising.
-fn spread(size: [usize; 2], count: usize) -> Vec<usize> {
-    if size[0] * size[1] <= count {
-        return (0..size[0] * size[1]).collect();
-    }
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the patch")]
-    let number = |k: usize| {
-        let [x, y] = place(k, size).map(|k| k as usize);
-        y.min(size[1] - 1) * size[0] + x.min(size[0] - 1)
-    };
-    let mut all: Vec<usize> = (0..count).map(number).collect();
-    all.sort_unstable();
-    all.dedup();
-    all
 }
 
 /// f_x at the nodes, each divided by its scale.

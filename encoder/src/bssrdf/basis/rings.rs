@@ -1,6 +1,7 @@
 //! Distances of pixels in a window, and f_x at them.
 
 use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::{Knot, LocalProfile};
 
 /// Distances that are told apart, at most; of larger windows the nearest of as many is taken.
 const MOST: usize = 512;
@@ -47,8 +48,12 @@ pub(super) fn profiles(material: &Bssrdf<'_>, pixels: &[[i32; 2]], radii_mm: &[f
     let knots: Vec<_> = radii_mm.iter().map(|r_mm| material.knot(*r_mm)).collect();
     let of_pixel = |pixel: &[i32; 2]| -> Vec<[f32; 3]> {
         let profile = material.profile(*pixel);
-        let f = |knot: &Option<_>| knot.map_or([0.0; 3], |knot| profile.at(knot).map(|p| (0.5 * p).exp()));
-        knots.iter().map(f).collect()
+        knots.iter().map(|knot| root_at(&profile, *knot)).collect()
     };
     pixels.par_iter().flat_map_iter(of_pixel).collect()
+}
+
+/// f_x = exp(½ P̂_x) in mm⁻¹ of one profile; 0 beyond its end.
+pub(super) fn root_at(profile: &LocalProfile<'_>, knot: Option<Knot>) -> [f32; 3] {
+    knot.map_or([0.0; 3], |knot| profile.at(knot).map(|p| (0.5 * p).exp()))
 }

@@ -95,7 +95,8 @@ fn kernels(rings: &[Ring], radial: &Radial, terms: usize) -> Vec<Kernel> {
             |kernel: &Kernel| rings.iter().zip(&kernel.values).map(|(ring, v)| ring.count * v.abs()).sum::<f64>();
         let first = carried(&kernels[c]);
         for kernel in kernels.iter_mut().skip(c).step_by(3) {
-            let share = (carried(kernel) / first).powi(2);
+            // Where the first one is black, all are.
+            let share = if first > 0.0 { (carried(kernel) / first).powi(2) } else { 1.0 };
             kernel.importance.iter_mut().for_each(|importance| *importance *= share);
         }
     }

@@ -32,19 +32,21 @@ pub(super) fn start(header: &BssrdfHeader, patches: &[Patch], size: BasisSize) -
     params
 }
 
-/// Factors d_h of the nodes with which Σ_h d_h f_h is closest to coefficients of all pixels, by least squares.
+/// Factors d_h of the nodes with which Σ_h d_h f_h is closest to coefficients of the pixels that the fit starts from, by least squares.
 fn factors(patches: &[Patch], coefficients: &[f64], c: usize) -> Vec<f64> {
     let nodes = patches[0].f[c].len();
     let mut matrix = DMatrix::zeros(nodes, nodes);
     let mut right = DVector::zeros(nodes);
     let mut rest = coefficients;
     for patch in patches {
-        let (own, others) = rest.split_at(patch.pixels());
+        let (own, others) = rest.split_at(patch.started.len());
         rest = others;
         for (i, a) in patch.f[c].iter().enumerate() {
-            right[i] += a.iter().zip(own).map(|(f, value)| f64::from(*f) * value).sum::<f64>();
+            let of = |f: &[f32], sample: usize| f64::from(f[sample]);
+            let started = || patch.started.iter();
+            right[i] += started().zip(own).map(|(sample, value)| of(a, *sample) * value).sum::<f64>();
             for (j, b) in patch.f[c].iter().enumerate().skip(i) {
-                matrix[(i, j)] += a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum::<f64>();
+                matrix[(i, j)] += started().map(|sample| of(a, *sample) * of(b, *sample)).sum::<f64>();
                 matrix[(j, i)] = matrix[(i, j)];
             }
         }

@@ -13,7 +13,7 @@ const BLOCK: usize = 1024;
 
 /// Radial functions of a material, and their coefficients.
 pub(super) struct Radial {
-    /// Coefficients c_l of the pixels of all patches, at most 1; shape `[c][L][pixel]`.
+    /// Coefficients c_l of the pixels of all patches that the fit starts from, at most 1; shape `[c][L][pixel]`.
     pub(super) coefficients: [Vec<Vec<f64>>; 3],
     /// Functions g_l in mm⁻¹, shape `[c][L][radius]`.
     functions: [Vec<Vec<f64>>; 3],
