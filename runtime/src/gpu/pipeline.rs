@@ -96,11 +96,7 @@ impl Pipeline {
 
     /// Binds resources, in order, to bind group number `group`.
     pub(crate) fn bind(&self, gpu: &Gpu, group: usize, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
-        let entries = resources.iter().zip(0..);
-        let entries: Vec<BindGroupEntry<'_>> =
-            entries.map(|(resource, binding)| BindGroupEntry { binding, resource: resource.clone() }).collect();
-        let layout = &self.groups[group];
-        gpu.checked(|| gpu.device.create_bind_group(&BindGroupDescriptor { label: None, layout, entries: &entries }))
+        bind(gpu, &self.groups[group], resources)
     }
 
     /// Begins a pass that draws to `attachments`, with `groups` bound from 0 on.
@@ -141,7 +137,16 @@ pub(crate) fn attachment<'a>(view: &'a TextureView, load: LoadOp<Color>) -> Rend
     }
 }
 
-fn bind_group_layout(gpu: &Gpu, bindings: &[Binding]) -> BindGroupLayout {
+/// Binds resources, in order.
+pub(crate) fn bind(gpu: &Gpu, layout: &BindGroupLayout, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
+    let entries = resources.iter().zip(0..);
+    let entries: Vec<BindGroupEntry<'_>> =
+        entries.map(|(resource, binding)| BindGroupEntry { binding, resource: resource.clone() }).collect();
+    gpu.checked(|| gpu.device.create_bind_group(&BindGroupDescriptor { label: None, layout, entries: &entries }))
+}
+
+/// Layout of a bind group; those of equal bindings fit each other.
+pub(crate) fn bind_group_layout(gpu: &Gpu, bindings: &[Binding]) -> BindGroupLayout {
     let entries = layout_entries(bindings, gpu.target_format());
     gpu.device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: None, entries: &entries })
 }

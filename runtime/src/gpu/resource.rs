@@ -74,7 +74,11 @@ impl TextureSpec {
 
     /// Bytes on the device: texel size × texels of all levels, layers and samples.
     pub(crate) fn bytes(&self) -> u64 {
-        let texel = u64::from(self.format.block_copy_size(None).unwrap_or(4));
+        let texel = match self.format {
+            // Single floats, and a word for the stencil.
+            TextureFormat::Depth32FloatStencil8 => 8,
+            format => u64::from(format.block_copy_size(None).unwrap_or(4)),
+        };
         let texels = |level: u32| self.size.map(|side| u64::from((side >> level).max(1))).iter().product::<u64>();
         (0..self.levels).map(texels).sum::<u64>() * u64::from(self.layers) * u64::from(self.samples) * texel
     }

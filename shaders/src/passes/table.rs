@@ -17,12 +17,14 @@ const MAPPING: Part = Part::File(wgsl!("lib/mesh/mapping"));
 const PATCH_LAYERS: Part = Part::File(wgsl!("lib/mesh/patch_layers"));
 const VERTEX: Part = Part::File(wgsl!("lib/mesh/vertex"));
 const VERTEX_NONE: Part = Part::File(wgsl!("lib/mesh/vertex_none"));
+const VISIBILITIES: Part = Part::File(wgsl!("lib/visibilities"));
 const EXITANCE_VERTEX: Part = Part::File(wgsl!("lib/mesh/exitance_vertex"));
 const SHADING: Part = Part::File(wgsl!("lib/mesh/shading"));
 const BTF_VERTEX: Part = Part::File(wgsl!("lib/mesh/btf_vertex"));
 const BTF_TANGENTS: Part = Part::File(wgsl!("lib/mesh/btf_tangents"));
 const BTF_TEXTURE: Part = Part::File(wgsl!("material/btf/btf_texture"));
 const TSM: Part = Part::File(wgsl!("lib/screen/tsm"));
+const HOST_SHADOW: Part = Part::File(wgsl!("lib/screen/host_shadow"));
 const TSM_VISIBILITY: Part = Part::File(wgsl!("lib/screen/tsm_visibility"));
 const TRANSMISSION: Part = Part::File(wgsl!("lib/screen/transmission"));
 const NEIGHBOURS: Part = Part::File(wgsl!("lib/screen/neighbours"));
@@ -45,6 +47,11 @@ const LIT: Group = Group::Fixed(&[Uniform, Target, Filtered, Sampler]);
 
 /// Bind group 2 of passes that draw meshes: the object.
 const OF_OBJECT: Group = Group::Fixed(&[Binding::Object]);
+
+/// Bind group 3 of passes that look up visibilities of lights: the host's shadow maps, and their sampler.
+pub const HOST_SHADOWS: &[Binding] = &[Float, Float, Float, Float, Float, Float, Float, Float, Nearest];
+
+const OF_HOST: Group = Group::Fixed(HOST_SHADOWS);
 
 /// Row of a pass without overrides.
 const fn pass(file: File, parts: &'static [Part], vertex: &'static str, groups: &'static [Group]) -> Pass {
@@ -110,8 +117,8 @@ pub static BLUR_PATCH_LAST: Pass = fullscreen(
 /// Irradiance that enters a surface at each of its points.
 pub static IRRADIANCE: Pass = fullscreen(
     wgsl!("pass/surface/irradiance"),
-    &[Part::TargetFormat, FRESNEL, OBJECT, SCENE, FULLSCREEN],
-    &[Group::Fixed(&[Uniform]), Group::Fixed(&[Float, Float, Float]), OF_OBJECT],
+    &[Part::TargetFormat, FRESNEL, OBJECT, SCENE, VISIBILITIES, FULLSCREEN],
+    &[Group::Fixed(&[Uniform]), Group::Fixed(&[Float, Float, Binding::Uint]), OF_OBJECT],
 );
 
 /// Exitance at the points of a surface, by the reference sum.
@@ -124,8 +131,8 @@ pub static SURFACE_GATHER: Pass = fullscreen(
 /// Picture of a mesh from the exitance of its vertices.
 pub static SHADE_VERTEX: Pass = picture(
     wgsl!("pass/surface/shade_vertex"),
-    &[Part::TargetFormat, TONE, DISPLAY, FRESNEL, OBJECT, SCENE, COAT, EXITANCE_VERTEX, VERTEX, SHADING],
-    &[LIT, Group::Fixed(&[Target, Float]), OF_OBJECT],
+    &[Part::TargetFormat, TONE, DISPLAY, FRESNEL, OBJECT, SCENE, COAT, VISIBILITIES, EXITANCE_VERTEX, VERTEX, SHADING],
+    &[LIT, Group::Fixed(&[Target, Binding::Uint]), OF_OBJECT],
 );
 
 /// Translucent shadow map of a light.
@@ -146,7 +153,7 @@ pub static TSM_REDUCE: Pass = fullscreen(
 /// G-buffer of a mesh for splats: positions, texture coordinates, albedo.
 pub static SURFACE_GBUFFER: Pass = pass(
     wgsl!("pass/splat/surface_gbuffer"),
-    &[FRESNEL, OBJECT, SCENE, MAPPING, PATCH_LAYERS, VERTEX_NONE, VERTEX],
+    &[FRESNEL, OBJECT, SCENE, MAPPING, PATCH_LAYERS, VISIBILITIES, VERTEX_NONE, VERTEX],
     "project",
     &[Group::Fixed(&[Uniform]), Group::Fixed(&[FilteredLayers, Sampler]), OF_OBJECT],
 );
@@ -178,15 +185,17 @@ pub static SHADE_SPLAT: Pass = picture(
         SCENE,
         COAT,
         MAPPING,
+        HOST_SHADOW,
         TSM_VISIBILITY,
         PATCH_LAYERS,
+        VISIBILITIES,
         VERTEX_NONE,
         VERTEX,
         NEIGHBOURS,
         UPSAMPLING,
         SHADING,
     ],
-    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, Float]), OF_OBJECT],
+    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, Float]), OF_OBJECT, OF_HOST],
 );
 
 /// G-buffer for the separable blurs on the screen: L weighted irradiance maps, and transmitted light.
@@ -199,15 +208,22 @@ pub static SEPARABLE_GBUFFER: Pass = pass(
         OBJECT,
         SCENE,
         MAPPING,
+        HOST_SHADOW,
         TSM_VISIBILITY,
         PATCH_LAYERS,
         SEPARABLE_BASIS,
+        VISIBILITIES,
         VERTEX_NONE,
         VERTEX,
         TRANSMISSION,
     ],
     "project",
-    &[Group::Fixed(&[Uniform, Target]), Group::Fixed(&[FilteredLayers, Sampler, Uniform, Target, Target]), OF_OBJECT],
+    &[
+        Group::Fixed(&[Uniform, Target]),
+        Group::Fixed(&[FilteredLayers, Sampler, Uniform, Target, Target]),
+        OF_OBJECT,
+        OF_HOST,
+    ],
 );
 
 /// Stages of the cascade on the screen, along rows.
@@ -237,16 +253,18 @@ pub static SHADE_SEPARABLE: Pass = picture(
         SCENE,
         COAT,
         MAPPING,
+        HOST_SHADOW,
         TSM_VISIBILITY,
         PATCH_LAYERS,
         SEPARABLE_BASIS,
+        VISIBILITIES,
         VERTEX_NONE,
         VERTEX,
         NEIGHBOURS,
         UPSAMPLING,
         SHADING,
     ],
-    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, TargetLayers]), OF_OBJECT],
+    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, TargetLayers]), OF_OBJECT, OF_HOST],
 );
 
 /// Values and light samples of a BTF for lists of directions.
@@ -268,13 +286,14 @@ pub static SHADE_BTF: Pass = picture(
         OBJECT,
         SCENE,
         COAT,
+        HOST_SHADOW,
         TSM_VISIBILITY,
         BTF_VERTEX,
         BTF_TEXTURE,
         BTF_TANGENTS,
         Part::Ambient,
     ],
-    &[LIT, Group::Btf(&[Uniform]), OF_OBJECT],
+    &[LIT, Group::Btf(&[Uniform]), OF_OBJECT, OF_HOST],
 );
 
 /// All passes.

@@ -13,7 +13,7 @@ use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::NestedBtf;
 use subsurf_encoder::Progress as _;
 use subsurf_runtime::{BACKGROUND, Backend, BtfFiltering, BtfLayout, BtfMaterial, BtfOptions, Gpu, RuntimeOptions};
-use subsurf_scene::{Light, LightShape, Mesh, Placement, REFLECTION_SIZE, Scene, relief, sphere};
+use subsurf_scene::{Light, LightShape, Mesh, Placement, REFLECTION_SIZE, Scene, Shadow, relief, sphere};
 use subsurf_shaders::{cpu, uniform};
 use subsurf_viewer::{
     GpuAsset, RenderRequest, RenderSession, TexturedMesh, human, material_number, parse_btf, read, upload_images,
@@ -121,7 +121,7 @@ impl Row {
 /// One point light, over the eye's shoulder.
 fn scene(mesh: &Mesh, size: [u32; 2]) -> Scene {
     let position_mm = Vec3::new(0.9, 1.1, 0.9) * EXTENT_MM;
-    let light = Light { shape: LightShape::Point { position_mm }, irradiance: [3.0, 2.9, 2.7] };
+    let light = Light { shape: LightShape::Point { position_mm }, irradiance: [3.0, 2.9, 2.7], shadow: Shadow::Drawn };
     Scene { lights: vec![light], ..RenderRequest::usual(size).scene(mesh) }
 }
 
