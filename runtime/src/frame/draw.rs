@@ -5,6 +5,7 @@ use subsurf_shaders::uniform;
 use wgpu::{CommandEncoder, LoadOp, Operations, RenderPassColorAttachment, StoreOp};
 
 use super::input::{Input, Object, Target};
+use super::options::RuntimeOptions;
 use super::prepare::Frame;
 use super::renderer::Renderer;
 use crate::asset::Material;
@@ -58,7 +59,7 @@ impl Renderer {
     /// # Errors
     /// As [`Renderer::draw`], and [`Error::Device`] if the device fails.
     pub fn gather(&self, gpu: &Gpu, frame: &mut Frame, input: &Input<'_>) -> Result<()> {
-        let Some(seen) = frame.place(gpu, input)? else {
+        let Some(seen) = frame.place(gpu, input, &self.options)? else {
             return Ok(());
         };
         let Frame { plan, common, slots, placed, .. } = frame;
@@ -82,7 +83,7 @@ impl Renderer {
         lap: Lap<'_>,
     ) -> Result<()> {
         expect_room(target, frame.plan.size)?;
-        let Some(seen) = frame.place(gpu, input)? else {
+        let Some(seen) = frame.place(gpu, input, &self.options)? else {
             clear(encoder, target);
             return Ok(());
         };
@@ -132,7 +133,7 @@ impl Renderer {
 
 impl Frame {
     /// Finds the materials and the blocks of all objects, and uploads the blocks; `None` if nothing is seen.
-    fn place(&mut self, gpu: &Gpu, input: &Input<'_>) -> Result<Option<Seen>> {
+    fn place(&mut self, gpu: &Gpu, input: &Input<'_>, options: &RuntimeOptions) -> Result<Option<Seen>> {
         let room = self.common.objects.size() / u64::from(OBJECT_STRIDE);
         if input.objects.len() as u64 > room {
             return Err(Error::Usage(format!("{} objects; the renderer has room for {room}", input.objects.len())));
@@ -141,7 +142,7 @@ impl Frame {
         for slot in &mut self.slots {
             slot.bounds = None;
         }
-        let (shadows, have) = (input.drawn_shadows()?, self.plan.lights);
+        let (shadows, have) = (input.drawn_shadows(options)?, self.plan.lights);
         if shadows > have {
             let reason =
                 format!("shadows of {shadows} lights; the frame was prepared for {have}: prepare it for all of them");

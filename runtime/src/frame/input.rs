@@ -5,6 +5,7 @@ use subsurf_scene::{Lighting, MAX_LIGHTS, Mapping, Scene, Shadow, View};
 use subsurf_shaders::uniform;
 use wgpu::{Color, LoadOp, Operations, TextureFormat, TextureUsages, TextureView};
 
+use super::options::RuntimeOptions;
 use crate::asset::{GpuMesh, Material};
 use crate::error::{Error, Result};
 
@@ -17,7 +18,8 @@ pub struct Input<'a> {
     pub exposure: f32,
     /// Light that falls on the objects, of at most [`MAX_LIGHTS`] sources.
     pub lighting: Lighting<'a>,
-    /// Shadow maps of the host's own, which lights name by [`Shadow::Host`]; at most [`MAX_LIGHTS`].
+    /// Shadow maps of the host's own, which lights name by [`Shadow::Host`]; at most [`MAX_LIGHTS`]. Renderers take them by the
+    /// option `host_shadow_maps`.
     pub shadow_maps: &'a [ShadowMap<'a>],
     /// Objects, in any order. Those of one material scatter light between each other.
     pub objects: &'a [Object<'a>],
@@ -94,8 +96,13 @@ impl<'a> Input<'a> {
     ///
     /// # Errors
     /// [`Error::Usage`] if there are too many lights or shadow maps, a light names a map that is not there, or a map cannot be read.
-    pub(crate) fn drawn_shadows(&self) -> Result<u32> {
+    pub(crate) fn drawn_shadows(&self, options: &RuntimeOptions) -> Result<u32> {
         let (lights, maps) = (self.lighting.lights, self.shadow_maps);
+        if !maps.is_empty() && !options.host_shadow_maps {
+            return Err(Error::Usage(
+                "shadow maps of the host's; the renderer has no option host_shadow_maps".to_owned(),
+            ));
+        }
         for (what, count) in [("lights", lights.len()), ("shadow maps", maps.len())] {
             if count > MAX_LIGHTS {
                 return Err(Error::Usage(format!("{count} {what}; a frame has at most {MAX_LIGHTS}")));

@@ -84,7 +84,7 @@ impl Renderer {
             return Err(Error::Usage(format!("a frame of {size:?} pixels")));
         }
         expect_groups(materials.len())?;
-        let lights = input.drawn_shadows()?;
+        let lights = input.drawn_shadows(&self.options)?;
         let plan = Plan {
             size,
             light_texels: self.options.light_texels.min(largest_tile(gpu, lights)),

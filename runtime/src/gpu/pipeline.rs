@@ -25,8 +25,8 @@ pub(crate) struct Pipeline {
 pub(crate) struct Program<'a> {
     /// Pass, with what it leaves open chosen.
     pub(crate) variant: Variant,
-    /// Values of its overrides.
-    pub(crate) constants: &'a [(&'a str, f64)],
+    /// Values of overrides; those that the pass does not have are left out.
+    pub(crate) constants: &'a [(&'a str, bool)],
     /// Formats of the colour targets.
     pub(crate) targets: &'a [TextureFormat],
 }
@@ -67,7 +67,10 @@ impl Pipeline {
                 bind_group_layouts: &bind_group_layouts,
                 immediate_size: 0,
             });
-            let compilation_options = PipelineCompilationOptions { constants: program.constants, ..Default::default() };
+            let is_known = |(name, _): &&(&str, bool)| pass.overrides.contains(name);
+            let constants = program.constants.iter().filter(is_known);
+            let constants: Vec<(&str, f64)> = constants.map(|(name, value)| (*name, f64::from(*value))).collect();
+            let compilation_options = PipelineCompilationOptions { constants: &constants, ..Default::default() };
             let vertices: Vec<_> = drawing.vertices.iter().cloned().map(Some).collect();
             let pipeline = gpu.device.create_render_pipeline(&RenderPipelineDescriptor {
                 label,

@@ -1,7 +1,7 @@
 //! Shadow maps of the host's own, bound for the passes that look up visibilities of lights.
 
 use subsurf_scene::MAX_LIGHTS;
-use subsurf_shaders::passes::table::HOST_SHADOWS;
+use subsurf_shaders::passes::table::HOST_SHADOW_MAPS;
 use wgpu::{BindGroup, BindGroupLayout, BindingResource, Sampler, SamplerDescriptor, TextureFormat, TextureView};
 
 use crate::error::Result;
@@ -22,7 +22,7 @@ pub(crate) struct HostShadows {
 impl HostShadows {
     /// Binds no map yet.
     pub(crate) fn new(gpu: &Gpu) -> Result<Self> {
-        let layout = bind_group_layout(gpu, HOST_SHADOWS);
+        let layout = bind_group_layout(gpu, HOST_SHADOW_MAPS);
         let none = gpu.texture(&TextureSpec::table("no shadow map", [1; 2], TextureFormat::R32Float))?;
         // Clamps to the edge and takes the nearest texel.
         let sampler =

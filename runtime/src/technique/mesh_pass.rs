@@ -1,7 +1,7 @@
 //! Passes that draw meshes.
 
 use subsurf_shaders::passes::Variant;
-use subsurf_shaders::passes::table::{ENCODE_SRGB, TONE_MAP};
+use subsurf_shaders::passes::table::{ENCODE_SRGB, HOST_SHADOWS, TONE_MAP};
 use wgpu::{
     BindGroup, BindingResource, Color, CommandEncoder, CompareFunction, DepthStencilState, LoadOp, MultisampleState,
     Operations, RenderPass, RenderPassColorAttachment, StoreOp, TextureFormat, TextureView, VertexBufferLayout,
@@ -87,6 +87,17 @@ impl MeshPass {
         Self::with(gpu, &Program { variant, constants: &[], targets }, &[VERTICES], depth, 1)
     }
 
+    /// The same of a pass that looks up visibilities of lights, with depth as that of the picture.
+    pub(crate) fn lit(
+        gpu: &Gpu,
+        variant: Variant,
+        targets: &[TextureFormat],
+        options: &RuntimeOptions,
+    ) -> Result<Self> {
+        let constants = [(HOST_SHADOWS, options.host_shadow_maps)];
+        Self::with(gpu, &Program { variant, constants: &constants, targets }, &[VERTICES], options.depth, 1)
+    }
+
     /// Compiles a variant of a pass that draws pictures.
     pub(crate) fn picture(gpu: &Gpu, variant: Variant, options: &RuntimeOptions) -> Result<Self> {
         Self::picture_of(gpu, variant, options, &[VERTICES])
@@ -106,7 +117,7 @@ impl MeshPass {
         let RuntimeOptions { format, samples, depth, tone_mapping, .. } = *options;
         // Linear light that is not tone-mapped stays linear.
         let encodes = tone_mapping && !format.is_srgb();
-        let constants = [(TONE_MAP, f64::from(tone_mapping)), (ENCODE_SRGB, f64::from(encodes))];
+        let constants = [(TONE_MAP, tone_mapping), (ENCODE_SRGB, encodes), (HOST_SHADOWS, options.host_shadow_maps)];
         let program = Program { variant, constants: &constants, targets: &[format] };
         Self::with(gpu, &program, vertices, depth, samples)
     }

@@ -85,7 +85,7 @@ impl Passes {
         let maps = vec![gpu.target_texture_format(); 2 * terms];
         Ok(Self {
             depth: options.depth,
-            gbuffer: MeshPass::new(gpu, table::SEPARABLE_GBUFFER.with(choice), &maps, options.depth)?,
+            gbuffer: MeshPass::lit(gpu, table::SEPARABLE_GBUFFER.with(choice), &maps, options)?,
             blur: BlurPasses::new(gpu, [&table::BLUR_SCREEN_ROWS, &table::BLUR_SCREEN_COLUMNS], terms)?,
             shade: MeshPass::picture(gpu, table::SHADE_SEPARABLE.with(choice), options)?,
         })

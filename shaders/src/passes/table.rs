@@ -42,6 +42,9 @@ pub const ENCODE_SRGB: &str = "ENCODE_SRGB";
 /// Whether light is tone-mapped; an override of the same passes.
 pub const TONE_MAP: &str = "TONE_MAP";
 
+/// Whether lights may have shadow maps of the host's own; an override of passes that look up visibilities of lights.
+pub const HOST_SHADOWS: &str = "HOST_SHADOWS";
+
 /// Bind group 0 of pictures of meshes: scene, positions of the translucent shadow maps, reflections and their sampler.
 const LIT: Group = Group::Fixed(&[Uniform, Target, Filtered, Sampler]);
 
@@ -49,9 +52,9 @@ const LIT: Group = Group::Fixed(&[Uniform, Target, Filtered, Sampler]);
 const OF_OBJECT: Group = Group::Fixed(&[Binding::Object]);
 
 /// Bind group 3 of passes that look up visibilities of lights: the host's shadow maps, and their sampler.
-pub const HOST_SHADOWS: &[Binding] = &[Float, Float, Float, Float, Float, Float, Float, Float, Nearest];
+pub const HOST_SHADOW_MAPS: &[Binding] = &[Float, Float, Float, Float, Float, Float, Float, Float, Nearest];
 
-const OF_HOST: Group = Group::Fixed(HOST_SHADOWS);
+const OF_HOST: Group = Group::Fixed(HOST_SHADOW_MAPS);
 
 /// Row of a pass without overrides.
 const fn pass(file: File, parts: &'static [Part], vertex: &'static str, groups: &'static [Group]) -> Pass {
@@ -63,7 +66,12 @@ const fn fullscreen(file: File, parts: &'static [Part], groups: &'static [Group]
     pass(file, parts, "fullscreen", groups)
 }
 
-/// Row of a picture of a mesh.
+/// Row of a picture of a mesh whose lights have shadow maps.
+const fn shaded(file: File, parts: &'static [Part], groups: &'static [Group]) -> Pass {
+    Pass { overrides: &[TONE_MAP, ENCODE_SRGB, HOST_SHADOWS], ..pass(file, parts, "project", groups) }
+}
+
+/// Row of a picture of a mesh whose vertices know what lights reach.
 const fn picture(file: File, parts: &'static [Part], groups: &'static [Group]) -> Pass {
     Pass { overrides: &[TONE_MAP, ENCODE_SRGB], ..pass(file, parts, "project", groups) }
 }
@@ -174,7 +182,7 @@ pub static SPLAT_RESOLVE: Pass = fullscreen(
 );
 
 /// Picture of a mesh from the resolved splats.
-pub static SHADE_SPLAT: Pass = picture(
+pub static SHADE_SPLAT: Pass = shaded(
     wgsl!("pass/splat/shade_splat"),
     &[
         Part::TargetFormat,
@@ -199,32 +207,35 @@ pub static SHADE_SPLAT: Pass = picture(
 );
 
 /// G-buffer for the separable blurs on the screen: L weighted irradiance maps, and transmitted light.
-pub static SEPARABLE_GBUFFER: Pass = pass(
-    wgsl!("pass/separable/separable_gbuffer"),
-    &[
-        Part::TargetFormat,
-        Part::Terms,
-        FRESNEL,
-        OBJECT,
-        SCENE,
-        MAPPING,
-        HOST_SHADOW,
-        TSM_VISIBILITY,
-        PATCH_LAYERS,
-        SEPARABLE_BASIS,
-        VISIBILITIES,
-        VERTEX_NONE,
-        VERTEX,
-        TRANSMISSION,
-    ],
-    "project",
-    &[
-        Group::Fixed(&[Uniform, Target]),
-        Group::Fixed(&[FilteredLayers, Sampler, Uniform, Target, Target]),
-        OF_OBJECT,
-        OF_HOST,
-    ],
-);
+pub static SEPARABLE_GBUFFER: Pass = Pass {
+    overrides: &[HOST_SHADOWS],
+    ..pass(
+        wgsl!("pass/separable/separable_gbuffer"),
+        &[
+            Part::TargetFormat,
+            Part::Terms,
+            FRESNEL,
+            OBJECT,
+            SCENE,
+            MAPPING,
+            HOST_SHADOW,
+            TSM_VISIBILITY,
+            PATCH_LAYERS,
+            SEPARABLE_BASIS,
+            VISIBILITIES,
+            VERTEX_NONE,
+            VERTEX,
+            TRANSMISSION,
+        ],
+        "project",
+        &[
+            Group::Fixed(&[Uniform, Target]),
+            Group::Fixed(&[FilteredLayers, Sampler, Uniform, Target, Target]),
+            OF_OBJECT,
+            OF_HOST,
+        ],
+    )
+};
 
 /// Stages of the cascade on the screen, along rows.
 pub static BLUR_SCREEN_ROWS: Pass = fullscreen(
@@ -241,7 +252,7 @@ pub static BLUR_SCREEN_COLUMNS: Pass = fullscreen(
 );
 
 /// Picture of a mesh from L blurred maps on the screen.
-pub static SHADE_SEPARABLE: Pass = picture(
+pub static SHADE_SEPARABLE: Pass = shaded(
     wgsl!("pass/separable/shade_separable"),
     &[
         Part::TargetFormat,
@@ -275,7 +286,7 @@ pub static BTF_QUERY: Pass = fullscreen(
 );
 
 /// Picture of a mesh of a BTF.
-pub static SHADE_BTF: Pass = picture(
+pub static SHADE_BTF: Pass = shaded(
     wgsl!("pass/btf/shade_btf"),
     &[
         Part::TargetFormat,

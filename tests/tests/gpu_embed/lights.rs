@@ -4,7 +4,7 @@ use glam::camera::rh::proj::directx::orthographic;
 use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec3, Vec4};
 use subsurf_runtime::wgpu::{Backends, TextureFormat};
-use subsurf_runtime::{Input, Object, ShadowMap};
+use subsurf_runtime::{Input, Object, RuntimeOptions, ShadowMap};
 use subsurf_scene::{Environment, Light, LightShape, Lighting, MAX_LIGHTS, Shadow};
 
 use super::application;
@@ -50,7 +50,7 @@ fn eight() -> [Light; MAX_LIGHTS] {
 const SUM_ERRORS: [f32; 3] = [0.004, 0.04, 0.004];
 
 fn lights_add_up(backends: Backends) {
-    let stage = Stage::open(backends);
+    let stage = Stage::with(backends, RuntimeOptions { light_texels: 128, ..RuntimeOptions::default() });
     for (object, limit) in all(&stage).into_iter().zip(SUM_ERRORS) {
         let together = draw(&stage, &[object], &eight(), &[]);
         let mut sum = vec![[0.0; 3]; together.len()];
@@ -130,7 +130,7 @@ fn compare(found: &[[f32; 4]], other: &[[f32; 4]]) -> (f64, f64) {
 /// Maps of the host's against our own: of a light from afar and of a spot, in which a sphere shades another, and of a light from
 /// behind, which comes through where a sphere is thin. Edges of shadows differ, for the texels of the maps lie elsewhere.
 fn host_maps(backends: Backends) {
-    let stage = Stage::open(backends);
+    let stage = Stage::with(backends, RuntimeOptions { host_shadow_maps: true, ..RuntimeOptions::default() });
     let (front, back) = (Vec3::new(-1.0, 0.6, 0.5).normalize(), Vec3::new(0.3, 0.5, -1.0).normalize());
     let from = |eye_mm: Vec3| look_at_mat4(eye_mm, Vec3::ZERO, Vec3::Y);
     let parallel = orthographic(-30.0, 30.0, -30.0, 30.0, 10.0, 130.0);

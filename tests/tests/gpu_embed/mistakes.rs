@@ -2,7 +2,7 @@
 
 use glam::{Mat4, Vec3};
 use subsurf_runtime::wgpu::{self, Backends, TextureFormat, TextureUsages};
-use subsurf_runtime::{Error, Input, Object, Result, ShadowMap};
+use subsurf_runtime::{Error, Input, Object, Result, RuntimeOptions, ShadowMap};
 use subsurf_scene::{Environment, Light, Lighting, Shadow};
 
 use super::application;
@@ -47,7 +47,7 @@ fn objects_that_were_not_prepared_for() {
 
 #[test]
 fn lights_that_were_not_prepared_for_or_have_no_map() {
-    let stage = Stage::open(Backends::VULKAN);
+    let stage = Stage::with(Backends::VULKAN, RuntimeOptions { host_shadow_maps: true, ..RuntimeOptions::default() });
     let environment = Environment::uniform([1.0; 3]);
     let lit = |lights| Lighting { lights, environment: &environment, reference_mm: Vec3::ZERO };
     let objects = [stage.jade()];

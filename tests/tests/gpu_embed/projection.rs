@@ -32,7 +32,7 @@ fn off_centre([left, right, bottom, top]: [f32; 4], near: f32, far: f32) -> Mat4
 #[test]
 fn splats_cover_what_they_light_in_the_corner_of_a_wide_picture() {
     let file = material_of("jade");
-    let mesh = torus(9.0, 4.0, 32);
+    let mesh = torus(9.0, 4.0, 24);
     // 60 degrees from the axis.
     let along = Vec3::new(1.3, 1.1, -1.0);
     let eye_mm = Vec3::new(-24.0, -2.0, 40.0);
@@ -42,9 +42,11 @@ fn splats_cover_what_they_light_in_the_corner_of_a_wide_picture() {
     let view_from_world = view_from_world * Mat4::from_translation(shift);
     let window = [along.x - 0.9, along.x + 0.9, along.y - 0.7, along.y + 0.7];
     let view = View { view_from_world, clip_from_view: off_centre(window, 5.0, 60.0) };
-    for gpu in Backend::ALL.map(device) {
-        let draw = |mode| picture(&gpu, mode, &file, &mesh, view, [160, 120]);
-        let db = psnr(&draw(RenderMode::Gather), &draw(RenderMode::Splat));
+    let gpus = Backend::ALL.map(device);
+    let draw = |gpu, mode| picture(gpu, mode, &file, &mesh, view, [160, 120]);
+    let gather = draw(&gpus[0], RenderMode::Gather);
+    for gpu in &gpus {
+        let db = psnr(&gather, &draw(gpu, RenderMode::Splat));
         println!("{:?}: {db:.1} dB between splats and the gather", gpu.info().backend);
         assert!(db >= 33.0, "{db} dB");
     }

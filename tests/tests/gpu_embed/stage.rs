@@ -34,6 +34,11 @@ pub(crate) struct Stage {
 
 impl Stage {
     pub(crate) fn open(backends: Backends) -> Self {
+        Self::with(backends, RuntimeOptions::default())
+    }
+
+    /// Stage whose renderer has some options; what is drawn to is that of the stage.
+    pub(crate) fn with(backends: Backends, options: RuntimeOptions) -> Self {
         let app = Application::open(backends, SIZE, COLOUR, DEPTH.format).unwrap();
         let gpu = Gpu::from_device(app.device.clone(), app.queue.clone(), app.info.clone());
         let (file, btf) = (material_of("jade"), NestedShape::typical().database(1).to_bytes());
@@ -47,7 +52,7 @@ impl Stage {
         let splats: Material = SplatMaterial::upload(&gpu, &file).unwrap().into();
         // Light from all around that has no grain, so that pictures can be compared bit for bit.
         let btf = BtfOptions { samples: 0, ..BtfOptions::default() };
-        let options = RuntimeOptions { format: COLOUR, depth: DEPTH, tone_mapping: false, btf, ..Default::default() };
+        let options = RuntimeOptions { format: COLOUR, depth: DEPTH, tone_mapping: false, btf, ..options };
         let mut renderer = Renderer::new(&gpu, options).unwrap();
         for material in [&jade, &splats, &leather] {
             renderer.compile(&gpu, material.technique()).unwrap();

@@ -1,5 +1,8 @@
 // Visibility of lights, and thickness of what they shine through, from depth maps of the host's own.
 
+// Whether lights may have such maps.
+override HOST_SHADOWS: bool = true;
+
 // Depth maps, by number; where there is none, a texture of one texel.
 @group(3) @binding(0) var host_map_0: texture_2d<f32>;
 @group(3) @binding(1) var host_map_1: texture_2d<f32>;

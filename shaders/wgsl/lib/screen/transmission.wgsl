@@ -126,7 +126,7 @@ fn transmitted(
     if shadow == OWN_SHADOW {
         return transmitted_of_map(i, position_mm);
     }
-    if shadow != NO_SHADOW {
+    if HOST_SHADOWS && shadow != NO_SHADOW {
         return transmitted_by_host(i, position_mm, facing_away, c);
     }
     return array<vec3<f32>, TERMS>();

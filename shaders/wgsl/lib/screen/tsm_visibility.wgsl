@@ -41,7 +41,7 @@ fn visibility(i: u32, position_mm: vec3<f32>, normal: vec3<f32>) -> f32 {
     // A texel of a slanted surface has depths on both sides of its middle.
     let cosine = clamp(dot(normal, towards), 0.15, 1.0);
     let slope = 0.6 + 1.5 * sqrt(1.0 - cosine * cosine) / cosine;
-    if shadow != OWN_SHADOW {
+    if HOST_SHADOWS && shadow != OWN_SHADOW {
         return host_visibility(i, position_mm, towards, slope);
     }
     let coord = tsm_coord(i, position_mm);
