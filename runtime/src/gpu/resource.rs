@@ -220,3 +220,21 @@ impl Gpu {
 pub(super) fn extent(size: [u32; 2], layers: u32) -> Extent3d {
     Extent3d { width: size[0], height: size[1], depth_or_array_layers: layers }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_those_of_all_levels_and_samples() {
+        let bytes = |format| TextureSpec::attachment("", [4, 2], format).bytes();
+        assert_eq!(bytes(TextureFormat::Depth16Unorm), 16);
+        assert_eq!(bytes(TextureFormat::Depth24Plus), 32);
+        assert_eq!(bytes(TextureFormat::Depth24PlusStencil8), 32);
+        assert_eq!(bytes(TextureFormat::Depth32FloatStencil8), 64);
+        let plain = TextureSpec::table("", [4, 2], TextureFormat::Rgba8Unorm);
+        assert_eq!(TextureSpec { levels: 3, ..plain }.bytes(), 4 * (8 + 2 + 1));
+        let plain = TextureSpec::table("", [4, 2], TextureFormat::Rgba8Unorm);
+        assert_eq!(TextureSpec { samples: 4, layers: 2, ..plain }.bytes(), 4 * 8 * 4 * 2);
+    }
+}
