@@ -15,7 +15,7 @@ pub use asset::{
 pub use error::{Error, Result};
 pub use frame::{
     BACKGROUND, BACKGROUND_COLOUR, Frame, Input, Object, PassTimes, PictureTarget, Plan, Renderer, RuntimeOptions,
-    Target,
+    ShadowMap, Target,
 };
 pub use gpu::{Backend, ColourTarget, Gpu, Ledger, OnScreen, Purpose, devices};
 pub use subsurf_shaders::uniform::BtfFiltering;

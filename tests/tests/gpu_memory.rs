@@ -4,7 +4,7 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, add_basis};
 use subsurf_runtime::{Backend, Error, Frame, Gpu, PictureTarget, Purpose, RuntimeOptions};
-use subsurf_scene::{Scene, torus};
+use subsurf_scene::{Light, Scene, Shadow, torus};
 use subsurf_tests::drawable;
 use subsurf_tests::frames::{Loaded, RenderMode, SIZE, device, scene};
 
@@ -120,6 +120,36 @@ fn with_terms(terms: usize) -> Vec<u8> {
     let choice = BasisChoice::Size(BasisSize { terms, gaussians: 3 });
     let file = drawable([31, 31], 6, Addressing::Mirror);
     add_basis(&file, &BasisOptions { choice, steps: 0 }, &()).unwrap()
+}
+
+/// Lights take memory for shadows that are drawn, and for nothing else.
+#[test]
+fn lights_without_shadows_take_no_memory() {
+    let file = drawable([31, 31], 6, Addressing::Mirror);
+    let mesh = torus(9.0, 4.0, 24);
+    let usual = scene(&mesh);
+    let with = |drawn: usize, through: usize| {
+        let [drawn, through] = [(Shadow::Drawn, drawn), (Shadow::None, through)]
+            .map(|(shadow, count)| vec![Light { shadow, ..usual.lights[0] }; count]);
+        Scene { lights: [through, drawn].concat(), ..usual.clone() }
+    };
+    for gpu in Backend::ALL.map(device) {
+        for mode in [RenderMode::Splat, RenderMode::Separable] {
+            let loaded = Loaded::new(&gpu, mode, &file, &mesh);
+            let taken = |drawn, through| {
+                let frame = prepared(&gpu, &loaded, &with(drawn, through), None).unwrap();
+                (gpu.ledger().bytes(), gpu.ledger().bytes_of(Purpose::LightView))
+            };
+            assert_eq!(taken(1, 0), taken(1, 7), "{mode:?}: one shadow");
+            assert_eq!(taken(0, 0), taken(0, 8), "{mode:?}: no shadow");
+            let ([one, none, four], [_, least, most]) =
+                ([1, 0, 4].map(|drawn| taken(drawn, 0).1), [1, 0, 4].map(|drawn| taken(drawn, 0).0));
+            println!("{mode:?}: {one} bytes a shadow; {least} in the ledger with none, {most} with four");
+            assert!(none < 100, "{mode:?}: {none} bytes without shadows");
+            assert_eq!(four, 4 * one, "{mode:?}: four shadows");
+            assert!(most - least >= four - none, "{mode:?}: {most} {least}");
+        }
+    }
 }
 
 /// The ledger counts what wgpu's allocator counts, but for its alignment and what it needs itself.

@@ -10,7 +10,7 @@ mod renderer;
 mod timed;
 
 pub(crate) use draw::Placed;
-pub use input::{Input, Object, Target};
+pub use input::{Input, Object, ShadowMap, Target};
 pub use options::{BACKGROUND, BACKGROUND_COLOUR, RuntimeOptions};
 pub use picture::PictureTarget;
 pub use plan::Plan;

@@ -9,7 +9,7 @@ pub struct Plan {
     pub size: [u32; 2],
     /// Texels to a side of each light's view.
     pub light_texels: u32,
-    /// Number of lights with a view.
+    /// Number of lights with a view: those whose shadows are drawn.
     pub lights: u32,
     /// Pixels of the picture to a side of a texel of the maps that scatter light, at least 1.
     pub divisor: f32,
@@ -36,11 +36,14 @@ impl Plan {
 
     /// Mipmap levels of lights' views.
     pub(crate) fn light_levels(&self) -> u32 {
-        if self.has_light_levels { self.light_texels.ilog2() } else { 1 }
+        if self.has_light_levels && self.lights > 0 { self.light_texels.ilog2() } else { 1 }
     }
 
-    /// Size of the textures of lights' views: a square tile for each light in one row.
+    /// Size of the textures of lights' views: a square tile for each light in one row. Where there is none, a texel is bound.
     pub(crate) fn light_size(&self) -> [u32; 2] {
+        if self.lights == 0 {
+            return [1; 2];
+        }
         [self.light_texels * self.lights, self.light_texels]
     }
 

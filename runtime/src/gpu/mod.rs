@@ -15,6 +15,6 @@ pub use device::{Gpu, OnScreen};
 pub(crate) use ledger::Tracked;
 pub use ledger::{Ledger, Purpose};
 pub(crate) use pass::{FullscreenPass, QuadPass, Rows};
-pub(crate) use pipeline::{Drawing, Pipeline, Program, attachment};
+pub(crate) use pipeline::{Drawing, Pipeline, Program, attachment, bind, bind_group_layout};
 pub use read::ColourTarget;
 pub(crate) use resource::{DEPTH, HALF, Surface2d, TextureSpec, array_size, layer_of, layers_of, level_of};

@@ -70,9 +70,10 @@ impl MapArea {
         [width, height].map(|side| (side - 1e-3).ceil() as u32)
     }
 
-    /// Texels that a length spans which is as long as it is far from the eye.
-    pub(crate) fn texels_per_tangent(&self, view: &View) -> f32 {
-        0.5 * float(self.whole[1]) * view.focal().y
+    /// Texels that a length spans which is as long as it is far from the eye, along rows and columns.
+    pub(crate) fn texels_per_tangent(&self, view: &View) -> [f32; 2] {
+        let focal = view.focal();
+        [0.5 * float(self.whole[0]) * focal.x, 0.5 * float(self.whole[1]) * focal.y]
     }
 
     /// Block of how pixels of a target lie on the maps: a picture of `picture` pixels from `origin` on, whose objects are `middle_mm`
@@ -80,7 +81,8 @@ impl MapArea {
     pub(crate) fn upsampling(&self, view: &View, picture: [u32; 2], origin: [u32; 2], middle_mm: f32) -> Upsampling {
         let texels_per_pixel = [0, 1].map(|k| float(self.whole[k]) / float(picture[k]));
         // Surfaces that are not seen at too flat an angle are the same two texels away.
-        let near_mm = 2.0 * middle_mm.max(1e-3) / self.texels_per_tangent(view);
+        let [along_rows, along_columns] = self.texels_per_tangent(view);
+        let near_mm = 2.0 * middle_mm.max(1e-3) / along_rows.min(along_columns);
         Upsampling {
             texels_per_pixel,
             origin: [0, 1].map(|k| float(origin[k]) + float(self.first[k]) / texels_per_pixel[k]),

@@ -7,7 +7,7 @@ use subsurf_shaders::uniform::{self, Upsampling};
 use wgpu::{BindGroup, CommandEncoder};
 
 use super::area::MapArea;
-use super::mesh_pass::{Draw, MeshPass};
+use super::mesh_pass::{Draw, MeshPass, SharedGroups};
 use crate::error::Result;
 use crate::frame::{Input, Placed, Plan};
 use crate::gpu::Gpu;
@@ -31,7 +31,7 @@ pub(crate) trait Bindings: Debug + Send + Sync {
     }
 
     /// Records all passes between shadow maps and the picture; `lap` is called after each.
-    fn record(&self, _encoder: &mut CommandEncoder, _group: &Group<'_>, _objects: &BindGroup, _lap: Lap<'_>) {}
+    fn record(&self, _encoder: &mut CommandEncoder, _group: &Group<'_>, _shared: SharedGroups<'_>, _lap: Lap<'_>) {}
 
     /// Pipeline of the picture, and its bind group 1.
     fn shade(&self) -> (&MeshPass, &BindGroup);

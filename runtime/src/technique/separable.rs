@@ -11,7 +11,7 @@ use super::area::MapArea;
 use super::bindings::{Bindings, Group, Lap};
 use super::cascade::{BlurPasses, Cascade, CascadeMaps};
 use super::common::Common;
-use super::mesh_pass::{Attachments, DepthFormat, MeshPass, Viewport, cleared};
+use super::mesh_pass::{Attachments, DepthFormat, MeshPass, SharedGroups, Viewport, cleared};
 use super::tsm::{FAR_MM, TranslucentShadowMaps};
 use crate::asset::SeparableMaterial;
 use crate::error::{Error, Result};
@@ -87,7 +87,7 @@ impl Passes {
         let maps = vec![gpu.target_texture_format(); 2 * terms];
         Ok(Self {
             depth: options.depth,
-            gbuffer: MeshPass::new(gpu, table::SEPARABLE_GBUFFER.with(choice), &maps, options.depth)?,
+            gbuffer: MeshPass::lit(gpu, table::SEPARABLE_GBUFFER.with(choice), &maps, options)?,
             blur: BlurPasses::new(gpu, [&table::BLUR_SCREEN, &table::SUM_SCREEN], terms)?,
             last: FullscreenPass::new(gpu, table::BLUR_SCREEN_LAST.with(choice), &maps[..terms])?,
             shade: MeshPass::picture(gpu, table::SHADE_SEPARABLE.with(choice), options)?,
@@ -141,17 +141,17 @@ impl Bindings for Bound {
         self.area = MapArea::over(view, &group.bounds, plan.size, plan.blur_size, plan.divisor);
         let domain = ScreenDomain {
             size: self.area.size,
-            focal_texels: self.area.texels_per_tangent(view) * self.pitch_mm,
+            focal_texels: self.area.texels_per_tangent(view).map(|texels| texels * self.pitch_mm),
             middle_mm: group.middle_mm(),
             pitch_mm: self.pitch_mm,
             perspective: if view.is_parallel() { 0.0 } else { 1.0 },
-            pad: [0; 2],
+            pad: 0,
         };
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&group.upsampling(&self.area)));
     }
 
-    fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, objects: &BindGroup, lap: Lap<'_>) {
+    fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, shared: SharedGroups<'_>, lap: Lap<'_>) {
         let Maps { cascade: maps, depth } = &*self.maps;
         let MapArea { whole, first, size } = self.area;
         let layers = maps.irradiance().layers.iter().chain(&maps.begun_sums().layers);
@@ -168,7 +168,7 @@ impl Bindings for Bound {
         };
         let [scene, basis] = &self.gbuffer;
         let Passes { gbuffer, blur, last, .. } = &*self.passes;
-        gbuffer.record(encoder, &attachments, [scene, basis], objects, group.draws());
+        gbuffer.record(encoder, &attachments, [scene, basis], shared, group.draws());
         lap(gbuffer.name(), encoder);
         let targets: Vec<_> = maps.sums().layers.iter().collect();
         self.cascade.record(encoder, size, blur, None, (last, &targets), lap);

@@ -119,6 +119,10 @@ impl FrameNumbers {
                 ("blurred", 0, 0.0),
                 // By texture coordinates.
                 ("layer_at", 0, 1.0),
+                // Shadows are drawn, and none is the host's.
+                ("visibility", 0, 0.0),
+                ("visibility", 1, 0.0),
+                ("transmitted", 0, 1.0),
                 ("separable_gbuffer", 0, self.facing),
                 ("separable_gbuffer", 1, 1.0 - self.facing),
                 ("shaded", 0, self.facing),
