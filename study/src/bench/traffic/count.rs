@@ -65,6 +65,9 @@ impl<'a> Counter<'a> {
     /// Adds the reads of a block that a share `weight` of all invocations begins, and gives the share that comes to its end.
     fn block(&mut self, frame: &mut Frame<'a>, block: &'a Block, mut weight: f64) -> anyhow::Result<f64> {
         for statement in block {
+            if weight == 0.0 {
+                break;
+            }
             match statement {
                 Statement::Emit(range) => {
                     for expression in range.clone() {
