@@ -137,7 +137,7 @@ mod tests {
                 assert_eq!(area.whole.map(float), fine, "{distance_mm} mm");
             }
             if distance_mm < 3.0 && divisor < 2.0 {
-                assert_eq!(area, MapArea::whole(maps), "{distance_mm} mm");
+                assert_eq!(area.whole, maps, "{distance_mm} mm");
             }
         }
     }

@@ -1,5 +1,6 @@
 //! Benchmarks, as short as can be.
 
+use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
 
@@ -88,13 +89,20 @@ fn files_of_ones_own_are_timed() {
     assert_refused(&run(folder, "bench load --files p.subsurf p.subsurf p.npy"), &["p.npy"]);
 }
 
+/// Array in JSON after tables for people.
+fn last_json(folder: &Path, args: &str) -> serde_json::Value {
+    let out = succeed(folder, args).out;
+    let begin = out.find("\n[\n").unwrap_or_else(|| panic!("{args}: no array in {out}"));
+    serde_json::from_str(&out[begin..]).unwrap()
+}
+
 /// Passes have the names of the shaders' table; Vulkan times them itself. Bytes are told by their purpose.
 #[test]
 fn frames_are_timed_pass_by_pass() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     std::fs::write(folder.join("a.subsurf"), drawable([13, 11], 3, Addressing::Clamp)).unwrap();
-    let rows = json(folder, "bench frames a.subsurf --mesh sphere --size 64x48 --frames 1 --json");
+    let rows = last_json(folder, "bench frames a.subsurf --mesh sphere --size 64x48 --frames 1 --json");
     let rows = rows.as_array().unwrap();
     assert_eq!(rows.len(), 8, "four techniques on two devices");
     for row in rows {
@@ -119,7 +127,7 @@ fn traffic_of_a_frame_is_counted() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     std::fs::write(folder.join("a.subsurf"), drawable([13, 11], 3, Addressing::Clamp)).unwrap();
-    let tables = json(folder, "bench traffic a.subsurf --size 64x48 --size 128x96 --json");
+    let tables = last_json(folder, "bench traffic a.subsurf --size 64x48 --size 128x96 --json");
     let tables = tables.as_array().unwrap();
     assert_eq!(tables.len(), 2, "one for each size");
     for table in tables {

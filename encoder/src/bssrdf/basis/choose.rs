@@ -40,7 +40,7 @@ pub struct BasisOptions {
 
 impl Default for BasisOptions {
     fn default() -> Self {
-        Self { choice: BasisChoice::Psnr(45.0), steps: 8 }
+        Self { choice: BasisChoice::Psnr(45.0), steps: 6 }
     }
 }
 
