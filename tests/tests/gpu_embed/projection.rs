@@ -43,7 +43,7 @@ fn splats_cover_what_they_light_in_the_corner_of_a_wide_picture() {
     for gpu in &gpus {
         let db = psnr(&gather, &draw(gpu, RenderMode::Splat));
         println!("{:?}: {db:.1} dB between splats and the gather", gpu.info().backend);
-        assert!(db >= 33.0, "{db} dB");
+        assert!(db >= 37.0, "{db} dB");
     }
 }
 
@@ -56,7 +56,7 @@ fn pixels_need_not_be_square() {
     let usual = Input::new(&scene(&mesh), &[], size).view;
     let view = View { clip_from_view: off_centre([-0.4, 0.4, -0.3, 0.3], 10.0, 100.0), ..usual };
     for gpu in Backend::ALL.map(device) {
-        for mode in [RenderMode::Splat, RenderMode::Separable] {
+        for (mode, least_db) in [(RenderMode::Splat, 40.0), (RenderMode::Separable, 39.0)] {
             let [square, narrow] =
                 [size, [4 * size[0], size[1]]].map(|size| picture(&gpu, mode, &file, &mesh, view, size));
             let mean = |pixels: &[[u8; 3]; 4]| {
@@ -68,7 +68,7 @@ fn pixels_need_not_be_square() {
             let mean: Vec<[u8; 3]> = narrow.as_chunks::<4>().0.iter().map(mean).collect();
             let db = psnr(&square, &mean);
             println!("{:?}, {mode:?}: {db:.1} dB between square pixels and narrow ones", gpu.info().backend);
-            assert!(db >= 36.0, "{db} dB");
+            assert!(db >= least_db, "{mode:?}: {db} dB");
         }
     }
 }
