@@ -32,7 +32,8 @@ struct Seen {
 
 impl Renderer {
     /// Records a frame into the host's encoder. Nothing is submitted, waited for or allocated on the device; only other
-    /// shadow maps of the host's than before are bound anew. What a driver has to say comes by the device's own error handler. Where no object is seen, the target is cleared or left alone.
+    /// shadow maps of the host's than before are bound anew. What a driver has to say comes by the device's own error handler.
+    /// Where no object is seen, the target is cleared or left alone.
     ///
     /// Lights' views hold all objects of the input, seen or not: what is far from the others makes them coarse.
     ///
@@ -40,8 +41,8 @@ impl Renderer {
     /// for each submission, another [`Frame`] beside it.
     ///
     /// # Errors
-    /// [`Error::Usage`] if the frame was not prepared for a material or for as many shadows, if there are too many objects or lights, an object lacks what its
-    /// material needs, the light of a gather was never summed, or the target is smaller than the frame.
+    /// [`Error::Usage`] if the frame was not prepared for a material or for as many shadows, if there are too many objects or
+    /// lights, a shadow map is not what it has to be, an object lacks what its material needs, the light of a gather was never summed, or the target is smaller than the frame.
     pub fn draw(
         &self,
         gpu: &Gpu,

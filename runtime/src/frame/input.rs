@@ -95,7 +95,8 @@ impl<'a> Input<'a> {
     /// Number of lights whose shadows are drawn.
     ///
     /// # Errors
-    /// [`Error::Usage`] if there are too many lights or shadow maps, a light names a map that is not there, or a map cannot be read.
+    /// [`Error::Usage`] if there are too many lights or shadow maps, a light names a map that is not there, or a map cannot be
+    /// read.
     pub(crate) fn drawn_shadows(&self, options: &RuntimeOptions) -> Result<u32> {
         let (lights, maps) = (self.lighting.lights, self.shadow_maps);
         if !maps.is_empty() && !options.host_shadow_maps {

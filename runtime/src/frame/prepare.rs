@@ -67,12 +67,13 @@ impl Shared {
 impl Renderer {
     /// Makes room for pictures of `size` pixels with the materials of an input and as many shadows as it has to be drawn, within
     /// the budget: shadow maps and maps become coarser until everything fits. Maps are as fine as the view of the input needs;
-    /// other views and objects may be drawn with them, as many such shadows or fewer, and lights without them, which take no memory.
+    /// other views and objects may be drawn with them, as many such shadows or fewer, and any lights without them, which take
+    /// no memory.
     ///
     /// # Errors
     /// [`Error::OverBudget`](crate::Error::OverBudget) if even the coarsest does not fit, before anything is allocated;
-    /// [`Error::Usage`] if a technique was not compiled, the size is 0, there are too many lights or materials, or a shadow map is not
-    /// what it has to be.
+    /// [`Error::Usage`] if a technique was not compiled, the size is 0, there are too many lights or materials, or a shadow map
+    /// is not what it has to be.
     pub fn prepare(&self, gpu: &Gpu, input: &Input<'_>, size: [u32; 2]) -> Result<Frame> {
         let mut materials: Vec<&Material> = Vec::new();
         for object in input.objects {
@@ -181,7 +182,11 @@ impl Renderer {
         let radius_mm =
             bounds.iter().copied().reduce(|all, bounds| all.union(&bounds)).map_or(1.0, |all| all.radius_mm);
         let divisors = input.objects.iter().zip(&bounds).filter_map(|(object, bounds)| {
-            let distance_mm = if view.is_parallel() { 1.0 } else { view.eye_mm().distance(bounds.centre_mm) };
+            let distance_mm = if view.is_parallel() {
+                1.0
+            } else {
+                (bounds.centre_mm - view.eye_mm()).dot(view.forward()).max(0.01 * bounds.radius_mm)
+            };
             // Along the axis where pixels are larger.
             #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
             let of_tangent = size.map(|side| 0.5 * side as f32);

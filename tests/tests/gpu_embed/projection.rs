@@ -1,6 +1,5 @@
 //! Projections that are far from those of a camera which looks at its object through square pixels.
 
-use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec3, Vec4};
 use subsurf_runtime::{Backend, Gpu, Input, PictureTarget, RuntimeOptions};
 use subsurf_scene::{Mesh, View, torus};
@@ -33,14 +32,10 @@ fn off_centre([left, right, bottom, top]: [f32; 4], near: f32, far: f32) -> Mat4
 fn splats_cover_what_they_light_in_the_corner_of_a_wide_picture() {
     let file = material_of("jade");
     let mesh = torus(9.0, 4.0, 24);
-    // 60 degrees from the axis.
-    let along = Vec3::new(1.3, 1.1, -1.0);
-    let eye_mm = Vec3::new(-24.0, -2.0, 40.0);
-    let forward = -Vec3::Z;
-    let view_from_world = look_at_mat4(eye_mm, eye_mm + forward, Vec3::Y);
-    let shift = eye_mm + 25.0 * along;
-    let view_from_world = view_from_world * Mat4::from_translation(shift);
-    let window = [along.x - 0.9, along.x + 0.9, along.y - 0.7, along.y + 0.7];
+    // 76 degrees from the axis, 25 mm in front of the eye.
+    let along = Vec3::new(3.0, 2.6, -1.0);
+    let view_from_world = Mat4::from_translation(25.0 * along);
+    let window = [along.x - 1.75, along.x + 1.75, along.y - 1.55, along.y + 1.55];
     let view = View { view_from_world, clip_from_view: off_centre(window, 5.0, 60.0) };
     let gpus = Backend::ALL.map(device);
     let draw = |gpu, mode| picture(gpu, mode, &file, &mesh, view, [160, 120]);
@@ -48,27 +43,32 @@ fn splats_cover_what_they_light_in_the_corner_of_a_wide_picture() {
     for gpu in &gpus {
         let db = psnr(&gather, &draw(gpu, RenderMode::Splat));
         println!("{:?}: {db:.1} dB between splats and the gather", gpu.info().backend);
-        assert!(db >= 33.0, "{db} dB");
+        assert!(db >= 37.0, "{db} dB");
     }
 }
 
-/// Pixels half as wide show the same picture in twice as many columns.
+/// Pixels a quarter as wide show the same picture in four times as many columns.
 #[test]
 fn pixels_need_not_be_square() {
     let file = material_of("chessboard");
     let mesh = torus(9.0, 4.0, 32);
-    let size = [160, 120];
+    let size = [120, 90];
     let usual = Input::new(&scene(&mesh), &[], size).view;
     let view = View { clip_from_view: off_centre([-0.4, 0.4, -0.3, 0.3], 10.0, 100.0), ..usual };
     for gpu in Backend::ALL.map(device) {
-        for mode in [RenderMode::Splat, RenderMode::Separable] {
+        for (mode, least_db) in [(RenderMode::Splat, 40.0), (RenderMode::Separable, 39.0)] {
             let [square, narrow] =
-                [size, [2 * size[0], size[1]]].map(|size| picture(&gpu, mode, &file, &mesh, view, size));
-            let pairs = narrow.as_chunks::<2>().0.iter();
-            let mean = pairs.map(|[a, b]| [0, 1, 2].map(|c| u8::midpoint(a[c], b[c]))).collect::<Vec<_>>();
+                [size, [4 * size[0], size[1]]].map(|size| picture(&gpu, mode, &file, &mesh, view, size));
+            let mean = |pixels: &[[u8; 3]; 4]| {
+                [0, 1, 2].map(|c| {
+                    let sum: u16 = pixels.iter().map(|pixel| u16::from(pixel[c])).sum();
+                    u8::try_from((sum + 2) / 4).unwrap()
+                })
+            };
+            let mean: Vec<[u8; 3]> = narrow.as_chunks::<4>().0.iter().map(mean).collect();
             let db = psnr(&square, &mean);
             println!("{:?}, {mode:?}: {db:.1} dB between square pixels and narrow ones", gpu.info().backend);
-            assert!(db >= 36.0, "{db} dB");
+            assert!(db >= least_db, "{mode:?}: {db} dB");
         }
     }
 }
