@@ -125,7 +125,7 @@ unsafe fn open(
 /// Opens a file whose bytes are in memory: checks all of it, copies none.
 ///
 /// `bytes`: `length` bytes of any alignment; what follows the file is ignored. `*file_out`: the handle; only written on success.
-/// Errors: `INVALID_ARGUMENT` (null), `INVALID_FILE`, `OUT_OF_MEMORY` (a handle takes about 3 kB).
+/// Errors: `INVALID_ARGUMENT` (null), `INVALID_FILE`, `OUT_OF_MEMORY` (a handle takes about 2 kB).
 /// Ownership: the bytes stay the caller's, who keeps them as they are until the file is closed.
 /// Threads: any.
 ///
