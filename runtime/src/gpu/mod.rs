@@ -14,6 +14,6 @@ pub use device::{Gpu, OnScreen};
 pub use ledger::Ledger;
 pub(crate) use ledger::Tracked;
 pub(crate) use pass::{FullscreenPass, QuadPass, Rows};
-pub(crate) use pipeline::{Drawing, Pipeline, Program, attachment};
+pub(crate) use pipeline::{Drawing, Pipeline, Program, attachment, bind, bind_group_layout};
 pub use read::ColourTarget;
 pub(crate) use resource::{DEPTH, HALF, Surface2d, TextureSpec, array_size, layer_of, layers_of, level_of};
