@@ -6,6 +6,7 @@ mod asset;
 mod error;
 mod frame;
 mod gpu;
+mod load;
 mod technique;
 
 pub use asset::{
@@ -17,6 +18,7 @@ pub use frame::{
     BACKGROUND, BACKGROUND_COLOUR, Frame, Input, Object, PictureTarget, Plan, Renderer, RuntimeOptions, Target,
 };
 pub use gpu::{Backend, ColourTarget, Gpu, Ledger, OnScreen, devices};
+pub use load::{Load, LoadPhase, LoadTimer, LoadTimes, RawImages, Stored};
 pub use subsurf_shaders::uniform::BtfFiltering;
 pub use subsurf_shaders::{BtfLayout, MaterialLayout, TargetFormat};
 pub use technique::{

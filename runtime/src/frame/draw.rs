@@ -40,7 +40,8 @@ impl Renderer {
     ///
     /// # Errors
     /// [`Error::Usage`] if the frame was not prepared for a material, if there are too many objects, an object lacks what its
-    /// material needs, the light of a gather was never summed, or the target is smaller than the frame.
+    /// material needs, the light of a gather was never summed, or the target is smaller than the frame; [`Error::Device`] if the
+    /// device is lost.
     pub fn draw(
         &self,
         gpu: &Gpu,
@@ -166,7 +167,7 @@ impl Frame {
         let mut block = uniform::Scene::new(&input.view, input.exposure, lighting, &bounds, self.plan.light_texels);
         // Lights that came after the frame was prepared have no view: they shine once it is prepared anew.
         block.lights = block.lights.min(self.plan.lights);
-        gpu.queue.write_buffer(&self.common.scene, 0, bytemuck::bytes_of(&block));
+        gpu.write(&self.common.scene, bytemuck::bytes_of(&block))?;
         self.common.show(gpu, lighting.environment);
 
         self.blocks.clear();

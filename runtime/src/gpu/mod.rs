@@ -1,7 +1,9 @@
 //! The device: what lives on it, how passes are compiled and begun.
 
 mod backend;
+mod cache;
 mod device;
+mod fill;
 mod layout;
 mod ledger;
 mod pass;
@@ -10,10 +12,12 @@ mod read;
 mod resource;
 
 pub use backend::{Backend, devices};
+pub(crate) use cache::Pipeline;
 pub use device::{Gpu, OnScreen};
+pub(crate) use fill::Fill;
 pub use ledger::Ledger;
 pub(crate) use ledger::Tracked;
 pub(crate) use pass::{FullscreenPass, QuadPass, Rows};
-pub(crate) use pipeline::{Drawing, Pipeline, Program, attachment};
+pub(crate) use pipeline::{Drawing, Program, attachment};
 pub use read::ColourTarget;
 pub(crate) use resource::{DEPTH, HALF, Surface2d, TextureSpec, array_size, layer_of, layers_of, level_of};

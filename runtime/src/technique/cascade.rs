@@ -92,7 +92,7 @@ pub(crate) struct Cascade {
 }
 
 impl Cascade {
-    /// Binds a material to maps. `domain` is the block of the screen, or a sampler that wraps as the patch does.
+    /// Binds a material to maps. `domain` is the block of the screen, or that of a patch.
     pub(crate) fn new(
         gpu: &Gpu,
         passes: &BlurPasses,

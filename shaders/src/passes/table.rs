@@ -83,29 +83,40 @@ pub static HOMOGENEOUS: Pass =
 pub static BLUR_PATCH_FIRST: Pass = fullscreen(
     wgsl!("pass/patch/blur_patch_first"),
     &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_IRRADIANCE],
-    &[Group::Fixed(&[Uniform, Nearest, FilteredLayers, Float])],
+    &[Group::Fixed(&[Uniform, Uniform, FloatLayers, Float])],
 );
 
 /// Later stages of the cascade on a flat patch, along rows.
 pub static BLUR_PATCH_ROWS: Pass = fullscreen(
     wgsl!("pass/patch/blur_patch_rows"),
     &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_STAGE],
-    &[Group::Fixed(&[Uniform, Nearest, FloatLayers])],
+    &[Group::Fixed(&[Uniform, Uniform, TargetLayers])],
 );
 
 /// Stages of the cascade on a flat patch but for the last, along columns, and the sum over the stages.
 pub static BLUR_PATCH_COLUMNS: Pass = fullscreen(
     wgsl!("pass/patch/blur_patch_columns"),
     &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_STAGE, STAGE_SUM],
-    &[Group::Fixed(&[Uniform, Nearest, FloatLayers, TargetLayers])],
+    &[Group::Fixed(&[Uniform, Uniform, TargetLayers, TargetLayers])],
 );
 
 /// Last stage of the cascade on a flat patch, along columns, and the exitance.
 pub static BLUR_PATCH_LAST: Pass = fullscreen(
     wgsl!("pass/patch/blur_patch_last"),
     &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_STAGE, STAGE_SUM],
-    &[Group::Fixed(&[Uniform, Nearest, FloatLayers, TargetLayers, FilteredLayers])],
+    &[Group::Fixed(&[Uniform, Uniform, TargetLayers, TargetLayers, FloatLayers])],
 );
+
+/// Coefficients of the separable basis of every pixel, or its albedo, from the planes of a file.
+pub static PROFILE_SUMS: Pass = fullscreen(
+    wgsl!("pass/patch/profile_sums"),
+    &[Part::TargetFormat, Part::FittedLayout, FULLSCREEN],
+    &[Group::Material, Group::Fixed(&[Float])],
+);
+
+/// Next mipmap level of layers over a patch.
+pub static PATCH_REDUCE: Pass =
+    fullscreen(wgsl!("pass/patch/patch_reduce"), &[Part::TargetFormat, FULLSCREEN], &[Group::Fixed(&[FloatLayers])]);
 
 /// Irradiance that enters a surface at each of its points.
 pub static IRRADIANCE: Pass = fullscreen(
@@ -278,7 +289,7 @@ pub static SHADE_BTF: Pass = picture(
 );
 
 /// All passes.
-pub static ALL: [&Pass; 22] = [
+pub static ALL: [&Pass; 24] = [
     &GATHER,
     &PRESENT,
     &HOMOGENEOUS,
@@ -286,6 +297,8 @@ pub static ALL: [&Pass; 22] = [
     &BLUR_PATCH_ROWS,
     &BLUR_PATCH_COLUMNS,
     &BLUR_PATCH_LAST,
+    &PROFILE_SUMS,
+    &PATCH_REDUCE,
     &IRRADIANCE,
     &SURFACE_GATHER,
     &SHADE_VERTEX,

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use subsurf_shaders::passes::{Choice, table};
-use wgpu::{BindGroup, BindingResource, CommandEncoderDescriptor};
+use subsurf_shaders::uniform::PatchDomain;
+use wgpu::{BindGroup, BindingResource, CommandEncoder, CommandEncoderDescriptor};
 
-use super::surface::{Exitance, PatchLight, nearest};
+use super::surface::{Exitance, PatchLight};
 use crate::asset::SeparableMaterial;
 use crate::error::Result;
-use crate::gpu::{FullscreenPass, Gpu, HALF, TextureSpec};
+use crate::gpu::{FullscreenPass, Gpu, TextureSpec};
 use crate::technique::cascade::{BlurPasses, Cascade, CascadeMaps, Ends};
 
 /// Pipelines of separable blurs on flat patches of L terms; made once.
@@ -33,15 +34,15 @@ impl SeparableRenderer {
     /// Compiles the passes.
     ///
     /// # Errors
-    /// [`Error::Device`](crate::Error::Device) if the driver refuses them; [`Error::NoHalfFloats`](crate::Error::NoHalfFloats).
+    /// [`Error::Device`](crate::Error::Device) if the driver refuses them.
     pub fn new(gpu: &Gpu, terms: usize) -> Result<Self> {
-        gpu.expect_half_targets("blurs on flat patches")?;
         let choice = Choice::Terms(terms);
+        let target = gpu.target_texture_format();
         Ok(Self {
             terms,
-            first: FullscreenPass::new(gpu, table::BLUR_PATCH_FIRST.with(choice), &vec![HALF; terms])?,
+            first: FullscreenPass::new(gpu, table::BLUR_PATCH_FIRST.with(choice), &vec![target; terms])?,
             blur: BlurPasses::new(gpu, [&table::BLUR_PATCH_ROWS, &table::BLUR_PATCH_COLUMNS], terms)?,
-            last: FullscreenPass::new(gpu, table::BLUR_PATCH_LAST.with(choice), &[HALF])?,
+            last: FullscreenPass::new(gpu, table::BLUR_PATCH_LAST.with(choice), &[target])?,
         })
     }
 
@@ -50,27 +51,32 @@ impl SeparableRenderer {
     /// # Errors
     /// [`Error::Usage`](crate::Error::Usage) if the material has another number of terms, [`Error::Unsupported`](crate::Error::Unsupported) if it is too large.
     pub fn prepare(&self, gpu: &Gpu, material: &SeparableMaterial, light: &PatchLight) -> Result<SeparablePatch> {
+        light.expect([material.header().width, material.header().height])?;
+        self.bind(gpu, material, light)
+    }
+
+    /// The same for light of one texel for each pixel, or of one for all.
+    pub(crate) fn bind(&self, gpu: &Gpu, material: &SeparableMaterial, light: &PatchLight) -> Result<SeparablePatch> {
         material.expect(self.terms)?;
         let header = material.header();
         let size = [header.width, header.height];
-        light.expect(size)?;
-        let nearest = nearest(gpu, header.addressing);
-        let nearest = BindingResource::Sampler(&nearest);
+        let domain = gpu.uniform("patch", &PatchDomain::new(header));
+        let domain = domain.as_entire_binding();
         let maps = Arc::new(CascadeMaps::new(gpu, size, self.terms)?);
-        let cascade = Cascade::new(gpu, &self.blur, material, &nearest, &maps)?;
+        let cascade = Cascade::new(gpu, &self.blur, material, &domain, &maps)?;
         let texture = BindingResource::TextureView;
         let [rows, _] = &material.stages()[0];
         let [_, columns] = &material.stages()[material.stages().len() - 1];
         let basis = texture(&material.layers.all);
-        let of_first = [rows.as_entire_binding(), nearest.clone(), basis.clone(), texture(light.view())];
+        let of_first = [rows.as_entire_binding(), domain.clone(), basis.clone(), texture(light.view())];
         let of_last = [
             columns.as_entire_binding(),
-            nearest.clone(),
+            domain.clone(),
             texture(&maps.irradiance[1].all),
             texture(&cascade.sums_before_last().all),
             basis,
         ];
-        let surface = gpu.texture(&TextureSpec::target("exitance", size, HALF))?;
+        let surface = gpu.texture(&TextureSpec::target("exitance", size, gpu.target_texture_format()))?;
         Ok(SeparablePatch {
             first: self.first.bind(gpu, 0, &of_first)?,
             last: self.last.bind(gpu, 0, &of_last)?,
@@ -84,14 +90,20 @@ impl SeparableRenderer {
     /// # Errors
     /// [`Error::Device`](crate::Error::Device) if the device is lost.
     pub fn draw<'a>(&self, gpu: &Gpu, patch: &'a SeparablePatch) -> Result<&'a Exitance> {
-        let ends =
-            Ends { first: (&self.first, &patch.first), last: (&self.last, &patch.last), target: patch.exitance.view() };
         gpu.checked(|| {
             let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-            patch.cascade.record(&mut encoder, &self.blur, Some(ends));
+            let exitance = self.record(&mut encoder, patch);
             gpu.queue.submit([encoder.finish()]);
-        })?;
-        Ok(&patch.exitance)
+            exitance
+        })
+    }
+
+    /// Records all passes, to the exitance of the whole patch.
+    pub(crate) fn record<'a>(&self, encoder: &mut CommandEncoder, patch: &'a SeparablePatch) -> &'a Exitance {
+        let ends =
+            Ends { first: (&self.first, &patch.first), last: (&self.last, &patch.last), target: patch.exitance.view() };
+        patch.cascade.record(encoder, &self.blur, Some(ends));
+        &patch.exitance
     }
 }
 
