@@ -210,7 +210,7 @@ fn textured(gpu: &Gpu) {
             compiled: Duration::ZERO,
         },
     ];
-    assert_eq!(cases.each_ref().map(|case| case.bytes.len()), [4_205_568, 197_676, 36_896], "bytes");
+    assert_eq!(cases.each_ref().map(|case| case.bytes.len()), [4_205_568, 197_676, 12_856], "bytes");
     let [images, nested, factored] = measured(gpu, &cases);
     assert_faster("images by nested codebooks", &images, &nested, 4.9);
     assert_faster("images by factors", &images, &factored, 0.1);
