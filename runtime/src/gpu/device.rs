@@ -6,16 +6,18 @@ use half::f16;
 use subsurf_shaders::TargetFormat;
 use wgpu::rwh::HasDisplayHandle;
 use wgpu::{
-    Adapter, AdapterInfo, Buffer, BufferDescriptor, BufferSize, BufferUsages, COPY_BUFFER_ALIGNMENT, Color, Device,
-    DeviceDescriptor, ErrorFilter, ExperimentalFeatures, Extent3d, Features, Instance, Limits, MemoryHints, Queue,
-    RequestAdapterOptions, Surface, SurfaceTarget, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages,
-    Trace,
+    Adapter, AdapterInfo, Buffer, BufferDescriptor, BufferSize, BufferUsages, Color, Device, DeviceDescriptor,
+    ErrorFilter, ExperimentalFeatures, Extent3d, Features, Instance, Limits, MemoryHints, Queue, RequestAdapterOptions,
+    Surface, SurfaceTarget, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages, Trace,
 };
 
 use super::backend::{Backend, adapters, instance, ready};
 use super::cache::PipelineCache;
 use super::ledger::Ledger;
 use crate::error::{Error, Result};
+
+/// What is written to find out whether a device is lost.
+const PROBE: [u8; 4] = [0; 4];
 
 /// Device and queue, within the limits of WebGL2, and the ledger of what lives on the device.
 #[derive(Debug)]
@@ -27,7 +29,7 @@ pub struct Gpu {
     ledger: Ledger,
     /// Full-screen passes that were compiled, with their targets: loads share them.
     pub(super) fullscreen: PipelineCache,
-    /// Four bytes that are written to find out whether the device is lost.
+    /// Room for [`PROBE`].
     probe: Buffer,
 }
 
@@ -117,7 +119,7 @@ impl Gpu {
         let target_format = target_format_of(&device);
         let probe = device.create_buffer(&BufferDescriptor {
             label: Some("probe"),
-            size: COPY_BUFFER_ALIGNMENT,
+            size: PROBE.len() as u64,
             usage: BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
@@ -221,7 +223,7 @@ impl Gpu {
     /// # Errors
     /// [`Error::Device`] if it is.
     pub(crate) fn expect_alive(&self) -> Result<()> {
-        self.write(&self.probe, &[0; COPY_BUFFER_ALIGNMENT as usize])
+        self.write(&self.probe, &PROBE)
     }
 
     /// Submits what is still waiting to be uploaded, and waits until the device has done everything.
