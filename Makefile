@@ -1,9 +1,10 @@
 # make demo: build, and do everything once: simulate, encode, judge, draw, time; pictures and tables in demo-out/
 # make test: the tests, on Vulkan and on OpenGL ES 3.0
 # make check-targets: whether all of it compiles for Windows and Macs, and what draws for browsers
+# make android: the library for C and C++ for Android, and what an app gets with it; needs the NDK
 # Where there is no graphics card, the first two install Mesa's software drivers with apt-get.
 
-.PHONY: demo test check-targets
+.PHONY: demo test check-targets android
 
 subsurf = cargo run --quiet --release --package subsurf-cli --
 study = cargo run --quiet --release --package subsurf-study --
@@ -20,3 +21,6 @@ test:
 
 check-targets:
 	scripts/check-targets
+
+android:
+	scripts/android

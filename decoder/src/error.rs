@@ -1,5 +1,6 @@
 //! The one error of this crate.
 
+use crate::decimal::Decimal;
 use crate::family::Family;
 use crate::section::Section;
 use core::fmt;
@@ -146,6 +147,7 @@ impl fmt::Display for ReadError {
                 write!(f, "{section}: byte {offset}: value {value} is not allowed")
             }
             Self::BadNumber { section, offset, value, min, max } => {
+                let [value, min, max] = [value, min, max].map(Decimal);
                 write!(f, "{section}: byte {offset}: {value} is not in {min} to {max}")
             }
             Self::IndexOutOfRange { section, offset, index, len } => {

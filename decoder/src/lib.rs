@@ -49,6 +49,7 @@ extern crate alloc;
 pub mod bssrdf;
 pub mod btf;
 pub mod container;
+mod decimal;
 mod detect;
 mod error;
 mod family;

@@ -8,7 +8,7 @@ use subsurf_runtime::wgpu::{Backends, LoadOp, Operations, StoreOp, TextureFormat
 use subsurf_runtime::{
     DepthFormat, Gpu, GpuMesh, Input, Material, Object, Renderer, RuntimeOptions, Target, VertexData,
 };
-use subsurf_scene::{Environment, Light, LightShape, Lighting, Mapping, sphere};
+use subsurf_scene::{Environment, Light, LightShape, Lighting, Mapping, Shadow, sphere};
 
 #[path = "embed/application.rs"]
 mod application;
@@ -45,11 +45,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut objects =
         [Object::new(&mesh, &jade, Mapping::Box, 0.25), Object::new(&mesh, &leather, Mapping::Uv([6.0, 3.0]), 1.0)];
     let towards = Vec3::new(0.9, 1.1, 0.35);
-    let lights = [Light { shape: LightShape::Directional { towards }, irradiance: [3.0, 2.9, 2.7] }];
+    let lights =
+        [Light { shape: LightShape::Directional { towards }, irradiance: [3.0, 2.9, 2.7], shadow: Shadow::Drawn }];
     let environment = Environment::uniform([0.35, 0.4, 0.5]);
     let lighting = Lighting { lights: &lights, environment: &environment, reference_mm: Vec3::ZERO };
     let view = application::view();
-    let input = Input { view, exposure: 1.0, lighting, objects: &objects };
+    let input = Input { view, exposure: 1.0, lighting, shadow_maps: &[], objects: &objects };
 
     // Again when the size or the materials change: room for the passes of a frame.
     let mut frame = renderer.prepare(&gpu, &input, SIZE)?;
@@ -66,7 +67,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             depth_ops: Operations { load: LoadOp::Load, store: StoreOp::Store },
             origin: [0; 2],
         };
-        let input = Input { view, exposure: 1.0, lighting, objects: &objects };
+        let input = Input { view, exposure: 1.0, lighting, shadow_maps: &[], objects: &objects };
         renderer.draw(&gpu, &mut encoder, &mut frame, &input, &target)?;
         app.queue.submit([encoder.finish()]);
     }

@@ -15,7 +15,8 @@ pub use asset::{
 };
 pub use error::{Error, Result};
 pub use frame::{
-    BACKGROUND, BACKGROUND_COLOUR, Frame, Input, Object, PictureTarget, Plan, Renderer, RuntimeOptions, Target,
+    BACKGROUND, BACKGROUND_COLOUR, Frame, Input, Object, PictureTarget, Plan, Renderer, RuntimeOptions, ShadowMap,
+    Target,
 };
 pub use gpu::{Backend, ColourTarget, Gpu, Ledger, OnScreen, devices};
 pub use load::{Load, LoadPhase, LoadTimer, LoadTimes, RawImages, Stored};

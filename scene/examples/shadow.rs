@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use glam::Vec3;
-use subsurf_scene::{Environment, Light, LightShape, UpAxis, load_mesh, visibility};
+use subsurf_scene::{Environment, Light, LightShape, Shadow, UpAxis, load_mesh, visibility};
 
 fn main() -> subsurf_scene::Result<()> {
     let file = std::env::args().nth(1).unwrap_or_else(|| "torus".to_owned());
@@ -13,7 +13,7 @@ fn main() -> subsurf_scene::Result<()> {
     let mesh = load_mesh(Path::new(&file), 40.0, UpAxis::Y)?.mesh.subdivided(2.0)?;
 
     let towards = Vec3::new(0.9, 0.3, 0.35);
-    let sun = Light { shape: LightShape::Directional { towards }, irradiance: [3.0, 2.9, 2.7] };
+    let sun = Light { shape: LightShape::Directional { towards }, irradiance: [3.0, 2.9, 2.7], shadow: Shadow::Drawn };
     let seen = visibility(&mesh, &[sun]);
     let hidden = seen.iter().filter(|seen| seen[0] == 0.0).count();
     println!("{file}: {} triangles, {hidden} of {} vertices in shadow", mesh.triangles.len(), seen.len());

@@ -21,7 +21,9 @@ pub use camera::Camera;
 pub use error::{Error, Result};
 #[cfg(feature = "bake")]
 pub use light::visibility;
-pub use light::{AmbientTransfer, Environment, Light, LightShape, MAX_LIGHTS, REFLECTION_LEVELS, REFLECTION_SIZE};
+pub use light::{
+    AmbientTransfer, Environment, Light, LightShape, MAX_LIGHTS, REFLECTION_LEVELS, REFLECTION_SIZE, Shadow,
+};
 pub use mapping::{Mapping, place_in_box};
 pub use mean_profile::MeanProfile;
 pub use mesh::{BoundingSphere, Mesh, bowl, drapery, knot, relief, sphere, torus};

@@ -8,7 +8,7 @@ use crate::light::{Environment, Light};
 /// Lights, environment, coat and camera, the same for every technique.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Sources of light; the first [`MAX_LIGHTS`](crate::MAX_LIGHTS) count.
+    /// Sources of light, at most [`MAX_LIGHTS`](crate::MAX_LIGHTS).
     pub lights: Vec<Light>,
     /// Light from all around.
     pub environment: Environment,
@@ -21,7 +21,7 @@ pub struct Scene {
 /// Light that falls on the objects of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Lighting<'a> {
-    /// Sources of light; the first [`MAX_LIGHTS`](crate::MAX_LIGHTS) count.
+    /// Sources of light, at most [`MAX_LIGHTS`](crate::MAX_LIGHTS).
     pub lights: &'a [Light],
     /// Light from all around.
     pub environment: &'a Environment,

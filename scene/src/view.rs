@@ -57,10 +57,11 @@ impl View {
     }
 
     /// Half the width and half the height of the picture are this many times something 1 mm large, 1 mm away; at any
-    /// distance if the projection is parallel.
+    /// distance if the projection is parallel. Pictures may lie on their side, as screens do that are turned.
     #[must_use]
     pub fn focal(&self) -> Vec2 {
-        Vec2::new(self.clip_from_view.x_axis.x, self.clip_from_view.y_axis.y).abs()
+        let along = |row: Vec4| row.x.hypot(row.y);
+        Vec2::new(along(self.clip_from_view.row(0)), along(self.clip_from_view.row(1)))
     }
 
     /// Whether any of a sphere may be in the picture.
@@ -97,6 +98,9 @@ mod tests {
         let cotangent = 1.0 / 0.3_f32.tan();
         assert!(view.focal().distance(Vec2::new(cotangent / 1.5, cotangent)) < 1e-5, "{}", view.focal());
         assert!(!view.is_parallel(), "perspective");
+        let quarter = Mat4::from_rotation_z(std::f32::consts::FRAC_PI_2);
+        let turned = View { clip_from_view: quarter * view.clip_from_view, ..view };
+        assert!(turned.focal().distance(Vec2::new(cotangent, cotangent / 1.5)) < 1e-5, "{}", turned.focal());
         let parallel = View { clip_from_view: orthographic(-2.0, 6.0, -1.0, 3.0, 1.0, 100.0), ..view };
         assert!(parallel.is_parallel(), "orthographic");
         assert!(parallel.focal().distance(Vec2::new(0.25, 0.5)) < 1e-6, "{}", parallel.focal());

@@ -50,11 +50,11 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(PatchRegion: origin);
     assert_layout_of!(PatchDomain: size, addressing);
     assert_layout_of!(PointGrid: origin_mm, cell_mm, cells, points);
-    assert_layout_of!(LightSource: clip_from_world, position_or_direction, is_local, irradiance, cos_outer, axis, cos_inner, middle_mm, texel_mm);
+    assert_layout_of!(LightSource: clip_from_world, position_or_direction, is_local, irradiance, cos_outer, axis, cos_inner, middle_mm, texel_mm, shadow, map);
     assert_layout_of!(Scene: clip_from_world, eye_mm, exposure, forward, lights, centre_mm, row, sky, light);
     assert_layout_of!(Object: world_from_mesh, place_from_world, uv_scale, patches_per_mm, pitch_mm, is_boxed, eta, sky_transmittance, roughness, depth_offset_mm, group, handedness);
     assert_layout_of!(TsmLight: light, group, level);
-    assert_layout_of!(Splat: softening_gain, clip_from_centre, fade_in, fade_out, focal, middle_mm, texel_mm, light, level, side, refines, stride, pitch_mm, group, is_parallel);
+    assert_layout_of!(Splat: softening_gain, clip_from_centre, fade_in, fade_out, middle_mm, texel_mm, tile, level, side, refines, stride, pitch_mm, group);
     assert_layout_of!(SplatRings: count, near_mm);
     assert_layout_of!(Upsampling: texels_per_pixel, origin, near_mm);
     assert_layout_of!(Transmission: weights, gaussians);
@@ -93,4 +93,18 @@ fn addressing_codes_are_those_of_the_format() {
         text.contains("material.addressing == 0u") && text.contains("material.addressing == 2u"),
         "clamp and mirror"
     );
+}
+
+#[test]
+fn shadows_of_lights_are_those_of_the_blocks() {
+    let text = table::SHADE_SPLAT.only().wgsl(TargetFormat::Half);
+    for (name, value) in [
+        ("NO_SHADOW", uniform::NO_SHADOW),
+        ("OWN_SHADOW", uniform::OWN_SHADOW),
+        ("HOST_SHADOW", uniform::HOST_SHADOW),
+        ("HOST_SHADOW_REVERSED", uniform::HOST_SHADOW_REVERSED),
+    ] {
+        let wanted = format!("const {name}: u32 = {value}u;");
+        assert!(text.contains(&wanted), "{wanted}");
+    }
 }

@@ -10,7 +10,7 @@ use subsurf_runtime::{
     PictureTarget, Renderer, Result, RuntimeOptions, VertexData,
 };
 use subsurf_scene::{
-    AmbientTransfer, Camera, Environment, Light, LightShape, Mapping, Mesh, Scene, SurfacePoints, visibility,
+    AmbientTransfer, Camera, Environment, Light, LightShape, Mapping, Mesh, Scene, Shadow, SurfacePoints, visibility,
 };
 use subsurf_shaders::separable::BasisNumbers;
 
@@ -45,6 +45,7 @@ pub fn scene(mesh: &Mesh) -> Scene {
         lights: vec![Light {
             shape: LightShape::Directional { towards: Vec3::new(0.9, 1.1, 0.35) },
             irradiance: [3.0, 2.9, 2.7],
+            shadow: Shadow::Drawn,
         }],
         environment: Environment::uniform([0.35, 0.4, 0.5]),
         roughness: 0.25,

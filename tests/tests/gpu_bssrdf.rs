@@ -16,8 +16,8 @@ use subsurf_runtime::{
     VertexData, layout_of,
 };
 use subsurf_scene::{
-    Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, REFLECTION_SIZE, Scene, SurfacePoints, sphere,
-    torus,
+    Camera, Environment, Light, LightShape, MAX_LIGHTS, Mapping, Mesh, Placement, REFLECTION_SIZE, Scene, Shadow,
+    SurfacePoints, sphere, torus,
 };
 use subsurf_shaders::separable::{ProfileSums, ProjectedBasis};
 use subsurf_shaders::{cpu, uniform};
@@ -296,10 +296,10 @@ fn capture_on_gles_3_0() {
     capture_patch(Backend::Gl);
 }
 
-/// A light with a shadow, one nearby, one within a cone, and a sky that is brighter above.
+/// A light with a shadow, one nearby, one within a cone, three weak ones, and a sky that is brighter above.
 fn scene() -> Scene {
     let sky: Vec<[f32; 3]> = (0..16 * 8).map(|k| [0.3, 0.25, 0.2].map(|c| c * (2.0 - (k / 16) as f32 / 8.0))).collect();
-    let light = |shape, irradiance| Light { shape, irradiance };
+    let light = |shape, irradiance| Light { shape, irradiance, shadow: Shadow::Drawn };
     Scene {
         lights: vec![
             light(LightShape::Directional { towards: Vec3::new(0.5, 1.0, 0.8) }, [3.0, 2.8, 2.5]),
@@ -308,6 +308,9 @@ fn scene() -> Scene {
                 LightShape::Spot { position_mm: Vec3::new(3.0, 9.0, 16.0), target_mm: Vec3::X, half_angle_rad: 0.25 },
                 [0.1, 0.3, 0.9],
             ),
+            light(LightShape::Directional { towards: Vec3::new(-0.7, 0.1, 0.4) }, [0.1, 0.05, 0.2]),
+            light(LightShape::Directional { towards: Vec3::new(-0.2, -0.9, 0.5) }, [0.5, 0.1, 0.1]),
+            light(LightShape::Directional { towards: Vec3::new(0.9, -0.1, 0.1) }, [0.1, 0.4, 0.1]),
         ],
         environment: Environment::equirectangular([16, 8], &sky).unwrap(),
         roughness: 0.3,
@@ -320,9 +323,10 @@ fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, layout: MaterialL
     let file = file(layout, &shape([31, 31], 6, Addressing::Clamp));
     let material = Bssrdf::parse(&file).unwrap();
     let what = format!("{backend}, {what}, {layout:?}");
-    // Shadows over half of it, with soft edges.
-    let soft = |x: f32| (0.5 + 0.2 * x).clamp(0.0, 1.0);
-    let visibilities: Vec<[f32; 4]> = mesh.positions.iter().map(|p| [soft(p.x), soft(-p.y), soft(p.z), 1.0]).collect();
+    // Shadows over half of it, with soft edges, in the steps that the device keeps.
+    let soft = |x: f32| ((0.5 + 0.2 * x).clamp(0.0, 1.0) * 255.0).round() / 255.0;
+    let of_lights = |p: &Vec3| [soft(p.x), soft(-p.y), soft(p.z), 1.0, soft(p.y), soft(-p.z), 1.0, 1.0];
+    let visibilities: Vec<[f32; MAX_LIGHTS]> = mesh.positions.iter().map(of_lights).collect();
     let surface = SurfacePoints::new(mesh, mapping, material.header(), &visibilities);
     let size = [160, 120];
     let scene = scene();

@@ -11,7 +11,8 @@ use subsurf_runtime::{
     Object, PictureTarget, Renderer, RuntimeOptions, Technique, VertexData,
 };
 use subsurf_scene::{
-    Camera, Environment, Light, LightShape, Mapping, Mesh, Placement, REFLECTION_SIZE, Scene, sphere, torus,
+    Camera, Environment, Light, LightShape, MAX_LIGHTS, Mapping, Mesh, Placement, REFLECTION_SIZE, Scene, Shadow,
+    sphere, torus,
 };
 use subsurf_shaders::{cpu, uniform};
 use subsurf_tests::frames::device;
@@ -42,8 +43,16 @@ fn dome() -> Mesh {
 fn scene(lights: usize) -> Scene {
     let sky: Vec<[f32; 3]> = (0..16 * 8).map(|k| [0.9, 0.8, 0.6].map(|c| c * (2.0 - (k / 16) as f32 / 8.0))).collect();
     let mut all = vec![
-        Light { shape: LightShape::Directional { towards: Vec3::new(0.5, 1.0, 0.4) }, irradiance: [3.0, 2.8, 2.5] },
-        Light { shape: LightShape::Point { position_mm: Vec3::new(-9.0, 14.0, 3.0) }, irradiance: [0.8, 0.5, 0.2] },
+        Light {
+            shape: LightShape::Directional { towards: Vec3::new(0.5, 1.0, 0.4) },
+            irradiance: [3.0, 2.8, 2.5],
+            shadow: Shadow::Drawn,
+        },
+        Light {
+            shape: LightShape::Point { position_mm: Vec3::new(-9.0, 14.0, 3.0) },
+            irradiance: [0.8, 0.5, 0.2],
+            shadow: Shadow::Drawn,
+        },
     ];
     all.truncate(lights);
     Scene {
@@ -83,7 +92,7 @@ fn twin(btf: &NestedBtf<'_>, mesh: &Mesh, copies: [f32; 2], scene: &Scene, optio
         normals: &mesh.normals,
         uvs: &uvs,
         tangents: &mesh.tangents().unwrap(),
-        visibilities: &vec![[1.0; 4]; mesh.positions.len()],
+        visibilities: &vec![[1.0; MAX_LIGHTS]; mesh.positions.len()],
         triangles: &mesh.triangles,
     };
     let BtfOptions { filtering, samples } = options;

@@ -2,7 +2,7 @@
 
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_runtime::{Backend, Error, Frame, Gpu, RuntimeOptions};
-use subsurf_scene::{Scene, torus};
+use subsurf_scene::{Light, Scene, Shadow, torus};
 use subsurf_tests::drawable;
 use subsurf_tests::frames::{Loaded, RenderMode, SIZE, device, scene};
 
@@ -88,6 +88,36 @@ fn views_of_lights_are_small() {
         let frame = prepared(&gpu, &loaded, &scene, None).unwrap();
         assert_eq!(frame.plan().light_texels, 512, "texels to a side");
         assert_eq!(frame.light_view_bytes(), 4 << 20, "bytes");
+    }
+}
+
+/// Lights take memory for shadows that are drawn, and for nothing else.
+#[test]
+fn lights_without_shadows_take_no_memory() {
+    let file = drawable([31, 31], 6, Addressing::Mirror);
+    let mesh = torus(9.0, 4.0, 24);
+    let usual = scene(&mesh);
+    let with = |drawn: usize, through: usize| {
+        let [drawn, through] = [(Shadow::Drawn, drawn), (Shadow::None, through)]
+            .map(|(shadow, count)| vec![Light { shadow, ..usual.lights[0] }; count]);
+        Scene { lights: [through, drawn].concat(), ..usual.clone() }
+    };
+    for gpu in Backend::ALL.map(device) {
+        for mode in [RenderMode::Splat, RenderMode::Separable] {
+            let loaded = Loaded::new(&gpu, mode, &file, &mesh);
+            let taken = |drawn, through| {
+                let frame = prepared(&gpu, &loaded, &with(drawn, through), None).unwrap();
+                (gpu.ledger().bytes(), frame.light_view_bytes())
+            };
+            assert_eq!(taken(1, 0), taken(1, 7), "{mode:?}: one shadow");
+            assert_eq!(taken(0, 0), taken(0, 8), "{mode:?}: no shadow");
+            let ([one, none, four], [_, least, most]) =
+                ([1, 0, 4].map(|drawn| taken(drawn, 0).1), [1, 0, 4].map(|drawn| taken(drawn, 0).0));
+            println!("{mode:?}: {one} bytes a shadow; {least} in the ledger with none, {most} with four");
+            assert!(none < 100, "{mode:?}: {none} bytes without shadows");
+            assert_eq!(four, 4 * one, "{mode:?}: four shadows");
+            assert!(most - least >= four - none, "{mode:?}: {most} {least}");
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use subsurf_runtime::RuntimeOptions;
-use subsurf_scene::{Camera, Environment, Light, LightShape, Mesh, Scene};
+use subsurf_scene::{Camera, Environment, Light, LightShape, Mesh, Scene, Shadow};
 
 /// Direction towards the usual light, not normalised: over the right shoulder.
 pub const DEFAULT_LIGHT: Vec3 = Vec3::new(0.9, 1.1, 0.35);
@@ -57,7 +57,11 @@ impl RenderRequest {
     #[must_use]
     pub fn scene(&self, mesh: &Mesh) -> Scene {
         Scene {
-            lights: vec![Light { shape: LightShape::Directional { towards: self.direction }, irradiance: IRRADIANCE }],
+            lights: vec![Light {
+                shape: LightShape::Directional { towards: self.direction },
+                irradiance: IRRADIANCE,
+                shadow: Shadow::Drawn,
+            }],
             environment: self.environment.clone(),
             roughness: self.roughness,
             camera: framed(mesh, self.angles, self.size),

@@ -14,6 +14,12 @@ use crate::section::Section;
 pub struct Texel(pub(super) u32);
 
 impl Texel {
+    /// Texel of a number; from [`Catalog::texels`] on it is none, and has the values of none.
+    #[must_use]
+    pub fn from_number(number: u32) -> Self {
+        Self(number)
+    }
+
     /// Number in the file: texels row by row, level by level, material by material.
     #[must_use]
     pub fn number(self) -> u32 {

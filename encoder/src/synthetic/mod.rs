@@ -1,5 +1,6 @@
 //! Materials without any meaning, made at once: for timing, and for tests that need no physics.
 
+mod factored;
 mod nested;
 
 use rayon::prelude::*;
@@ -8,6 +9,7 @@ use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, Coding, Mixture};
 use subsurf_decoder::{Bssrdf, Section};
 
 use crate::bssrdf::{mixtures, profiles, write_file};
+pub use factored::factored;
 pub use nested::NestedShape;
 
 /// Size of a synthetic material.

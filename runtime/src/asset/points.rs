@@ -30,7 +30,7 @@ pub struct GpuPoints {
 pub(crate) type LitBy = (uniform::Scene, glam::Mat4);
 
 impl GpuPoints {
-    /// Uploads the points of a surface.
+    /// Uploads the points of a surface; visibilities are kept to 1/255.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no textures of that size.
@@ -40,11 +40,15 @@ impl GpuPoints {
             |label| gpu.texture(&TextureSpec::target(label, array_size(surface.len()), gpu.target_texture_format()));
         let count = surface.len();
         let float = TextureFormat::Rgba32Float;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let byte = |share: &f32| (share.clamp(0.0, 1.0) * 255.0).round() as u8;
+        // Two to a channel, the lower byte first.
+        let visibilities: Vec<u8> = surface.visibilities.iter().flatten().map(byte).collect();
         Ok(Self {
             grid: gpu.uniform("grid", &uniform::PointGrid::new(surface)),
             positions: table("positions", count, float, bytemuck::cast_slice(&surface.positions))?,
             normals: table("normals", count, float, bytemuck::cast_slice(&surface.normals))?,
-            visibilities: table("visibilities", count, float, bytemuck::cast_slice(&surface.visibilities))?,
+            visibilities: table("visibilities", count, TextureFormat::Rgba16Uint, &visibilities)?,
             pixels: table("pixels", count, TextureFormat::Rg16Uint, bytemuck::cast_slice(&surface.pixels))?,
             cell_starts: table(
                 "cell starts",

@@ -5,6 +5,7 @@ use subsurf_shaders::uniform;
 use wgpu::{CommandEncoder, LoadOp, Operations, RenderPassColorAttachment, StoreOp};
 
 use super::input::{Input, Object, Target};
+use super::options::RuntimeOptions;
 use super::prepare::Frame;
 use super::renderer::Renderer;
 use crate::asset::Material;
@@ -30,8 +31,9 @@ struct Seen {
 }
 
 impl Renderer {
-    /// Records a frame into the host's encoder. Nothing is submitted, waited for or allocated on the device; what a driver
-    /// has to say comes by the device's own error handler. Where no object is seen, the target is cleared or left alone.
+    /// Records a frame into the host's encoder. Nothing is submitted, waited for or allocated on the device; only other
+    /// shadow maps of the host's than before are bound anew. What a driver has to say comes by the device's own error handler.
+    /// Where no object is seen, the target is cleared or left alone.
     ///
     /// Lights' views hold all objects of the input, seen or not: what is far from the others makes them coarse.
     ///
@@ -39,9 +41,9 @@ impl Renderer {
     /// for each submission, another [`Frame`] beside it.
     ///
     /// # Errors
-    /// [`Error::Usage`] if the frame was not prepared for a material, if there are too many objects, an object lacks what its
-    /// material needs, the light of a gather was never summed, or the target is smaller than the frame; [`Error::Device`] if the
-    /// device is lost.
+    /// [`Error::Usage`] if the frame was not prepared for a material or for as many shadows, if there are too many objects or
+    /// lights, a shadow map is not what it has to be, an object lacks what its material needs, the light of a gather was never summed, or the target is smaller than the
+    /// frame; [`Error::Device`] if the device is lost.
     pub fn draw(
         &self,
         gpu: &Gpu,
@@ -59,7 +61,7 @@ impl Renderer {
     /// # Errors
     /// As [`Renderer::draw`], and [`Error::Device`] if the device fails.
     pub fn gather(&self, gpu: &Gpu, frame: &mut Frame, input: &Input<'_>) -> Result<()> {
-        let Some(seen) = frame.place(gpu, input)? else {
+        let Some(seen) = frame.place(gpu, input, &self.options)? else {
             return Ok(());
         };
         let Frame { plan, common, slots, placed, .. } = frame;
@@ -83,7 +85,7 @@ impl Renderer {
         lap: Lap<'_>,
     ) -> Result<()> {
         expect_room(target, frame.plan.size)?;
-        let Some(seen) = frame.place(gpu, input)? else {
+        let Some(seen) = frame.place(gpu, input, &self.options)? else {
             clear(encoder, target);
             return Ok(());
         };
@@ -94,7 +96,8 @@ impl Renderer {
         if let Some(reason) = visible.find_map(|slot| slot.bindings.is_waiting()) {
             return Err(Error::Usage(reason.to_owned()));
         }
-        lights.record(encoder, self.tsm.of(plan), seen.block.lights, &common.object, draws);
+        let shadows = seen.block.drawn_shadows();
+        lights.record(encoder, self.tsm.of(plan), shadows.count(), &common.object, draws);
         lap("shadow maps", encoder);
 
         // Materials with maps of their own come one after the other, each with its share of the picture.
@@ -107,7 +110,7 @@ impl Renderer {
             let mut group = Group::new(input, placed, number, bounds, &seen.block, seen.bounds.radius_mm, plan);
             group.origin = target.origin;
             slot.bindings.update(gpu, &group);
-            slot.bindings.record(encoder, &group, &common.object, lap);
+            slot.bindings.record(encoder, &group, common.shared(), lap);
             let is_last = Some(number) == last;
             let attachments = Attachments {
                 colours: &[Some(RenderPassColorAttachment {
@@ -122,7 +125,7 @@ impl Renderer {
                 viewport: Some((target.origin, plan.size)),
             };
             let (pass, material) = slot.bindings.shade();
-            pass.record(encoder, &attachments, [&slot.scene, material], &common.object, group.draws());
+            pass.record(encoder, &attachments, [&slot.scene, material], common.shared(), group.draws());
             lap("shade", encoder);
             is_first = false;
         }
@@ -132,7 +135,7 @@ impl Renderer {
 
 impl Frame {
     /// Finds the materials and the blocks of all objects, and uploads the blocks; `None` if nothing is seen.
-    fn place(&mut self, gpu: &Gpu, input: &Input<'_>) -> Result<Option<Seen>> {
+    fn place(&mut self, gpu: &Gpu, input: &Input<'_>, options: &RuntimeOptions) -> Result<Option<Seen>> {
         let room = self.common.objects.size() / u64::from(OBJECT_STRIDE);
         if input.objects.len() as u64 > room {
             return Err(Error::Usage(format!("{} objects; the renderer has room for {room}", input.objects.len())));
@@ -140,6 +143,12 @@ impl Frame {
         self.placed.clear();
         for slot in &mut self.slots {
             slot.bounds = None;
+        }
+        let (shadows, have) = (input.drawn_shadows(options)?, self.plan.lights);
+        if shadows > have {
+            let reason =
+                format!("shadows of {shadows} lights; the frame was prepared for {have}: prepare it for all of them");
+            return Err(Error::Usage(reason));
         }
         let mut all: Option<BoundingSphere> = None;
         for (object, number) in input.objects.iter().zip(0..) {
@@ -165,8 +174,9 @@ impl Frame {
         };
         let lighting = &input.lighting;
         let mut block = uniform::Scene::new(&input.view, input.exposure, lighting, &bounds, self.plan.light_texels);
-        // Lights that came after the frame was prepared have no view: they shine once it is prepared anew.
-        block.lights = block.lights.min(self.plan.lights);
+        input.project_maps(&mut block);
+        self.common.host_shadows.show(gpu, input.shadow_maps)?;
+        self.lights.update(gpu, block.drawn_shadows());
         gpu.write(&self.common.scene, bytemuck::bytes_of(&block))?;
         self.common.show(gpu, lighting.environment);
 

@@ -1,9 +1,11 @@
 //! What a frame shows, and where it is drawn to: all of it the host's.
 
 use glam::{Mat4, Vec3};
-use subsurf_scene::{Lighting, Mapping, Scene, View};
-use wgpu::{Color, LoadOp, Operations, TextureView};
+use subsurf_scene::{Lighting, MAX_LIGHTS, Mapping, Scene, Shadow, View};
+use subsurf_shaders::uniform;
+use wgpu::{Color, LoadOp, Operations, TextureFormat, TextureUsages, TextureView};
 
+use super::options::RuntimeOptions;
 use crate::asset::{GpuMesh, Material};
 use crate::error::{Error, Result};
 
@@ -14,10 +16,31 @@ pub struct Input<'a> {
     pub view: View,
     /// Factor on radiance, before tone mapping if there is any.
     pub exposure: f32,
-    /// Light that falls on the objects.
+    /// Light that falls on the objects, of at most [`MAX_LIGHTS`] sources.
     pub lighting: Lighting<'a>,
+    /// Shadow maps of the host's own, which lights name by [`Shadow::Host`]; at most [`MAX_LIGHTS`]. Renderers take them by the
+    /// option `host_shadow_maps`.
+    pub shadow_maps: &'a [ShadowMap<'a>],
     /// Objects, in any order. Those of one material scatter light between each other.
     pub objects: &'a [Object<'a>],
+}
+
+/// Shadow map of the host's own: depth that a light sees. Nothing is in shadow beside it, and nothing beyond its far plane
+/// unless something is seen before that.
+///
+/// It shadows our surfaces, and tells separable blurs the thickness of what the light shines through. Splats have no samples of
+/// such a light: its light leaves where it enters. Gathers take visibilities from their points.
+#[derive(Clone, Copy, Debug)]
+pub struct ShadowMap<'a> {
+    /// Depth, of any depth format (of a view that shows depth alone) or of `R32Float`, bound as a texture, one sample to a texel.
+    /// Its first row is the upper one of clip space. A texel of the map's own is the least distance at which it tells surfaces
+    /// apart; slopes take more.
+    pub depth: &'a TextureView,
+    /// Projection that the map was drawn with, from mm of the world to clip space: x and y from −1 to 1, depth from 0 to 1. Rays
+    /// meet at the light, or are parallel to its direction.
+    pub clip_from_world: Mat4,
+    /// Whether depth falls from 1 near the light to 0 far away.
+    pub is_reversed: bool,
 }
 
 /// Object: a mesh, what it is made of, and where it is.
@@ -64,8 +87,75 @@ impl<'a> Input<'a> {
             view: View::new(&scene.camera, &bounds, aspect),
             exposure: scene.camera.exposure,
             lighting: scene.lighting(bounds.centre_mm),
+            shadow_maps: &[],
             objects,
         }
+    }
+
+    /// Number of lights whose shadows are drawn.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if there are too many lights or shadow maps, a light names a map that is not there, or a map cannot be
+    /// read.
+    pub(crate) fn drawn_shadows(&self, options: &RuntimeOptions) -> Result<u32> {
+        let (lights, maps) = (self.lighting.lights, self.shadow_maps);
+        if !maps.is_empty() && !options.host_shadow_maps {
+            return Err(Error::Usage(
+                "shadow maps of the host's; the renderer has no option host_shadow_maps".to_owned(),
+            ));
+        }
+        for (what, count) in [("lights", lights.len()), ("shadow maps", maps.len())] {
+            if count > MAX_LIGHTS {
+                return Err(Error::Usage(format!("{count} {what}; a frame has at most {MAX_LIGHTS}")));
+            }
+        }
+        for (number, map) in maps.iter().enumerate() {
+            map.expect_readable(number)?;
+        }
+        let mut drawn = 0;
+        for (number, light) in lights.iter().enumerate() {
+            match light.shadow {
+                Shadow::Host(map) if map >= maps.len() => {
+                    let count = maps.len();
+                    return Err(Error::Usage(format!(
+                        "light {number} has shadow map {map} of {count}, counted from 0"
+                    )));
+                }
+                Shadow::Drawn => drawn += 1,
+                Shadow::Host(_) | Shadow::None => {}
+            }
+        }
+        Ok(drawn)
+    }
+
+    /// Puts the projections of the host's maps into the blocks of their lights.
+    pub(crate) fn project_maps(&self, block: &mut uniform::Scene) {
+        for (to, light) in block.light.iter_mut().zip(self.lighting.lights) {
+            if let Shadow::Host(number) = light.shadow {
+                let map = &self.shadow_maps[number];
+                to.clip_from_world = map.clip_from_world.to_cols_array_2d();
+                to.shadow = if map.is_reversed { uniform::HOST_SHADOW_REVERSED } else { uniform::HOST_SHADOW };
+            }
+        }
+    }
+}
+
+impl ShadowMap<'_> {
+    /// Refuses what shaders cannot read as depth.
+    fn expect_readable(&self, number: usize) -> Result<()> {
+        let texture = self.depth.texture();
+        let format = texture.format();
+        let found = if !format.has_depth_aspect() && format != TextureFormat::R32Float {
+            format!("{format:?}")
+        } else if texture.sample_count() != 1 {
+            format!("{} samples to a texel", texture.sample_count())
+        } else if !texture.usage().contains(TextureUsages::TEXTURE_BINDING) {
+            "no usage TEXTURE_BINDING".to_owned()
+        } else {
+            return Ok(());
+        };
+        let expected = "depth or R32Float, one sample to a texel, to be bound as a texture";
+        Err(Error::Usage(format!("shadow map {number} has {found}; expected {expected}")))
     }
 }
 

@@ -9,7 +9,7 @@ mod prepare;
 mod renderer;
 
 pub(crate) use draw::Placed;
-pub use input::{Input, Object, Target};
+pub use input::{Input, Object, ShadowMap, Target};
 pub use options::{BACKGROUND, BACKGROUND_COLOUR, RuntimeOptions};
 pub use picture::PictureTarget;
 pub use plan::Plan;

@@ -19,6 +19,8 @@ pub struct RuntimeOptions {
     pub depth: DepthFormat,
     /// Whether light is tone-mapped to 0 to 1 (Khronos PBR Neutral); else colour is linear radiance times exposure, Rec. 709.
     pub tone_mapping: bool,
+    /// Whether lights may have shadow maps of the host's own: passes that look them up are larger.
+    pub host_shadow_maps: bool,
     /// Texels to a side of what each light sees: a power of two, at least 128.
     pub light_texels: u32,
     /// Most objects of a frame.
@@ -35,6 +37,7 @@ impl Default for RuntimeOptions {
             samples: 1,
             depth: DepthFormat { format: DEPTH, is_reversed: false },
             tone_mapping: true,
+            host_shadow_maps: false,
             light_texels: 512,
             objects: 16,
             btf: BtfOptions::default(),

@@ -11,7 +11,7 @@ pub struct Plan {
     pub size: [u32; 2],
     /// Texels to a side of each light's view.
     pub light_texels: u32,
-    /// Number of lights with a view.
+    /// Number of lights with a view: those whose shadows are drawn.
     pub lights: u32,
     /// Pixels of the picture to a side of a texel of the maps that scatter light.
     pub divisor: u32,
@@ -31,20 +31,24 @@ impl Plan {
         self.size.map(|side| side.div_ceil(self.divisor).max(1))
     }
 
-    /// Texels of the maps that a length spans which is as long as it is far from the eye.
-    pub(crate) fn texels_per_tangent(&self, view: &View) -> f32 {
+    /// Texels of the maps that a length spans which is as long as it is far from the eye, along rows and columns.
+    pub(crate) fn texels_per_tangent(&self, view: &View) -> [f32; 2] {
         #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-        let height = self.map_size()[1] as f32;
-        0.5 * height * view.focal().y
+        let size = self.map_size().map(|side| side as f32);
+        let focal = view.focal();
+        [0.5 * size[0] * focal.x, 0.5 * size[1] * focal.y]
     }
 
     /// Mipmap levels of lights' views.
     pub(crate) fn light_levels(&self) -> u32 {
-        if self.has_light_levels { self.light_texels.ilog2() } else { 1 }
+        if self.has_light_levels && self.lights > 0 { self.light_texels.ilog2() } else { 1 }
     }
 
-    /// Size of the textures of lights' views: a square tile for each light in one row.
+    /// Size of the textures of lights' views: a square tile for each light in one row. Where there is none, a texel is bound.
     pub(crate) fn light_size(&self) -> [u32; 2] {
+        if self.lights == 0 {
+            return [1; 2];
+        }
         [self.light_texels * self.lights, self.light_texels]
     }
 

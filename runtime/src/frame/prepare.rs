@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use subsurf_scene::{BoundingSphere, MAX_LIGHTS};
+use subsurf_scene::BoundingSphere;
 use wgpu::{BindGroup, BindingResource};
 
 use super::draw::Placed;
@@ -65,13 +65,15 @@ impl Shared {
 }
 
 impl Renderer {
-    /// Makes room for pictures of `size` pixels with the materials and as many lights as an input has, within the budget:
-    /// shadow maps and maps become coarser until everything fits. Maps are as fine as the view of the input needs; other
-    /// views and objects may be drawn with them, and as many lights or fewer: further ones do not shine.
+    /// Makes room for pictures of `size` pixels with the materials of an input and as many shadows as it has to be drawn, within
+    /// the budget: shadow maps and maps become coarser until everything fits. Maps are as fine as the view of the input needs;
+    /// other views and objects may be drawn with them, as many such shadows or fewer, and any lights without them, which take
+    /// no memory.
     ///
     /// # Errors
     /// [`Error::OverBudget`](crate::Error::OverBudget) if even the coarsest does not fit, before anything is allocated;
-    /// [`Error::Usage`] if a technique was not compiled, or the size is 0; [`Error::Device`] if the device is lost.
+    /// [`Error::Usage`] if a technique was not compiled, the size is 0, there are too many lights or materials, or a shadow map
+    /// is not what it has to be; [`Error::Device`] if the device is lost.
     pub fn prepare(&self, gpu: &Gpu, input: &Input<'_>, size: [u32; 2]) -> Result<Frame> {
         gpu.expect_alive()?;
         let mut materials: Vec<&Material> = Vec::new();
@@ -83,8 +85,8 @@ impl Renderer {
         if size.contains(&0) {
             return Err(Error::Usage(format!("a frame of {size:?} pixels")));
         }
-        #[allow(clippy::cast_possible_truncation, reason = "a handful")]
-        let lights = input.lighting.lights.len().clamp(1, MAX_LIGHTS) as u32;
+        expect_groups(materials.len())?;
+        let lights = input.drawn_shadows(&self.options)?;
         let plan = Plan {
             size,
             light_texels: self.options.light_texels.min(largest_tile(gpu, lights)),
@@ -169,9 +171,15 @@ impl Renderer {
         let radius_mm =
             bounds.iter().copied().reduce(|all, bounds| all.union(&bounds)).map_or(1.0, |all| all.radius_mm);
         let divisors = input.objects.iter().zip(&bounds).filter_map(|(object, bounds)| {
-            let distance_mm = if view.is_parallel() { 1.0 } else { view.eye_mm().distance(bounds.centre_mm) };
+            let distance_mm = if view.is_parallel() {
+                1.0
+            } else {
+                (bounds.centre_mm - view.eye_mm()).dot(view.forward()).max(0.01 * bounds.radius_mm)
+            };
+            // Along the axis where pixels are larger.
             #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-            let pixels_per_mm = 0.5 * size[1] as f32 * view.focal().y / distance_mm;
+            let of_tangent = size.map(|side| 0.5 * side as f32);
+            let pixels_per_mm = (of_tangent[0] * view.focal().x).min(of_tangent[1] * view.focal().y) / distance_mm;
             match object.material {
                 Material::Separable(material) => Some(separable::divisor(material, pixels_per_mm)),
                 Material::Splat(material) => {
@@ -184,9 +192,20 @@ impl Renderer {
     }
 }
 
+/// Most materials of a frame: numbers of groups are half floats in shadow maps, whole up to this.
+const MOST_GROUPS: usize = 2_048;
+
+/// Refuses more materials than shadow maps tell apart.
+fn expect_groups(materials: usize) -> Result<()> {
+    if materials > MOST_GROUPS {
+        return Err(Error::Usage(format!("{materials} materials; a frame has at most {MOST_GROUPS}")));
+    }
+    Ok(())
+}
+
 /// Most texels to a side of so many tiles in one row.
 fn largest_tile(gpu: &Gpu, lights: u32) -> u32 {
-    let most = (gpu.device.limits().max_texture_dimension_2d / lights).max(1);
+    let most = (gpu.device.limits().max_texture_dimension_2d / lights.max(1)).max(1);
     1 << most.ilog2()
 }
 
@@ -201,5 +220,23 @@ impl Frame {
     #[must_use]
     pub fn light_view_bytes(&self) -> u64 {
         self.lights.bytes()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_are_as_many_as_half_floats_tell_apart() {
+        let whole = |slot| half::f16::from_f32(crate::technique::group_number(slot)).to_f32();
+        let last = MOST_GROUPS - 1;
+        assert_eq!(whole(last) - whole(last - 1), 1.0, "the last one");
+        assert_eq!(whole(MOST_GROUPS), whole(last), "the one after it is the same");
+        expect_groups(MOST_GROUPS).unwrap();
+        match expect_groups(MOST_GROUPS + 1) {
+            Err(Error::Usage(reason)) => assert_eq!(reason, "2049 materials; a frame has at most 2048"),
+            other => panic!("{other:?}"),
+        }
     }
 }

@@ -18,6 +18,6 @@ pub(crate) use fill::Fill;
 pub use ledger::Ledger;
 pub(crate) use ledger::Tracked;
 pub(crate) use pass::{FullscreenPass, QuadPass, Rows};
-pub(crate) use pipeline::{Drawing, Program, attachment};
+pub(crate) use pipeline::{Drawing, Program, attachment, bind, bind_group_layout};
 pub use read::ColourTarget;
 pub(crate) use resource::{DEPTH, HALF, Surface2d, TextureSpec, array_size, layer_of, layers_of, level_of};

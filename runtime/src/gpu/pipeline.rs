@@ -19,8 +19,8 @@ use crate::error::Result;
 pub(crate) struct Program<'a> {
     /// Pass, with what it leaves open chosen.
     pub(crate) variant: Variant,
-    /// Values of its overrides.
-    pub(crate) constants: &'a [(&'a str, f64)],
+    /// Values of overrides; those that the pass does not have are left out.
+    pub(crate) constants: &'a [(&'a str, bool)],
     /// Formats of the colour targets.
     pub(crate) targets: &'a [TextureFormat],
 }
@@ -61,7 +61,10 @@ impl Pipeline {
                 bind_group_layouts: &bind_group_layouts,
                 immediate_size: 0,
             });
-            let compilation_options = PipelineCompilationOptions { constants: program.constants, ..Default::default() };
+            let is_known = |(name, _): &&(&str, bool)| pass.overrides.contains(name);
+            let constants = program.constants.iter().filter(is_known);
+            let constants: Vec<(&str, f64)> = constants.map(|(name, value)| (*name, f64::from(*value))).collect();
+            let compilation_options = PipelineCompilationOptions { constants: &constants, ..Default::default() };
             let vertices: Vec<_> = drawing.vertices.iter().cloned().map(Some).collect();
             let pipeline = gpu.device.create_render_pipeline(&RenderPipelineDescriptor {
                 label,
@@ -90,11 +93,7 @@ impl Pipeline {
 
     /// Binds resources, in order, to bind group number `group`.
     pub(crate) fn bind(&self, gpu: &Gpu, group: usize, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
-        let entries = resources.iter().zip(0..);
-        let entries: Vec<BindGroupEntry<'_>> =
-            entries.map(|(resource, binding)| BindGroupEntry { binding, resource: resource.clone() }).collect();
-        let layout = &self.groups[group];
-        gpu.checked(|| gpu.device.create_bind_group(&BindGroupDescriptor { label: None, layout, entries: &entries }))
+        bind(gpu, &self.groups[group], resources)
     }
 
     /// Begins a pass that draws to `attachments`, with `groups` bound from 0 on.
@@ -135,7 +134,16 @@ pub(crate) fn attachment<'a>(view: &'a TextureView, load: LoadOp<Color>) -> Rend
     }
 }
 
-fn bind_group_layout(gpu: &Gpu, bindings: &[Binding]) -> BindGroupLayout {
+/// Binds resources, in order.
+pub(crate) fn bind(gpu: &Gpu, layout: &BindGroupLayout, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
+    let entries = resources.iter().zip(0..);
+    let entries: Vec<BindGroupEntry<'_>> =
+        entries.map(|(resource, binding)| BindGroupEntry { binding, resource: resource.clone() }).collect();
+    gpu.checked(|| gpu.device.create_bind_group(&BindGroupDescriptor { label: None, layout, entries: &entries }))
+}
+
+/// Layout of a bind group; those of equal bindings fit each other.
+pub(crate) fn bind_group_layout(gpu: &Gpu, bindings: &[Binding]) -> BindGroupLayout {
     let entries = layout_entries(bindings, gpu.target_format());
     gpu.device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: None, entries: &entries })
 }

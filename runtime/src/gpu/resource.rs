@@ -74,7 +74,11 @@ impl TextureSpec {
 
     /// Bytes on the device: texel size × texels of all levels, layers and samples.
     pub(crate) fn bytes(&self) -> u64 {
-        let texel = u64::from(self.format.block_copy_size(None).unwrap_or(4));
+        let texel = match self.format {
+            // Single floats, and a word for the stencil.
+            TextureFormat::Depth32FloatStencil8 => 8,
+            format => u64::from(format.block_copy_size(None).unwrap_or(4)),
+        };
         let texels = |level: u32| self.size.map(|side| u64::from((side >> level).max(1))).iter().product::<u64>();
         (0..self.levels).map(texels).sum::<u64>() * u64::from(self.layers) * u64::from(self.samples) * texel
     }
@@ -188,4 +192,22 @@ impl Gpu {
 /// Extent of a copy or a texture.
 pub(super) fn extent(size: [u32; 2], layers: u32) -> Extent3d {
     Extent3d { width: size[0], height: size[1], depth_or_array_layers: layers }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_those_of_all_levels_and_samples() {
+        let bytes = |format| TextureSpec::attachment("", [4, 2], format).bytes();
+        assert_eq!(bytes(TextureFormat::Depth16Unorm), 16);
+        assert_eq!(bytes(TextureFormat::Depth24Plus), 32);
+        assert_eq!(bytes(TextureFormat::Depth24PlusStencil8), 32);
+        assert_eq!(bytes(TextureFormat::Depth32FloatStencil8), 64);
+        let plain = TextureSpec::table("", [4, 2], TextureFormat::Rgba8Unorm);
+        assert_eq!(TextureSpec { levels: 3, ..plain }.bytes(), 4 * (8 + 2 + 1));
+        let plain = TextureSpec::table("", [4, 2], TextureFormat::Rgba8Unorm);
+        assert_eq!(TextureSpec { samples: 4, layers: 2, ..plain }.bytes(), 4 * 8 * 4 * 2);
+    }
 }

@@ -1,7 +1,7 @@
 //! First frames of timed loads: a small picture of what was loaded.
 
 use glam::Vec3;
-use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Scene, relief};
+use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Scene, Shadow, relief};
 
 use crate::asset::{BssrdfPlanes, GpuMesh, Material, VertexData};
 use crate::error::Result;
@@ -33,7 +33,7 @@ impl Stage {
             renderer: Renderer::for_technique(gpu, technique, RuntimeOptions::default())?,
             mesh: GpuMesh::upload(gpu, &mesh, known)?,
             scene: Scene {
-                lights: vec![Light { shape, irradiance: [3.0, 2.9, 2.7] }],
+                lights: vec![Light { shape, irradiance: [3.0, 2.9, 2.7], shadow: Shadow::Drawn }],
                 environment: Environment::uniform([0.35, 0.4, 0.5]),
                 roughness: 0.25,
                 camera: Camera {

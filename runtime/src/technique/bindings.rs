@@ -6,7 +6,7 @@ use subsurf_scene::BoundingSphere;
 use subsurf_shaders::uniform::{self, Upsampling};
 use wgpu::{BindGroup, CommandEncoder};
 
-use super::mesh_pass::{Draw, MeshPass};
+use super::mesh_pass::{Draw, MeshPass, SharedGroups};
 use crate::error::Result;
 use crate::frame::{Input, Placed, Plan};
 use crate::gpu::Gpu;
@@ -30,7 +30,7 @@ pub(crate) trait Bindings: Debug + Send + Sync {
     }
 
     /// Records all passes between shadow maps and the picture; `lap` is called after each.
-    fn record(&self, _encoder: &mut CommandEncoder, _group: &Group<'_>, _objects: &BindGroup, _lap: Lap<'_>) {}
+    fn record(&self, _encoder: &mut CommandEncoder, _group: &Group<'_>, _shared: SharedGroups<'_>, _lap: Lap<'_>) {}
 
     /// Pipeline of the picture, and its bind group 1.
     fn shade(&self) -> (&MeshPass, &BindGroup);
@@ -96,7 +96,8 @@ impl<'a> Group<'a> {
         let [maps, picture, origin] =
             [self.plan.map_size(), self.plan.size, self.origin].map(|size| size.map(|side| side as f32));
         // Surfaces that are not seen at too flat an angle are the same two texels away.
-        let near_mm = 2.0 * self.middle_mm().max(1e-3) / self.plan.texels_per_tangent(&self.input.view);
+        let [along_rows, along_columns] = self.plan.texels_per_tangent(&self.input.view);
+        let near_mm = 2.0 * self.middle_mm().max(1e-3) / along_rows.min(along_columns);
         Upsampling { texels_per_pixel: [maps[0] / picture[0], maps[1] / picture[1]], origin, near_mm, pad: [0; 3] }
     }
 }

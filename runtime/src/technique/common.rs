@@ -8,7 +8,8 @@ use wgpu::{
     MipmapFilterMode, Sampler, SamplerDescriptor, TextureFormat,
 };
 
-use super::mesh_pass::MeshPass;
+use super::host_shadow::HostShadows;
+use super::mesh_pass::{MeshPass, SharedGroups};
 use crate::error::Result;
 use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked};
 
@@ -22,6 +23,7 @@ pub(crate) struct Common {
     pub(crate) objects: Tracked<Buffer>,
     /// Bind group 2 of passes over meshes: the block at an offset of `objects`.
     pub(crate) object: BindGroup,
+    pub(crate) host_shadows: HostShadows,
     pub(crate) reflections: Surface2d,
     /// Levels of the environment that `reflections` shows.
     shown: Vec<Vec<[f32; 3]>>,
@@ -49,9 +51,15 @@ impl Common {
             scene: gpu.uniform("scene", &<uniform::Scene as bytemuck::Zeroable>::zeroed()),
             object: pass.bind(gpu, 2, &[one])?,
             objects,
+            host_shadows: HostShadows::new(gpu)?,
             reflections: gpu.texture(&TextureSpec { levels: REFLECTION_LEVELS, ..spec })?,
             shown: Vec::new(),
         })
+    }
+
+    /// Bind groups that passes of all materials share.
+    pub(crate) fn shared(&self) -> SharedGroups<'_> {
+        SharedGroups { objects: &self.object, host_shadows: self.host_shadows.group() }
     }
 
     /// Uploads the reflections of the environment if they are others than before.

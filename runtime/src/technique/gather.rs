@@ -127,6 +127,8 @@ fn lighting(block: &uniform::Scene) -> uniform::Scene {
     for source in &mut light {
         source.clip_from_world = [[0.0; 4]; 4];
         (source.middle_mm, source.texel_mm) = (0.0, 0.0);
+        // Points know what reaches them.
+        (source.shadow, source.map) = (0, 0);
         // The axis of a light that shines all around is that of its view.
         if source.cos_outer < -1.0 {
             source.axis = [0.0; 3];

@@ -1,10 +1,10 @@
 //! Passes that draw meshes.
 
 use subsurf_shaders::passes::Variant;
-use subsurf_shaders::passes::table::{ENCODE_SRGB, TONE_MAP};
+use subsurf_shaders::passes::table::{ENCODE_SRGB, HOST_SHADOWS, TONE_MAP};
 use wgpu::{
     BindGroup, BindingResource, Color, CommandEncoder, CompareFunction, DepthStencilState, LoadOp, MultisampleState,
-    Operations, RenderPassColorAttachment, StoreOp, TextureFormat, TextureView, VertexBufferLayout,
+    Operations, RenderPass, RenderPassColorAttachment, StoreOp, TextureFormat, TextureView, VertexBufferLayout,
 };
 
 use crate::asset::{GpuMesh, TANGENTS, VERTICES};
@@ -14,7 +14,20 @@ use crate::gpu::{Drawing, Gpu, Pipeline, Program, attachment};
 
 /// Pass that draws meshes, with depth.
 #[derive(Debug)]
-pub(crate) struct MeshPass(Pipeline);
+pub(crate) struct MeshPass {
+    pipeline: Pipeline,
+    /// Whether visibilities of lights are looked up.
+    has_shadows: bool,
+}
+
+/// Bind groups that passes of all materials share.
+#[derive(Clone, Copy)]
+pub(crate) struct SharedGroups<'a> {
+    /// Number 2: blocks of all objects.
+    pub(crate) objects: &'a BindGroup,
+    /// Number 3, of passes that look up visibilities of lights: the host's shadow maps.
+    pub(crate) host_shadows: &'a BindGroup,
+}
 
 /// Depth of a pass: its format, and whether what is nearer has the larger value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,9 +66,12 @@ pub(crate) struct Attachments<'a> {
     pub(crate) colours: &'a [Option<RenderPassColorAttachment<'a>>],
     pub(crate) depth: &'a TextureView,
     pub(crate) depth_ops: Operations<f32>,
-    /// First pixel and size of what is drawn; all if `None`.
-    pub(crate) viewport: Option<([u32; 2], [u32; 2])>,
+    /// What is drawn to; all if `None`.
+    pub(crate) viewport: Option<Viewport>,
 }
+
+/// First pixel and size of what is drawn to.
+pub(crate) type Viewport = ([u32; 2], [u32; 2]);
 
 /// Colour target that is cleared.
 pub(crate) fn cleared(view: &TextureView, colour: Color) -> Option<RenderPassColorAttachment<'_>> {
@@ -69,6 +85,17 @@ impl MeshPass {
     /// Compiles a variant of a pass for targets of these formats, of one sample to a texel.
     pub(crate) fn new(gpu: &Gpu, variant: Variant, targets: &[TextureFormat], depth: DepthFormat) -> Result<Self> {
         Self::with(gpu, &Program { variant, constants: &[], targets }, &[VERTICES], depth, 1)
+    }
+
+    /// The same of a pass that looks up visibilities of lights, with depth as that of the picture.
+    pub(crate) fn lit(
+        gpu: &Gpu,
+        variant: Variant,
+        targets: &[TextureFormat],
+        options: &RuntimeOptions,
+    ) -> Result<Self> {
+        let constants = [(HOST_SHADOWS, options.host_shadow_maps)];
+        Self::with(gpu, &Program { variant, constants: &constants, targets }, &[VERTICES], options.depth, 1)
     }
 
     /// Compiles a variant of a pass that draws pictures.
@@ -90,7 +117,7 @@ impl MeshPass {
         let RuntimeOptions { format, samples, depth, tone_mapping, .. } = *options;
         // Linear light that is not tone-mapped stays linear.
         let encodes = tone_mapping && !format.is_srgb();
-        let constants = [(TONE_MAP, f64::from(tone_mapping)), (ENCODE_SRGB, f64::from(encodes))];
+        let constants = [(TONE_MAP, tone_mapping), (ENCODE_SRGB, encodes), (HOST_SHADOWS, options.host_shadow_maps)];
         let program = Program { variant, constants: &constants, targets: &[format] };
         Self::with(gpu, &program, vertices, depth, samples)
     }
@@ -104,34 +131,67 @@ impl MeshPass {
     ) -> Result<Self> {
         let multisample = MultisampleState { count: samples, ..Default::default() };
         let drawing = Drawing { vertices, depth: Some(depth.state()), multisample, ..Default::default() };
-        Ok(Self(Pipeline::new(gpu, program, drawing)?))
+        let has_shadows = program.variant.groups().len() > 3;
+        Ok(Self { pipeline: Pipeline::new(gpu, program, drawing)?, has_shadows })
     }
 
     /// Binds resources, in order, to bind group number `group`.
     pub(crate) fn bind(&self, gpu: &Gpu, group: usize, resources: &[BindingResource<'_>]) -> Result<BindGroup> {
-        self.0.bind(gpu, group, resources)
+        self.pipeline.bind(gpu, group, resources)
     }
 
-    /// Records the pass, with the blocks of all objects in bind group 2.
+    /// Records the pass with its bind groups 0 and 1.
     pub(crate) fn record<'m>(
         &self,
         encoder: &mut CommandEncoder,
         attachments: &Attachments<'_>,
         [first, second]: [&BindGroup; 2],
-        objects: &BindGroup,
+        shared: SharedGroups<'_>,
         draws: impl Iterator<Item = Draw<'m>>,
     ) {
         let depth = Some((attachments.depth, attachments.depth_ops));
-        let mut pass = self.0.begin(encoder, attachments.colours, depth, &[first, second]);
-        #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
-        if let Some((origin, size)) = attachments.viewport {
-            let [x, y, width, height] = [origin[0], origin[1], size[0], size[1]];
-            pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
-            pass.set_scissor_rect(x, y, width, height);
+        let mut pass = self.pipeline.begin(encoder, attachments.colours, depth, &[first, second]);
+        if self.has_shadows {
+            pass.set_bind_group(3, shared.host_shadows, &[]);
         }
-        for (mesh, offset) in draws {
-            pass.set_bind_group(2, objects, &[offset]);
-            mesh.draw(&mut pass);
+        if let Some(viewport) = attachments.viewport {
+            restrict(&mut pass, viewport);
         }
+        draw_all(&mut pass, shared.objects, draws);
+    }
+
+    /// Records the pass with the same objects in several parts of its targets, each with a bind group 1 of its own.
+    pub(crate) fn record_parts<'m, 'g, I: Iterator<Item = Draw<'m>>>(
+        &self,
+        encoder: &mut CommandEncoder,
+        attachments: &Attachments<'_>,
+        first: &BindGroup,
+        parts: impl Iterator<Item = (&'g BindGroup, Viewport)>,
+        objects: &BindGroup,
+        draws: impl Fn() -> I,
+    ) {
+        let depth = Some((attachments.depth, attachments.depth_ops));
+        let mut pass = self.pipeline.begin(encoder, attachments.colours, depth, &[first]);
+        for (second, viewport) in parts {
+            pass.set_bind_group(1, second, &[]);
+            restrict(&mut pass, viewport);
+            draw_all(&mut pass, objects, draws());
+        }
+    }
+}
+
+/// Restricts a pass to a part of its targets.
+fn restrict(pass: &mut RenderPass<'_>, (origin, size): Viewport) {
+    let ([x, y], [width, height]) = (origin, size);
+    #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
+    pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
+    pass.set_scissor_rect(x, y, width, height);
+}
+
+/// Draws meshes with the blocks of their objects.
+fn draw_all<'m>(pass: &mut RenderPass<'_>, objects: &BindGroup, draws: impl Iterator<Item = Draw<'m>>) {
+    for (mesh, offset) in draws {
+        pass.set_bind_group(2, objects, &[offset]);
+        mesh.draw(pass);
     }
 }

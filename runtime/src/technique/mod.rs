@@ -8,6 +8,7 @@ mod btf_query;
 mod cascade;
 mod common;
 pub(crate) mod gather;
+mod host_shadow;
 mod kind;
 mod mesh_pass;
 mod patch;

@@ -10,7 +10,7 @@ use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder};
 use super::bindings::{Bindings, Group, Lap};
 use super::cascade::{BlurPasses, Cascade, CascadeMaps};
 use super::common::Common;
-use super::mesh_pass::{Attachments, DepthFormat, MeshPass, cleared};
+use super::mesh_pass::{Attachments, DepthFormat, MeshPass, SharedGroups, cleared};
 use super::tsm::{FAR_MM, TranslucentShadowMaps};
 use crate::asset::SeparableMaterial;
 use crate::error::{Error, Result};
@@ -85,7 +85,7 @@ impl Passes {
         let maps = vec![gpu.target_texture_format(); 2 * terms];
         Ok(Self {
             depth: options.depth,
-            gbuffer: MeshPass::new(gpu, table::SEPARABLE_GBUFFER.with(choice), &maps, options.depth)?,
+            gbuffer: MeshPass::lit(gpu, table::SEPARABLE_GBUFFER.with(choice), &maps, options)?,
             blur: BlurPasses::new(gpu, [&table::BLUR_SCREEN_ROWS, &table::BLUR_SCREEN_COLUMNS], terms)?,
             shade: MeshPass::picture(gpu, table::SHADE_SEPARABLE.with(choice), options)?,
         })
@@ -135,17 +135,17 @@ impl Bindings for Bound {
         let view = &group.input.view;
         let domain = ScreenDomain {
             size: group.plan.map_size(),
-            focal_texels: group.plan.texels_per_tangent(view) * self.pitch_mm,
+            focal_texels: group.plan.texels_per_tangent(view).map(|texels| texels * self.pitch_mm),
             middle_mm: group.middle_mm(),
             pitch_mm: self.pitch_mm,
             perspective: if view.is_parallel() { 0.0 } else { 1.0 },
-            pad: [0; 2],
+            pad: 0,
         };
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&group.upsampling()));
     }
 
-    fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, objects: &BindGroup, lap: Lap<'_>) {
+    fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, shared: SharedGroups<'_>, lap: Lap<'_>) {
         let layers = self.cascade.maps.irradiance[0].layers.iter().chain(&self.cascade.begun_sums().layers);
         let colours: Vec<_> = layers.map(|view| cleared(view, self.far)).collect();
         let attachments = Attachments {
@@ -155,7 +155,7 @@ impl Bindings for Bound {
             viewport: None,
         };
         let [scene, basis] = &self.gbuffer;
-        self.passes.gbuffer.record(encoder, &attachments, [scene, basis], objects, group.draws());
+        self.passes.gbuffer.record(encoder, &attachments, [scene, basis], shared, group.draws());
         lap("gbuffer", encoder);
         self.cascade.record(encoder, &self.passes.blur, None);
         lap("blur", encoder);

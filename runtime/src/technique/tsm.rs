@@ -3,12 +3,12 @@
 use subsurf_shaders::TargetFormat;
 use subsurf_shaders::passes::table;
 use subsurf_shaders::uniform::TsmLight;
-use wgpu::{BindGroup, Buffer, Color, CommandEncoder, LoadOp, Operations, StoreOp, TextureFormat, TextureView};
+use wgpu::{BindGroup, Buffer, Color, CommandEncoder, TextureFormat, TextureView};
 
-use super::mesh_pass::{Attachments, DepthFormat, Draw, MeshPass};
+use super::mesh_pass::{Attachments, DepthFormat, Draw, MeshPass, cleared};
 use crate::error::Result;
 use crate::frame::Plan;
-use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked, attachment, level_of};
+use crate::gpu::{Gpu, Surface2d, TextureSpec, Tracked, level_of};
 
 /// Depth where nothing is seen: 60 m away, nearly the largest that half floats hold.
 pub(crate) const FAR_MM: f64 = 60_000.0;
@@ -33,7 +33,6 @@ pub(crate) struct TranslucentShadowMaps {
 /// Tile of a light.
 #[derive(Debug)]
 struct Tile {
-    #[expect(dead_code, reason = "kept in the ledger as long as the device has it")]
     block: Tracked<Buffer>,
     group: BindGroup,
 }
@@ -92,9 +91,8 @@ impl TranslucentShadowMaps {
     pub(crate) fn new(gpu: &Gpu, pass: &MeshPass, scene: &Buffer, plan: &Plan) -> Result<Self> {
         let [positions, fluxes, places, depth] = specs(gpu, plan);
         let surfaces = [gpu.texture(&positions)?, gpu.texture(&fluxes)?, gpu.texture(&places)?];
-        let tile = |light| {
-            let block: Tracked<Buffer> =
-                gpu.uniform("tile of a light", &TsmLight { light, group: 0.0, level: 0, pad: 0 });
+        let tile = |_| {
+            let block: Tracked<Buffer> = gpu.uniform("tile of a light", &TsmLight::default());
             let group = pass.bind(gpu, 1, &[block.as_entire_binding()])?;
             Ok(Tile { block, group })
         };
@@ -109,29 +107,37 @@ impl TranslucentShadowMaps {
         })
     }
 
-    /// Records what the first `lights` lights see of some objects, at the finest level.
+    /// Tells every tile the number of its light.
+    pub(crate) fn update(&self, gpu: &Gpu, lights: impl Iterator<Item = u32>) {
+        for (tile, light) in self.tiles.iter().zip(lights) {
+            let block = TsmLight { light, ..Default::default() };
+            gpu.queue.write_buffer(&tile.block, 0, bytemuck::bytes_of(&block));
+        }
+    }
+
+    /// Records what the lights of the first tiles see of some objects, at the finest level.
     pub(crate) fn record<'m, I: Iterator<Item = Draw<'m>>>(
         &self,
         encoder: &mut CommandEncoder,
         pass: &MeshPass,
-        lights: u32,
+        tiles: usize,
         objects: &BindGroup,
         draws: impl Fn() -> I,
     ) {
-        let clears = [self.far, Color::TRANSPARENT, Color::TRANSPARENT];
-        for (tile, number) in self.tiles.iter().zip(0..lights) {
-            // The first clears all tiles.
-            let load = |colour| if number == 0 { LoadOp::Clear(colour) } else { LoadOp::Load };
-            let depth_load = if number == 0 { LIGHT_DEPTH.own().load } else { LoadOp::Load };
-            let store = if number + 1 == lights { StoreOp::Discard } else { StoreOp::Store };
-            let attachments = Attachments {
-                colours: &[0, 1, 2].map(|k| Some(attachment(&self.targets[k], load(clears[k])))),
-                depth: &self.depth.view,
-                depth_ops: Operations { load: depth_load, store },
-                viewport: Some(([number * self.side, 0], [self.side; 2])),
-            };
-            pass.record(encoder, &attachments, [&self.scene, &tile.group], objects, draws());
+        if tiles == 0 {
+            return;
         }
+        let clears = [self.far, Color::TRANSPARENT, Color::TRANSPARENT];
+        let attachments = Attachments {
+            colours: &[0, 1, 2].map(|k| cleared(&self.targets[k], clears[k])),
+            depth: &self.depth.view,
+            depth_ops: LIGHT_DEPTH.own(),
+            viewport: None,
+        };
+        let side = self.side;
+        let parts = self.tiles[..tiles].iter().zip(0..);
+        let parts = parts.map(|(tile, number)| (&tile.group, ([number * side, 0], [side; 2])));
+        pass.record_parts(encoder, &attachments, &self.scene, parts, objects, draws);
     }
 
     /// Bytes on the device of all textures.

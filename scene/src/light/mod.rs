@@ -9,7 +9,7 @@ mod transfer;
 mod visibility;
 
 pub use environment::{Environment, REFLECTION_LEVELS, REFLECTION_SIZE};
-pub use source::{Light, LightShape, MAX_LIGHTS};
+pub use source::{Light, LightShape, MAX_LIGHTS, Shadow};
 pub use transfer::AmbientTransfer;
 #[cfg(feature = "bake")]
 pub use visibility::visibility;

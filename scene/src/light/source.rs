@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-/// Most lights of a scene.
-pub const MAX_LIGHTS: usize = 4;
+/// Most lights of a scene, with shadows or without.
+pub const MAX_LIGHTS: usize = 8;
 
 /// Source of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +13,21 @@ pub struct Light {
     /// Irradiance on a plane that faces the light, linear Rec. 709, in the scene's own unit: anywhere from afar; at the middle
     /// of the mesh from nearby, where it falls with the square of the distance.
     pub irradiance: [f32; 3],
+    /// What is behind objects.
+    pub shadow: Shadow,
+}
+
+/// How it is known where a light does not reach.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shadow {
+    /// Not at all: the light shines through everything, and takes no memory and no pass.
+    None,
+    /// From a shadow map that is drawn with the frame; where visibilities are of vertices, from rays.
+    #[default]
+    Drawn,
+    /// From the host's own shadow map of this number, from 0, among those of the frame; where visibilities are of vertices,
+    /// from rays.
+    Host(usize),
 }
 
 /// Position or direction of a light, and the part of space that it shines into.

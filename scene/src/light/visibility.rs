@@ -8,7 +8,7 @@ use glam::Vec3;
 use nalgebra::{Point3, Vector3};
 use rayon::prelude::*;
 
-use super::source::{Light, MAX_LIGHTS};
+use super::source::{Light, MAX_LIGHTS, Shadow};
 use crate::mesh::Mesh;
 
 /// Triangle of the hierarchy.
@@ -40,7 +40,7 @@ const OFFSET: f32 = 2e-3;
 /// Visibility of lights at every vertex of a mesh: 1 where light number k reaches the vertex, 0 where the mesh itself is in
 /// the way or there is no such light.
 ///
-/// Vertices that face away from a light count as reached: they get nothing from it anyway.
+/// Vertices that face away from a light count as reached: they get nothing from it anyway. Lights without shadows reach all.
 #[must_use]
 pub fn visibility(mesh: &Mesh, lights: &[Light]) -> Vec<[f32; MAX_LIGHTS]> {
     let corners = |triangle: &[u32; 3]| triangle.map(|k| point(mesh.positions[k as usize]));
@@ -51,7 +51,7 @@ pub fn visibility(mesh: &Mesh, lights: &[Light]) -> Vec<[f32; MAX_LIGHTS]> {
     let offset = OFFSET * (high - low).max_element();
     let is_reached = |position: Vec3, normal: Vec3, light: &Light| {
         let (direction, distance) = light.direction_from(position);
-        if normal.dot(direction) <= 0.0 {
+        if light.shadow == Shadow::None || normal.dot(direction) <= 0.0 {
             return true;
         }
         let ray = Ray::new(point(position + offset * normal), Vector3::new(direction.x, direction.y, direction.z));
@@ -84,7 +84,7 @@ mod tests {
     use crate::mesh::{sphere, torus};
 
     fn sun(towards: Vec3) -> Light {
-        Light { shape: LightShape::Directional { towards }, irradiance: [1.0; 3] }
+        Light { shape: LightShape::Directional { towards }, irradiance: [1.0; 3], shadow: Shadow::Drawn }
     }
 
     #[test]
@@ -97,10 +97,11 @@ mod tests {
     fn a_torus_shades_its_far_inner_side() {
         let ring = torus(10.0, 3.0, 16);
         let along = Vec3::new(1.0, 0.05, 0.0).normalize();
-        let seen = visibility(&ring, &[sun(along)]);
+        let seen = visibility(&ring, &[sun(along), Light { shadow: Shadow::None, ..sun(along) }]);
         // The inside of the tube at −x faces the light, behind the tube at +x.
         let mut shaded = 0;
-        for ((position, normal), [seen, ..]) in ring.positions.iter().zip(&ring.normals).zip(&seen) {
+        for ((position, normal), [seen, through, ..]) in ring.positions.iter().zip(&ring.normals).zip(&seen) {
+            assert_eq!(*through, 1.0, "{position} is reached without shadows");
             let inner = position.x < -5.0 && position.y.abs() < 1.0 && normal.x > 0.9;
             let outer = position.x > 5.0 && normal.x > 0.9;
             assert!(!outer || *seen == 1.0, "{position} is in the light");

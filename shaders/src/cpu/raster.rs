@@ -44,6 +44,12 @@ impl Covered {
         a + b + c
     }
 
+    /// Interpolated values at the pixel, of each number of the arrays.
+    pub(super) fn blend_all<const N: usize>(&self, values: &[[f32; N]]) -> [f32; N] {
+        let [a, b, c] = self.corners.map(|corner| &values[corner]);
+        std::array::from_fn(|k| a[k] * self.weights[0] + b[k] * self.weights[1] + c[k] * self.weights[2])
+    }
+
     /// Screen-space derivatives of the interpolated value along rows and columns, within blocks of two by two pixels.
     pub(super) fn slopes<T>(&self, values: &[T]) -> [T; 2]
     where

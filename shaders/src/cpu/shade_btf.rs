@@ -54,9 +54,8 @@ pub fn shade_btf(
     size: [u32; 2],
     background: [u8; 3],
 ) -> Vec<[u8; 3]> {
-    let visibilities: Vec<Vec4> = mesh.visibilities.iter().map(|seen| Vec4::from(*seen)).collect();
     rasterise(mesh.positions, mesh.triangles, &scene.clip_from_world, size, background, |covered| {
-        let visibility = covered.blend(&visibilities).to_array();
+        let visibility = covered.blend_all(mesh.visibilities);
         let light = light_of(mesh, surface, scene, reflections, covered, visibility) / PI * scene.exposure;
         display(srgb(neutral(light.into())))
     })

@@ -1,6 +1,6 @@
 //! Twin of `shade_vertex.wgsl` and `shading.wgsl`.
 
-use glam::{Vec3, Vec4};
+use glam::Vec3;
 use subsurf_scene::MAX_LIGHTS;
 
 use super::raster::rasterise;
@@ -36,13 +36,12 @@ pub fn shade_vertex(
     background: [u8; 3],
 ) -> Vec<[u8; 3]> {
     let exitances: Vec<Vec3> = mesh.exitances.iter().map(|exitance| Vec3::from(*exitance)).collect();
-    let visibilities: Vec<Vec4> = mesh.visibilities.iter().map(|seen| Vec4::from(*seen)).collect();
     rasterise(mesh.positions, mesh.triangles, &blocks.scene.clip_from_world, size, background, |covered| {
         let point = Point {
             position_mm: covered.blend(mesh.positions),
             normal: covered.blend(mesh.normals),
             exitance: covered.blend(&exitances),
-            visibility: covered.blend(&visibilities).to_array(),
+            visibility: covered.blend_all(mesh.visibilities),
         };
         let light = radiance(blocks, reflections, &point) * blocks.scene.exposure;
         display(srgb(neutral(light.into())))

@@ -17,12 +17,14 @@ const MAPPING: Part = Part::File(wgsl!("lib/mesh/mapping"));
 const PATCH_LAYERS: Part = Part::File(wgsl!("lib/mesh/patch_layers"));
 const VERTEX: Part = Part::File(wgsl!("lib/mesh/vertex"));
 const VERTEX_NONE: Part = Part::File(wgsl!("lib/mesh/vertex_none"));
+const VISIBILITIES: Part = Part::File(wgsl!("lib/visibilities"));
 const EXITANCE_VERTEX: Part = Part::File(wgsl!("lib/mesh/exitance_vertex"));
 const SHADING: Part = Part::File(wgsl!("lib/mesh/shading"));
 const BTF_VERTEX: Part = Part::File(wgsl!("lib/mesh/btf_vertex"));
 const BTF_TANGENTS: Part = Part::File(wgsl!("lib/mesh/btf_tangents"));
 const BTF_TEXTURE: Part = Part::File(wgsl!("material/btf/btf_texture"));
 const TSM: Part = Part::File(wgsl!("lib/screen/tsm"));
+const HOST_SHADOW: Part = Part::File(wgsl!("lib/screen/host_shadow"));
 const TSM_VISIBILITY: Part = Part::File(wgsl!("lib/screen/tsm_visibility"));
 const TRANSMISSION: Part = Part::File(wgsl!("lib/screen/transmission"));
 const NEIGHBOURS: Part = Part::File(wgsl!("lib/screen/neighbours"));
@@ -40,11 +42,19 @@ pub const ENCODE_SRGB: &str = "ENCODE_SRGB";
 /// Whether light is tone-mapped; an override of the same passes.
 pub const TONE_MAP: &str = "TONE_MAP";
 
+/// Whether lights may have shadow maps of the host's own; an override of passes that look up visibilities of lights.
+pub const HOST_SHADOWS: &str = "HOST_SHADOWS";
+
 /// Bind group 0 of pictures of meshes: scene, positions of the translucent shadow maps, reflections and their sampler.
 const LIT: Group = Group::Fixed(&[Uniform, Target, Filtered, Sampler]);
 
 /// Bind group 2 of passes that draw meshes: the object.
 const OF_OBJECT: Group = Group::Fixed(&[Binding::Object]);
+
+/// Bind group 3 of passes that look up visibilities of lights: the host's shadow maps, and their sampler.
+pub const HOST_SHADOW_MAPS: &[Binding] = &[Float, Float, Float, Float, Float, Float, Float, Float, Nearest];
+
+const OF_HOST: Group = Group::Fixed(HOST_SHADOW_MAPS);
 
 /// Row of a pass without overrides.
 const fn pass(file: File, parts: &'static [Part], vertex: &'static str, groups: &'static [Group]) -> Pass {
@@ -56,7 +66,12 @@ const fn fullscreen(file: File, parts: &'static [Part], groups: &'static [Group]
     pass(file, parts, "fullscreen", groups)
 }
 
-/// Row of a picture of a mesh.
+/// Row of a picture of a mesh whose lights have shadow maps.
+const fn shaded(file: File, parts: &'static [Part], groups: &'static [Group]) -> Pass {
+    Pass { overrides: &[TONE_MAP, ENCODE_SRGB, HOST_SHADOWS], ..pass(file, parts, "project", groups) }
+}
+
+/// Row of a picture of a mesh whose vertices know what lights reach.
 const fn picture(file: File, parts: &'static [Part], groups: &'static [Group]) -> Pass {
     Pass { overrides: &[TONE_MAP, ENCODE_SRGB], ..pass(file, parts, "project", groups) }
 }
@@ -121,8 +136,8 @@ pub static PATCH_REDUCE: Pass =
 /// Irradiance that enters a surface at each of its points.
 pub static IRRADIANCE: Pass = fullscreen(
     wgsl!("pass/surface/irradiance"),
-    &[Part::TargetFormat, FRESNEL, OBJECT, SCENE, FULLSCREEN],
-    &[Group::Fixed(&[Uniform]), Group::Fixed(&[Float, Float, Float]), OF_OBJECT],
+    &[Part::TargetFormat, FRESNEL, OBJECT, SCENE, VISIBILITIES, FULLSCREEN],
+    &[Group::Fixed(&[Uniform]), Group::Fixed(&[Float, Float, Binding::Uint]), OF_OBJECT],
 );
 
 /// Exitance at the points of a surface, by the reference sum.
@@ -135,8 +150,8 @@ pub static SURFACE_GATHER: Pass = fullscreen(
 /// Picture of a mesh from the exitance of its vertices.
 pub static SHADE_VERTEX: Pass = picture(
     wgsl!("pass/surface/shade_vertex"),
-    &[Part::TargetFormat, TONE, DISPLAY, FRESNEL, OBJECT, SCENE, COAT, EXITANCE_VERTEX, VERTEX, SHADING],
-    &[LIT, Group::Fixed(&[Target, Float]), OF_OBJECT],
+    &[Part::TargetFormat, TONE, DISPLAY, FRESNEL, OBJECT, SCENE, COAT, VISIBILITIES, EXITANCE_VERTEX, VERTEX, SHADING],
+    &[LIT, Group::Fixed(&[Target, Binding::Uint]), OF_OBJECT],
 );
 
 /// Translucent shadow map of a light.
@@ -157,7 +172,7 @@ pub static TSM_REDUCE: Pass = fullscreen(
 /// G-buffer of a mesh for splats: positions, texture coordinates, albedo.
 pub static SURFACE_GBUFFER: Pass = pass(
     wgsl!("pass/splat/surface_gbuffer"),
-    &[FRESNEL, OBJECT, SCENE, MAPPING, PATCH_LAYERS, VERTEX_NONE, VERTEX],
+    &[FRESNEL, OBJECT, SCENE, MAPPING, PATCH_LAYERS, VISIBILITIES, VERTEX_NONE, VERTEX],
     "project",
     &[Group::Fixed(&[Uniform]), Group::Fixed(&[FilteredLayers, Sampler]), OF_OBJECT],
 );
@@ -178,7 +193,7 @@ pub static SPLAT_RESOLVE: Pass = fullscreen(
 );
 
 /// Picture of a mesh from the resolved splats.
-pub static SHADE_SPLAT: Pass = picture(
+pub static SHADE_SPLAT: Pass = shaded(
     wgsl!("pass/splat/shade_splat"),
     &[
         Part::TargetFormat,
@@ -189,37 +204,49 @@ pub static SHADE_SPLAT: Pass = picture(
         SCENE,
         COAT,
         MAPPING,
+        HOST_SHADOW,
         TSM_VISIBILITY,
         PATCH_LAYERS,
+        VISIBILITIES,
         VERTEX_NONE,
         VERTEX,
         NEIGHBOURS,
         UPSAMPLING,
         SHADING,
     ],
-    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, Float]), OF_OBJECT],
+    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, Float]), OF_OBJECT, OF_HOST],
 );
 
 /// G-buffer for the separable blurs on the screen: L weighted irradiance maps, and transmitted light.
-pub static SEPARABLE_GBUFFER: Pass = pass(
-    wgsl!("pass/separable/separable_gbuffer"),
-    &[
-        Part::TargetFormat,
-        Part::Terms,
-        FRESNEL,
-        OBJECT,
-        SCENE,
-        MAPPING,
-        TSM_VISIBILITY,
-        PATCH_LAYERS,
-        SEPARABLE_BASIS,
-        VERTEX_NONE,
-        VERTEX,
-        TRANSMISSION,
-    ],
-    "project",
-    &[Group::Fixed(&[Uniform, Target]), Group::Fixed(&[FilteredLayers, Sampler, Uniform, Target, Target]), OF_OBJECT],
-);
+pub static SEPARABLE_GBUFFER: Pass = Pass {
+    overrides: &[HOST_SHADOWS],
+    ..pass(
+        wgsl!("pass/separable/separable_gbuffer"),
+        &[
+            Part::TargetFormat,
+            Part::Terms,
+            FRESNEL,
+            OBJECT,
+            SCENE,
+            MAPPING,
+            HOST_SHADOW,
+            TSM_VISIBILITY,
+            PATCH_LAYERS,
+            SEPARABLE_BASIS,
+            VISIBILITIES,
+            VERTEX_NONE,
+            VERTEX,
+            TRANSMISSION,
+        ],
+        "project",
+        &[
+            Group::Fixed(&[Uniform, Target]),
+            Group::Fixed(&[FilteredLayers, Sampler, Uniform, Target, Target]),
+            OF_OBJECT,
+            OF_HOST,
+        ],
+    )
+};
 
 /// Stages of the cascade on the screen, along rows.
 pub static BLUR_SCREEN_ROWS: Pass = fullscreen(
@@ -236,7 +263,7 @@ pub static BLUR_SCREEN_COLUMNS: Pass = fullscreen(
 );
 
 /// Picture of a mesh from L blurred maps on the screen.
-pub static SHADE_SEPARABLE: Pass = picture(
+pub static SHADE_SEPARABLE: Pass = shaded(
     wgsl!("pass/separable/shade_separable"),
     &[
         Part::TargetFormat,
@@ -248,16 +275,18 @@ pub static SHADE_SEPARABLE: Pass = picture(
         SCENE,
         COAT,
         MAPPING,
+        HOST_SHADOW,
         TSM_VISIBILITY,
         PATCH_LAYERS,
         SEPARABLE_BASIS,
+        VISIBILITIES,
         VERTEX_NONE,
         VERTEX,
         NEIGHBOURS,
         UPSAMPLING,
         SHADING,
     ],
-    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, TargetLayers]), OF_OBJECT],
+    &[LIT, Group::Fixed(&[FilteredLayers, Sampler, Uniform, TargetLayers]), OF_OBJECT, OF_HOST],
 );
 
 /// Values and light samples of a BTF for lists of directions.
@@ -268,7 +297,7 @@ pub static BTF_QUERY: Pass = fullscreen(
 );
 
 /// Picture of a mesh of a BTF.
-pub static SHADE_BTF: Pass = picture(
+pub static SHADE_BTF: Pass = shaded(
     wgsl!("pass/btf/shade_btf"),
     &[
         Part::TargetFormat,
@@ -279,13 +308,14 @@ pub static SHADE_BTF: Pass = picture(
         OBJECT,
         SCENE,
         COAT,
+        HOST_SHADOW,
         TSM_VISIBILITY,
         BTF_VERTEX,
         BTF_TEXTURE,
         BTF_TANGENTS,
         Part::Ambient,
     ],
-    &[LIT, Group::Btf(&[Uniform]), OF_OBJECT],
+    &[LIT, Group::Btf(&[Uniform]), OF_OBJECT, OF_HOST],
 );
 
 /// All passes.

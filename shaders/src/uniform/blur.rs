@@ -60,8 +60,8 @@ impl BlurStage {
 pub struct ScreenDomain {
     /// Texels of the maps, columns and rows.
     pub size: [u32; 2],
-    /// Texels that the pitch of the material covers at a distance of 1 mm, or at any.
-    pub focal_texels: f32,
+    /// Texels that the pitch of the material covers at a distance of 1 mm, or at any, along rows and columns.
+    pub focal_texels: [f32; 2],
     /// Distance from the eye to depth 0 in mm; 1 where the projection is parallel.
     pub middle_mm: f32,
     /// Pitch of the pixels of the material in mm.
@@ -69,7 +69,7 @@ pub struct ScreenDomain {
     /// 1 in perspective, where things further away are smaller; 0 where the projection is parallel.
     pub perspective: f32,
     #[doc(hidden)]
-    pub pad: [u32; 2],
+    pub pad: u32,
 }
 
 /// `Transmission` of `transmission.wgsl`.

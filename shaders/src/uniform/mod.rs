@@ -13,5 +13,5 @@ pub use btf::{BtfCodebooks, BtfFiltering, BtfImages, BtfTable, BtfTexture, MAX_L
 pub use material::{BASE_ROWS, Material, ROW};
 pub use object::{Blocks, Object};
 pub use patch::{Frame, Kernel, MAX_KERNEL, PatchDomain, PatchRegion};
-pub use scene::{LightSource, PointGrid, Scene};
+pub use scene::{HOST_SHADOW, HOST_SHADOW_REVERSED, LightSource, NO_SHADOW, OWN_SHADOW, PointGrid, Scene};
 pub use splat::{MAX_RINGS, Splat, SplatRings, TsmLight};

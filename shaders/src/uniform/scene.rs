@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::camera::rh::proj::directx::{orthographic, perspective};
 use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec3};
-use subsurf_scene::{BoundingSphere, Light, LightShape, Lighting, MAX_LIGHTS, SurfacePoints, View};
+use subsurf_scene::{BoundingSphere, Light, LightShape, Lighting, MAX_LIGHTS, Shadow, SurfacePoints, View};
 
 use super::material::ROW;
 
@@ -14,6 +14,15 @@ const WIDEST: f32 = 75.0 * std::f32::consts::PI / 180.0;
 const FAR_AWAY: f32 = 1e4;
 /// Views are this much wider than the scene: filters look beyond the last texel.
 const MARGIN: f32 = 1.03;
+
+/// Shadow of a light that shines through everything, as the block of a light has it.
+pub const NO_SHADOW: u32 = 0;
+/// Shadow by a tile of the translucent shadow maps.
+pub const OWN_SHADOW: u32 = 1;
+/// Shadow by a depth map of the host's, whose depth rises away from the light.
+pub const HOST_SHADOW: u32 = 2;
+/// Shadow by a depth map of the host's, whose depth falls away from the light.
+pub const HOST_SHADOW_REVERSED: u32 = 3;
 
 /// `PointGrid` of `surface_gather.wgsl`.
 #[repr(C)]
@@ -33,7 +42,7 @@ pub struct PointGrid {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub struct LightSource {
-    /// Projection of the light's own view; column-major, depth 0 to 1.
+    /// Projection of the light's own view, or of the host's map; column-major, depth 0 to 1.
     pub clip_from_world: [[f32; 4]; 4],
     /// Unit vector towards the light, or its position in mm.
     pub position_or_direction: [f32; 3],
@@ -51,8 +60,10 @@ pub struct LightSource {
     pub middle_mm: f32,
     /// Edge of a texel of its translucent shadow map at depth 0, in mm.
     pub texel_mm: f32,
-    #[doc(hidden)]
-    pub pad: [u32; 2],
+    /// [`NO_SHADOW`], [`OWN_SHADOW`], [`HOST_SHADOW`] or [`HOST_SHADOW_REVERSED`].
+    pub shadow: u32,
+    /// Number of the tile of the translucent shadow maps, or of the host's map.
+    pub map: u32,
 }
 
 /// `Scene` of `scene.wgsl`.
@@ -89,7 +100,8 @@ impl PointGrid {
 }
 
 impl Scene {
-    /// Block of what lies within a sphere, when lights have views of `light_texels` to a side.
+    /// Block of what lies within a sphere, when lights have views of `light_texels` to a side. Lights with shadows of our own
+    /// have the tiles in their order; of the host's maps only the number is known here.
     #[must_use]
     pub fn new(
         view: &View,
@@ -115,10 +127,25 @@ impl Scene {
         for (to, [r, g, b]) in block.sky.iter_mut().zip(lighting.environment.irradiance_coefficients()) {
             *to = [*r, *g, *b, 0.0];
         }
+        let mut tiles = 0;
         for (to, light) in block.light.iter_mut().zip(lighting.lights) {
             *to = LightSource::of(light, lighting.reference_mm, bounds, light_texels);
+            (to.shadow, to.map) = match light.shadow {
+                Shadow::None => (NO_SHADOW, 0),
+                Shadow::Drawn => (OWN_SHADOW, tiles),
+                Shadow::Host(number) => (HOST_SHADOW, u32::try_from(number).unwrap_or(u32::MAX)),
+            };
+            tiles += u32::from(light.shadow == Shadow::Drawn);
         }
         block
+    }
+}
+
+impl Scene {
+    /// Numbers of the lights whose shadows are drawn, in the order of their tiles.
+    pub fn drawn_shadows(&self) -> impl Iterator<Item = u32> + '_ {
+        let lights = self.light.iter().zip(0..self.lights);
+        lights.filter(|(light, _)| light.shadow == OWN_SHADOW).map(|(_, number)| number)
     }
 }
 

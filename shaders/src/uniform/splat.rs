@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 
 /// `TsmLight` of `tsm.wgsl`.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub struct TsmLight {
     /// Number of the light, from 0.
     pub light: u32,
@@ -29,14 +29,12 @@ pub struct Splat {
     pub fade_in: [f32; 2],
     /// Distances in mm where it begins and ends to fade out.
     pub fade_out: [f32; 2],
-    /// Half the size in clip space of something 1 mm large, 1 mm away.
-    pub focal: [f32; 2],
     /// Distance from the light to depth 0 in mm; 0 for a direction.
     pub middle_mm: f32,
     /// Edge of a texel of this level at depth 0, in mm.
     pub texel_mm: f32,
-    /// Number of the light, from 0.
-    pub light: u32,
+    /// Number of the tile, from 0.
+    pub tile: u32,
     /// Mipmap level of the samples.
     pub level: u32,
     /// Texels to a side of that level.
@@ -49,8 +47,8 @@ pub struct Splat {
     pub pitch_mm: f32,
     /// Number of the group whose light is spread.
     pub group: f32,
-    /// 1 where the projection is parallel.
-    pub is_parallel: u32,
+    #[doc(hidden)]
+    pub pad: [u32; 3],
 }
 
 /// Largest number of rings of `splat_resolve.wgsl`.

@@ -1,7 +1,16 @@
 // Lights, environment and camera of a scene.
 
+const MAX_LIGHTS: u32 = 8u;
+// It shines through everything.
+const NO_SHADOW: u32 = 0u;
+// A tile of the translucent shadow maps.
+const OWN_SHADOW: u32 = 1u;
+// A depth map of the host's, whose depth rises away from the light, or falls.
+const HOST_SHADOW: u32 = 2u;
+const HOST_SHADOW_REVERSED: u32 = 3u;
+
 struct LightSource {
-    // Projection of the light's own view; column-major, depth 0 to 1.
+    // Projection of the light's own view, or of the host's map; column-major, depth 0 to 1.
     clip_from_world: mat4x4<f32>,
     // Unit vector towards the light, or its position in mm.
     position_or_direction: vec3<f32>,
@@ -18,8 +27,10 @@ struct LightSource {
     middle_mm: f32,
     // Edge of a texel of its translucent shadow map at depth 0, in mm.
     texel_mm: f32,
-    pad_0: u32,
-    pad_1: u32,
+    // How it is known where the light does not reach: NO_SHADOW, OWN_SHADOW, HOST_SHADOW or HOST_SHADOW_REVERSED.
+    shadow: u32,
+    // Number of the tile of the translucent shadow maps, or of the host's map.
+    map: u32,
 }
 
 struct Scene {
@@ -39,7 +50,7 @@ struct Scene {
     row: u32,
     // Irradiance of the environment on a normal (x, y, z): coefficients of 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2.
     sky: array<vec4<f32>, 9>,
-    light: array<LightSource, 4>,
+    light: array<LightSource, MAX_LIGHTS>,
 }
 
 @group(0) @binding(0) var<uniform> scene: Scene;
@@ -57,7 +68,7 @@ struct Incident {
 
 // Light of source `i` at a position in mm, without occlusion.
 fn incident(i: u32, position_mm: vec3<f32>) -> Incident {
-    let source = scene.light[min(i, 3u)];
+    let source = scene.light[min(i, MAX_LIGHTS - 1u)];
     if source.is_local == 0u {
         return Incident(source.position_or_direction, source.irradiance);
     }
@@ -85,5 +96,5 @@ fn sky_irradiance(n: vec3<f32>) -> vec3<f32> {
 
 // Depth of a position along the axis of light `i`, from the middle of the scene, in mm.
 fn light_depth(i: u32, position_mm: vec3<f32>) -> f32 {
-    return dot(position_mm - scene.centre_mm, scene.light[min(i, 3u)].axis);
+    return dot(position_mm - scene.centre_mm, scene.light[min(i, MAX_LIGHTS - 1u)].axis);
 }

@@ -13,7 +13,7 @@ use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::NestedBtf;
 use subsurf_encoder::Progress as _;
 use subsurf_runtime::{BACKGROUND, Backend, BtfFiltering, BtfLayout, BtfMaterial, BtfOptions, Gpu, RuntimeOptions};
-use subsurf_scene::{Light, LightShape, Mesh, Placement, REFLECTION_SIZE, Scene, relief, sphere};
+use subsurf_scene::{Light, LightShape, MAX_LIGHTS, Mesh, Placement, REFLECTION_SIZE, Scene, Shadow, relief, sphere};
 use subsurf_shaders::{cpu, uniform};
 use subsurf_viewer::{
     GpuAsset, RenderRequest, RenderSession, TexturedMesh, human, material_number, parse_btf, read, upload_images,
@@ -121,7 +121,7 @@ impl Row {
 /// One point light, over the eye's shoulder.
 fn scene(mesh: &Mesh, size: [u32; 2]) -> Scene {
     let position_mm = Vec3::new(0.9, 1.1, 0.9) * EXTENT_MM;
-    let light = Light { shape: LightShape::Point { position_mm }, irradiance: [3.0, 2.9, 2.7] };
+    let light = Light { shape: LightShape::Point { position_mm }, irradiance: [3.0, 2.9, 2.7], shadow: Shadow::Drawn };
     Scene { lights: vec![light], ..RenderRequest::usual(size).scene(mesh) }
 }
 
@@ -257,7 +257,7 @@ fn on_cpu(
     let mesh = &test_mesh.mesh;
     let filtering = BtfFiltering::Bilinear;
     let surface = cpu::BtfSurface { btf, material, filtering, samples: 0 };
-    let lit = vec![[1.0; 4]; mesh.positions.len()];
+    let lit = vec![[1.0; MAX_LIGHTS]; mesh.positions.len()];
     let textured = TexturedMesh::new(mesh, copies)?;
     let triangles = textured.triangles(mesh, &lit);
     let reflections = cpu::Reflections { size: REFLECTION_SIZE, levels: scene.environment.reflections() };

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{Mat4, Vec3};
 use subsurf_decoder::bssrdf::BssrdfHeader;
-use subsurf_shaders::uniform::{MAX_RINGS, Splat, SplatRings, TsmLight, Upsampling};
+use subsurf_shaders::uniform::{self, LightSource, MAX_RINGS, Splat, SplatRings, TsmLight, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureView};
 
 use super::levels::{FADE, Levels, RING, ring_size};
@@ -15,7 +15,7 @@ use crate::frame::{Plan, RuntimeOptions};
 use crate::gpu::{Gpu, HALF, Rows, Surface2d, TextureSpec, Tracked, level_of};
 use crate::technique::bindings::{Bindings, Group, Lap, group_number};
 use crate::technique::common::Common;
-use crate::technique::mesh_pass::{Attachments, MeshPass, cleared};
+use crate::technique::mesh_pass::{Attachments, MeshPass, SharedGroups, cleared};
 use crate::technique::tsm::{FAR_MM, TranslucentShadowMaps};
 
 /// Number of rings that there is room for.
@@ -62,10 +62,10 @@ struct Reduction {
     size: [u32; 2],
 }
 
-/// Splats of the samples of one level of one light, for one ring.
+/// Splats of the samples of one level of one tile, for one ring.
 #[derive(Debug)]
 struct Draw {
-    light: u32,
+    tile: u32,
     ring: u32,
     refines: bool,
     block: Tracked<Buffer>,
@@ -150,7 +150,7 @@ impl Passes {
         plan: &Plan,
     ) -> Result<Vec<Reduction>> {
         let reduction = |level| {
-            let block = TsmLight { light: 0, group: group_number(slot), level, pad: 0 };
+            let block = TsmLight { group: group_number(slot), level, ..Default::default() };
             let block = gpu.uniform("level of a shadow map", &block);
             let from = lights.surfaces().each_ref().map(|surface| level_of(surface, 0, level - 1));
             let mut resources = vec![block.as_entire_binding()];
@@ -163,11 +163,11 @@ impl Passes {
         (1..plan.light_levels()).map(reduction).collect()
     }
 
-    /// Splats of every light and ring.
+    /// Splats of every tile and ring.
     fn draws(&self, gpu: &Gpu, lights: &TranslucentShadowMaps, maps: &Maps, plan: &Plan) -> Result<Vec<Draw>> {
         let texture = BindingResource::TextureView;
         let mut draws = Vec::new();
-        for (light, ring) in (0..plan.lights).flat_map(|light| (0..RINGS).map(move |ring| (light, ring))) {
+        for (tile, ring) in (0..plan.lights).flat_map(|tile| (0..RINGS).map(move |ring| (tile, ring))) {
             for refines in [false, true] {
                 let block = gpu.uniform("splat", &Splat::default());
                 let group = [
@@ -179,7 +179,7 @@ impl Passes {
                     texture(&maps.visible[1].view),
                 ];
                 let group = self.splat.bind(gpu, 1, &group)?;
-                draws.push(Draw { light, ring, refines, block, group });
+                draws.push(Draw { tile, ring, refines, block, group });
             }
         }
         Ok(draws)
@@ -187,9 +187,13 @@ impl Passes {
 }
 
 impl Bound {
-    /// Draws of a frame.
-    fn drawn(&self, lights: u32) -> impl Iterator<Item = &Draw> {
-        self.draws.iter().filter(move |draw| draw.light < lights && draw.ring < self.levels.rings)
+    /// Draws of a frame, with the lights of their tiles.
+    fn drawn<'a>(&'a self, block: &'a uniform::Scene) -> impl Iterator<Item = (&'a Draw, &'a LightSource)> {
+        let draws = self.draws.iter().filter(|draw| draw.ring < self.levels.rings);
+        draws.filter_map(|draw| {
+            let light = block.drawn_shadows().nth(draw.tile as usize)?;
+            Some((draw, &block.light[light as usize]))
+        })
     }
 }
 
@@ -205,8 +209,7 @@ impl Bindings for Bound {
         let block = group.block;
         let clip_from_world = Mat4::from_cols_array_2d(&block.clip_from_world);
         let clip_from_centre = clip_from_world * Mat4::from_translation(Vec3::from(block.centre_mm));
-        for draw in self.drawn(group.block.lights) {
-            let light = &block.light[draw.light as usize];
+        for (draw, light) in self.drawn(block) {
             #[allow(clippy::cast_precision_loss, reason = "small")]
             let texel_at = |level: u32| light.texel_mm * (1_u32 << level) as f32;
             // The ring ends where the next begins; distances are of samples of a directional light's first level.
@@ -219,23 +222,22 @@ impl Bindings for Bound {
                 clip_from_centre: clip_from_centre.to_cols_array_2d(),
                 fade_in: if draw.ring == 0 { [0.0; 2] } else { fade(draw.ring - 1) },
                 fade_out: if draw.ring + 1 == self.levels.rings { beyond } else { fade(draw.ring) },
-                focal: group.input.view.focal().into(),
                 middle_mm: light.middle_mm,
                 texel_mm: texel_at(level),
-                light: draw.light,
+                tile: draw.tile,
                 level,
                 side: (group.plan.light_texels >> level).max(1),
                 refines: u32::from(draw.refines),
                 stride: 1 << draw.ring,
                 pitch_mm: self.header.pitch_mm,
                 group: group.number(),
-                is_parallel: u32::from(group.input.view.is_parallel()),
+                pad: [0; 3],
             };
             gpu.queue.write_buffer(&draw.block, 0, bytemuck::bytes_of(&splat));
         }
     }
 
-    fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, objects: &BindGroup, lap: Lap<'_>) {
+    fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, shared: SharedGroups<'_>, lap: Lap<'_>) {
         for reduction in self.reductions.iter().filter(|reduction| reduction.level < self.levels.count()) {
             let targets = reduction.targets.each_ref();
             self.passes.tsm_reduce.record(encoder, &targets, &[&reduction.group], Rows::all(reduction.size));
@@ -250,10 +252,10 @@ impl Bindings for Bound {
             viewport: None,
         };
         let [scene, albedo] = &self.gbuffer;
-        self.passes.gbuffer.record(encoder, &attachments, [scene, albedo], objects, group.draws());
+        self.passes.gbuffer.record(encoder, &attachments, [scene, albedo], shared, group.draws());
         lap("gbuffer", encoder);
         for (ring, number) in self.maps.rings.iter().zip(0..self.levels.rings) {
-            let draws = self.drawn(group.block.lights).filter(|draw| draw.ring == number);
+            let draws = self.drawn(group.block).map(|(draw, _)| draw).filter(|draw| draw.ring == number);
             let squares = |draw: &Draw| (group.plan.light_texels >> draw.level(&self.levels)).max(1).pow(2);
             let draws: Vec<_> = draws.map(|draw| (&draw.group, squares(draw))).collect();
             self.passes.splat.record(encoder, &ring.view, &self.planes, &draws);

@@ -3,16 +3,15 @@
 struct ScreenDomain {
     // Texels of the maps.
     size: vec2<u32>,
-    // Texels that the pitch of the material covers at a distance of 1 mm, or at any.
-    focal_texels: f32,
+    // Texels that the pitch of the material covers at a distance of 1 mm, or at any, along rows and columns.
+    focal_texels: vec2<f32>,
     // Distance from the eye to depth 0, in mm; 1 where the projection is parallel.
     middle_mm: f32,
     // Pitch of the pixels of the material in mm.
     pitch_mm: f32,
     // 1 in perspective, where things further away are smaller; 0 where the projection is parallel.
     perspective: f32,
-    pad_0: u32,
-    pad_1: u32,
+    pad: u32,
 }
 
 @group(0) @binding(1) var<uniform> domain: ScreenDomain;
@@ -24,7 +23,8 @@ const MOST_TAPS: f32 = 16.0;
 
 // Taps of the stage at the distance of a texel, whose depth in mm is in the fourth channel.
 fn taps_at(centre: vec4<f32>) -> Taps {
-    let texels_per_pixel = domain.focal_texels / max(domain.middle_mm + domain.perspective * centre.w, 1e-3);
+    let focal_texels = dot(domain.focal_texels, vec2<f32>(stage.axis));
+    let texels_per_pixel = focal_texels / max(domain.middle_mm + domain.perspective * centre.w, 1e-3);
     let sigma = stage.step * texels_per_pixel;
     let sparse = max(floor(stage.sparse * texels_per_pixel), 1.0);
     // What is cut off is close to nothing, until the eye is so close that taps would be too many.

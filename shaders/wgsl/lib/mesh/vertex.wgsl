@@ -7,9 +7,10 @@ struct Varying {
     @location(1) normal: vec3<f32>,
     // Texture coordinates in copies of the patch, v down.
     @location(2) uv: vec2<f32>,
-    // Exitance and visibility of the lights, where they are known for every vertex.
+    // Exitance, and visibility of the first four lights and of the others, where they are known for every vertex.
     @location(3) exitance: vec3<f32>,
     @location(4) visibility: vec4<f32>,
+    @location(7) visibility_of_last: vec4<f32>,
     // Ambient transfer: light from all around that comes from the same side and from the other, relative to that on a plane.
     @location(5) sky_front: vec3<f32>,
     @location(6) sky_back: vec3<f32>,
@@ -31,7 +32,9 @@ fn project(
     out.normal = world_direction(normal);
     out.uv = material_uv(uv);
     out.exitance = vertex_exitance(point);
-    out.visibility = vertex_visibility(point);
+    let seen = vertex_visibilities(point);
+    out.visibility = seen.first;
+    out.visibility_of_last = seen.last;
     out.sky_front = 2.0 * sky_front.xyz;
     out.sky_back = 2.0 * sky_back.xyz;
     return out;

@@ -4,6 +4,6 @@ fn vertex_exitance(point: u32) -> vec3<f32> {
     return vec3<f32>(0.0);
 }
 
-fn vertex_visibility(point: u32) -> vec4<f32> {
-    return vec4<f32>(0.0);
+fn vertex_visibilities(point: u32) -> Visibilities {
+    return Visibilities(vec4<f32>(0.0), vec4<f32>(0.0));
 }

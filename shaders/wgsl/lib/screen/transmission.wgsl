@@ -1,4 +1,4 @@
-// Light that is transmitted through thin parts, from the translucent shadow maps.
+// Light that is transmitted through thin parts, from the translucent shadow maps or by the thickness that the host's maps tell.
 
 struct Transmission {
     // w_lma, shape [a][l][m] with room for two terms; linear Rec. 709, and sigma_a in mm in the fourth place.
@@ -33,23 +33,33 @@ fn attenuated(light: array<vec3<f32>, TERMS>, d: f32) -> array<vec3<f32>, TERMS>
     return left;
 }
 
+// Distance of places around a position that light spreads to on its way, in texels of `texel_mm`: nine of them, as far apart as
+// the widest Gaussian reaches from one to the next.
+fn spread_texels(texel_mm: f32) -> f32 {
+    let widest_mm = transmission.weights[min(4u * (transmission.gaussians - 1u), 31u)].w;
+    return clamp(0.8 * widest_mm / texel_mm, 1.0, 128.0);
+}
+
+// Binomial weight of the place that is `step` away in columns and rows, each -1 to 1.
+fn spread_weight(step: vec2<i32>) -> f32 {
+    return f32((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
+}
+
 // Light of source i that enters d away along the light and reaches a position in mm, shape [m] (Dachsbacher and Stamminger
 // 2003): a Gaussian of a plane falls with its distance by exp(-d^2 / 2 sigma^2).
-fn transmitted(i: u32, position_mm: vec3<f32>) -> array<vec3<f32>, TERMS> {
+fn transmitted_of_map(i: u32, position_mm: vec3<f32>) -> array<vec3<f32>, TERMS> {
     let coord = tsm_coord(i, position_mm);
     let depth = light_depth(i, position_mm);
     var total: array<vec3<f32>, TERMS>;
-    // Light spreads on its way: nine places around it, as far apart as the widest Gaussian reaches from one to the next.
-    let widest_mm = transmission.weights[min(4u * (transmission.gaussians - 1u), 31u)].w;
-    let reach = clamp(0.8 * widest_mm / coord.texel_mm, 1.0, 128.0);
+    let reach = spread_texels(coord.texel_mm);
     for (var k = 0; k < 9; k++) {
         let step = vec2<i32>(k % 3 - 1, k / 3 - 1);
         let texel = tsm_texel(i, vec2<i32>(floor(coord.texel + vec2<f32>(step) * reach)));
         let flux = unpack(textureLoad(tsm_fluxes, texel, 0));
         let d = abs(depth - unpack(textureLoad(tsm_positions, texel, 0)).x);
         let uv = unpack(textureLoad(tsm_uvs, texel, 0)).xy;
-        // Binomial weights. Light that enters other groups does not come out of this one.
-        let e = flux.xyz * select(0.0, 1.0, is_of_group(flux.w)) * f32((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
+        // Light that enters other groups does not come out of this one.
+        let e = flux.xyz * select(0.0, 1.0, is_of_group(flux.w)) * spread_weight(step);
         var light: array<vec3<f32>, TERMS>;
         for (var l = 0u; l < TERMS; l++) {
             light[l] = e * textureSampleLevel(layers, layer_sampler, uv, l, 1.0).xyz;
@@ -60,4 +70,64 @@ fn transmitted(i: u32, position_mm: vec3<f32>) -> array<vec3<f32>, TERMS> {
         }
     }
     return total;
+}
+
+// The same by a map of the host's, which tells the distance alone: there the light is taken to meet the same material as here, as
+// large an angle from the normal (Jimenez et al. 2010, "Real-time realistic skin translucency"). `facing_away` is the cosine here.
+fn transmitted_by_host(
+    i: u32,
+    position_mm: vec3<f32>,
+    facing_away: f32,
+    c: array<vec3<f32>, LAYERS>,
+) -> array<vec3<f32>, TERMS> {
+    let source = scene.light[min(i, MAX_LIGHTS - 1u)];
+    let from_light = incident(i, position_mm);
+    let e = from_light.irradiance * fresnel_transmittance(facing_away, object.eta);
+    // Only variables can be indexed by what is not constant.
+    var here = c;
+    var entered: array<vec3<f32>, TERMS>;
+    for (var l = 0u; l < TERMS; l++) {
+        entered[l] = here[l] * e;
+    }
+    var total: array<vec3<f32>, TERMS>;
+    let coord = host_coord(i, position_mm);
+    if !coord.is_inside {
+        return total;
+    }
+    // Depth along the ray to the light is (z + t dz) / (w + t dw), t mm away.
+    let start = source.clip_from_world * vec4<f32>(position_mm, 1.0);
+    let slope = source.clip_from_world * vec4<f32>(from_light.towards, 0.0);
+    let furthest = select(1.0, 0.0, source.shadow == HOST_SHADOW_REVERSED);
+    let reach = spread_texels(coord.texel_mm);
+    for (var k = 0; k < 9; k++) {
+        let step = vec2<i32>(k % 3 - 1, k / 3 - 1);
+        let depth = host_depth(i, coord, floor(coord.texel + vec2<f32>(step) * reach));
+        let change = slope.z - depth * slope.w;
+        // Nothing enters where nothing is seen.
+        if depth != furthest && change != 0.0 {
+            var left = attenuated(entered, (depth * start.w - start.z) / change);
+            for (var m = 0u; m < TERMS; m++) {
+                total[m] += spread_weight(step) * left[m];
+            }
+        }
+    }
+    return total;
+}
+
+// Light of source i that comes through from behind to a position in mm, shape [m]; `facing_away` is the cosine of the normal and the
+// direction away from the light, `c` the coefficients of the basis. Where nothing tells the thickness, none does.
+fn transmitted(
+    i: u32,
+    position_mm: vec3<f32>,
+    facing_away: f32,
+    c: array<vec3<f32>, LAYERS>,
+) -> array<vec3<f32>, TERMS> {
+    let shadow = scene.light[min(i, MAX_LIGHTS - 1u)].shadow;
+    if shadow == OWN_SHADOW {
+        return transmitted_of_map(i, position_mm);
+    }
+    if HOST_SHADOWS && shadow != NO_SHADOW {
+        return transmitted_by_host(i, position_mm, facing_away, c);
+    }
+    return array<vec3<f32>, TERMS>();
 }

@@ -1,4 +1,4 @@
-// Visibility of lights from their translucent shadow maps.
+// Visibility of lights from their translucent shadow maps, or from the host's maps.
 
 // Depth along the axis of the light in mm, and positions relative to the middle of the scene where there is room for them; a
 // square tile for each light in one row.
@@ -12,7 +12,7 @@ struct TsmCoord {
 
 // Texel of the tile of light i that shows a position in mm.
 fn tsm_coord(i: u32, position_mm: vec3<f32>) -> TsmCoord {
-    let source = scene.light[min(i, 3u)];
+    let source = scene.light[min(i, MAX_LIGHTS - 1u)];
     let clip = source.clip_from_world * vec4<f32>(position_mm, 1.0);
     let side = f32(textureDimensions(tsm_positions).y);
     let texel = (clip.xy / clip.w * vec2<f32>(0.5, -0.5) + 0.5) * side;
@@ -26,17 +26,26 @@ fn tsm_coord(i: u32, position_mm: vec3<f32>) -> TsmCoord {
 // A texel of the tile of light i, clamped to it, in the row of all tiles.
 fn tsm_texel(i: u32, texel: vec2<i32>) -> vec2<i32> {
     let side = i32(textureDimensions(tsm_positions).y);
-    return clamp(texel, vec2<i32>(0), vec2<i32>(side - 1)) + vec2<i32>(i32(i) * side, 0);
+    let tile = i32(scene.light[min(i, MAX_LIGHTS - 1u)].map);
+    return clamp(texel, vec2<i32>(0), vec2<i32>(side - 1)) + vec2<i32>(tile * side, 0);
 }
 
 // Visibility of light i from a position in mm, 0 to 1: percentage-closer filtering over three texels by three, with weights
 // that move with the point (Reeves et al. 1987).
 fn visibility(i: u32, position_mm: vec3<f32>, normal: vec3<f32>) -> f32 {
-    let coord = tsm_coord(i, position_mm);
+    let shadow = scene.light[min(i, MAX_LIGHTS - 1u)].shadow;
+    if shadow == NO_SHADOW {
+        return 1.0;
+    }
     let towards = incident(i, position_mm).towards;
     // A texel of a slanted surface has depths on both sides of its middle.
     let cosine = clamp(dot(normal, towards), 0.15, 1.0);
-    let slack = coord.texel_mm * (0.6 + 1.5 * sqrt(1.0 - cosine * cosine) / cosine);
+    let slope = 0.6 + 1.5 * sqrt(1.0 - cosine * cosine) / cosine;
+    if HOST_SHADOWS && shadow != OWN_SHADOW {
+        return host_visibility(i, position_mm, towards, slope);
+    }
+    let coord = tsm_coord(i, position_mm);
+    let slack = coord.texel_mm * slope;
     let depth = light_depth(i, position_mm) - slack;
     let corner = coord.texel - 0.5;
     let first = vec2<i32>(floor(corner));

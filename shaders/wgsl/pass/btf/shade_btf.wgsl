@@ -1,4 +1,4 @@
-// Needs: <target format>, <BTF layout>, tone, display, fresnel, object, scene, coat, tsm_visibility, btf_vertex, btf_texture, btf_tangents, <ambient>.
+// Needs: <target format>, <BTF layout>, tone, display, fresnel, object, scene, coat, host_shadow, tsm_visibility, btf_vertex, btf_texture, btf_tangents, <ambient>.
 // Picture of a mesh of a BTF: light of the sources and of the environment that it reflects.
 
 @fragment

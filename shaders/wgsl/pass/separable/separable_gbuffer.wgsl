@@ -1,4 +1,4 @@
-// Needs: <target format>, <terms>, fresnel, object, scene, mapping, tsm_visibility, patch_layers, separable_basis, vertex_none, vertex, transmission.
+// Needs: <target format>, <terms>, fresnel, object, scene, mapping, host_shadow, tsm_visibility, patch_layers, separable_basis, visibilities, vertex_none, vertex, transmission.
 // G-buffer for the separable blurs on the screen: c_l E of the light that enters, and S_m of the light that is transmitted
 // from behind; depth in mm in the fourth channel.
 
@@ -19,7 +19,7 @@ fn separable_gbuffer(in: Varying) -> MapsAndSums {
             e += from_light.irradiance * share * visibility(i, in.position_mm, normal);
         }
         if facing_away > 0.0 {
-            var from_behind = transmitted(i, in.position_mm);
+            var from_behind = transmitted(i, in.position_mm, facing_away, c);
             for (var m = 0u; m < TERMS; m++) {
                 sums[m] += vec4<f32>(facing_away * from_behind[m], 0.0);
             }

@@ -1,4 +1,4 @@
-// Needs: <target format>, <terms>, tone, display, fresnel, object, scene, coat, mapping, tsm_visibility, patch_layers, separable_basis, vertex_none, vertex, neighbours, upsampling, shading.
+// Needs: <target format>, <terms>, tone, display, fresnel, object, scene, coat, mapping, host_shadow, tsm_visibility, patch_layers, separable_basis, visibilities, vertex_none, vertex, neighbours, upsampling, shading.
 // Picture of a mesh from blurred maps on the screen: M = sum over m of c_m S_m, and the scattered light of the environment.
 
 // S_m; depth in mm in the fourth channel.

@@ -1,8 +1,24 @@
-// Needs: <target format>, tone, display, fresnel, object, scene, coat, mapping, tsm_visibility, patch_layers, vertex_none, vertex, neighbours, upsampling, shading.
+// Needs: <target format>, tone, display, fresnel, object, scene, coat, mapping, host_shadow, tsm_visibility, patch_layers, visibilities, vertex_none, vertex, neighbours, upsampling, shading.
 // Picture of a mesh from the resolved splats, and the scattered light of the environment.
 
 // Exitance divided by the albedo; depth in mm in the fourth channel.
 @group(1) @binding(3) var resolved: texture_2d<f32>;
+
+// Light that enters from sources which have no translucent shadow map, and so no samples: it leaves where it enters, as on flat,
+// open ground.
+fn unspread_light(position_mm: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+    var sum = vec3<f32>(0.0);
+    for (var i = 0u; i < scene.lights; i++) {
+        if scene.light[min(i, MAX_LIGHTS - 1u)].shadow != OWN_SHADOW {
+            let from_light = incident(i, position_mm);
+            let share = entering(normal, from_light.towards);
+            if share > 0.0 {
+                sum += from_light.irradiance * share * visibility(i, position_mm, normal);
+            }
+        }
+    }
+    return sum;
+}
 
 // Exitance of a fragment; linear Rec. 709.
 fn exitance(in: Varying, normal: vec3<f32>) -> vec3<f32> {
@@ -22,7 +38,7 @@ fn exitance(in: Varying, normal: vec3<f32>) -> vec3<f32> {
         weights += weight;
         sum += weight * value.xyz;
     }
-    return albedo * (sum / weights + scattered_sky(in, normal));
+    return albedo * (sum / weights + unspread_light(in.position_mm, normal) + scattered_sky(in, normal));
 }
 
 // Visibility of light `i`, 0 to 1.

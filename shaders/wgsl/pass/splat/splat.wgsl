@@ -11,14 +11,12 @@ struct Splat {
     fade_in: vec2<f32>,
     // Distances in mm where it begins and ends to fade out; both beyond the radius of scattering for the last.
     fade_out: vec2<f32>,
-    // Half the size in clip space of something 1 mm large, 1 mm away.
-    focal: vec2<f32>,
     // Distance from the light to depth 0 in mm; 0 for a direction.
     middle_mm: f32,
     // Edge of a texel of this level at depth 0, in mm.
     texel_mm: f32,
-    // Number of the light, and of its tile.
-    light: u32,
+    // Number of the tile.
+    tile: u32,
     // Mipmap level of the samples, and texels to a side of it.
     level: u32,
     side: u32,
@@ -30,8 +28,9 @@ struct Splat {
     pitch_mm: f32,
     // Number of the group whose light is spread.
     group: f32,
-    // 1 where the projection is parallel.
-    is_parallel: u32,
+    pad_0: u32,
+    pad_1: u32,
+    pad_2: u32,
 }
 
 @group(1) @binding(0) var<uniform> splat_block: Splat;
@@ -92,10 +91,25 @@ fn patch_texel(uv: vec2<f32>) -> vec2<u32> {
     return min(vec2<u32>(min(m, period - 1 - m)), material.size - 1u);
 }
 
+// Lowest and highest place along one axis, -1 to 1, of a sphere that is projected by (row p) / (row_w p) for p relative to its
+// centre, where the products are `at` and `w` (Sigg et al. 2006, section 3, from the rows of the matrix). The planes of equal place
+// that touch the sphere are those of place = at / w + d with (d w)^2 = r^2 |across - d row_w|^2.
+fn projected_bounds(row: vec3<f32>, row_w: vec3<f32>, at: f32, w: f32, radius: f32) -> vec2<f32> {
+    let p = w * w - radius * radius * dot(row_w, row_w);
+    // A sphere that reaches the plane of the eye may be everywhere.
+    if w <= 0.0 || p <= 1e-4 * w * w {
+        return vec2<f32>(-1.0, 1.0);
+    }
+    let across = row - at / w * row_w;
+    let q = radius * dot(across, row_w);
+    let root = sqrt(q * q + p * dot(across, across));
+    return at / w + radius * (vec2<f32>(-root, root) - q) / p;
+}
+
 @vertex
 fn splat_quad(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance: u32) -> Sample {
     let of_tile = min(vec2<u32>(instance % splat_block.side, instance / splat_block.side), vec2<u32>(splat_block.side - 1u));
-    let texel = of_tile + vec2<u32>(splat_block.light * splat_block.side, 0u);
+    let texel = of_tile + vec2<u32>(splat_block.tile * splat_block.side, 0u);
     let flux = textureLoad(tsm_fluxes, texel, splat_block.level);
     let position = textureLoad(tsm_positions, texel, splat_block.level);
     var texel_mm = splat_block.texel_mm;
@@ -110,15 +124,21 @@ fn splat_quad(@builtin(vertex_index) corner: u32, @builtin(instance_index) insta
     }
     let centre = splat_block.clip_from_centre * vec4<f32>(position.yzw, 1.0);
     let radius = min(splat_block.fade_out.y, material.r_max_mm);
+    let rows = transpose(splat_block.clip_from_centre);
     // Nothing behind the eye is seen.
-    if !wanted || centre.w < -radius {
+    if !wanted || centre.w < -radius * length(rows[3].xyz) {
         return Sample(vec4<f32>(2.0, 2.0, 2.0, 1.0), vec3<f32>(0.0), vec3<f32>(0.0), vec4<u32>(0u), 0.0);
     }
-    // A sphere of that radius; in perspective, close to the eye it may be everywhere.
-    let distance = select(max(centre.w - radius, 0.02 * radius), 1.0, splat_block.is_parallel != 0u);
-    let half_size = splat_block.focal * radius / distance;
-    let side = vec2<f32>(vec2<u32>(corner & 1u, corner >> 1u)) * 2.0 - 1.0;
-    let clip = centre.xy / max(centre.w, distance) + side * half_size;
+    let size = textureDimensions(positions);
+    // Texels of the target are compared with texels of the G-buffer up to half a texel away.
+    let beyond = vec2<f32>(-1.0, 1.0);
+    let x = projected_bounds(rows[0].xyz, rows[3].xyz, centre.x, centre.w, radius) + beyond / f32(size.x);
+    let y = projected_bounds(rows[1].xyz, rows[3].xyz, centre.y, centre.w, radius) + beyond / f32(size.y);
+    let place = vec2<f32>(x[corner & 1u], y[corner >> 1u]);
+    // Texels of the last column and row of the target may reach beyond the G-buffer.
+    let stride = splat_block.stride;
+    let share = vec2<f32>(size) / vec2<f32>((size + stride - 1u) / stride * stride);
+    let clip = vec2<f32>((1.0 + place.x) * share.x - 1.0, 1.0 - (1.0 - place.y) * share.y);
     let uv = textureLoad(tsm_uvs, texel, splat_block.level);
     var light = flux.xyz * texel_mm * texel_mm;
     var softening_mm = 0.0;

@@ -1,4 +1,4 @@
-// Needs: fresnel, object, scene, mapping, patch_layers, vertex_none, vertex.
+// Needs: fresnel, object, scene, mapping, patch_layers, visibilities, vertex_none, vertex.
 // G-buffer of a mesh for splats: positions, texture coordinates on the patch, albedo.
 
 struct GBuffer {

@@ -1,4 +1,4 @@
-// Needs: <target format>, tone, display, fresnel, object, scene, coat, exitance_vertex, vertex, shading.
+// Needs: <target format>, tone, display, fresnel, object, scene, coat, visibilities, exitance_vertex, vertex, shading.
 // Picture of a mesh from the exitance of its vertices.
 
 // Exitance, linear between the vertices.
@@ -8,8 +8,7 @@ fn exitance(in: Varying, normal: vec3<f32>) -> vec3<f32> {
 
 // Visibility of light `i`, 0 to 1, linear between the vertices.
 fn light_visibility(i: u32, in: Varying, normal: vec3<f32>) -> f32 {
-    var seen = in.visibility;
-    return seen[min(i, 3u)];
+    return visibility_of(i, Visibilities(in.visibility, in.visibility_of_last));
 }
 
 @fragment

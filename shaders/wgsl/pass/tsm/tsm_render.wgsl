@@ -17,7 +17,7 @@ fn project(
     @location(2) uv: vec2<f32>,
 ) -> LightVarying {
     let position = world_position(position_mm);
-    let clip = scene.light[min(tsm_light.light, 3u)].clip_from_world * vec4<f32>(position, 1.0);
+    let clip = scene.light[min(tsm_light.light, MAX_LIGHTS - 1u)].clip_from_world * vec4<f32>(position, 1.0);
     return LightVarying(clip, position, world_direction(normal), material_uv(uv));
 }
 
@@ -27,7 +27,7 @@ fn tsm_render(in: LightVarying) -> TsmTexel {
     let from_light = incident(tsm_light.light, in.position_mm);
     let cosine = dot(normal, from_light.towards);
     // Flux through a texel: the light that enters a piece of surface 1 / cos as large as the texel.
-    let across = -dot(from_light.towards, scene.light[min(tsm_light.light, 3u)].axis);
+    let across = -dot(from_light.towards, scene.light[min(tsm_light.light, MAX_LIGHTS - 1u)].axis);
     let entered = select(0.0, fresnel_transmittance(clamp(cosine, 0.0, 1.0), object.eta) * across, cosine > 0.0);
     let depth = light_depth(tsm_light.light, in.position_mm);
     let uv = fract(patch_uv(in.position_mm, normal, in.uv) * 0.5) * 2.0;

@@ -4,27 +4,22 @@
 use glam::camera::rh::proj::directx::orthographic;
 use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec3, Vec4};
-use subsurf_decoder::{Bssrdf, File};
-use subsurf_encoder::synthetic::NestedShape;
-use subsurf_runtime::wgpu::{self, Backends, Color, LoadOp, Operations, StoreOp, TextureFormat};
-use subsurf_runtime::{
-    BtfOptions, DepthFormat, Error, Gpu, GpuMesh, Input, Load, Material, Object, Renderer, RuntimeOptions, Target,
-    VertexData,
-};
-use subsurf_scene::{AmbientTransfer, Environment, Light, LightShape, Lighting, Mapping, View, sphere};
-use subsurf_tests::frames::material_of;
+use subsurf_runtime::wgpu::{self, Backends, LoadOp, Operations, StoreOp};
+use subsurf_runtime::{Input, Object, Target};
+use subsurf_scene::{Environment, Lighting, Mapping, View};
 
-#[path = "../../runtime/examples/embed/application.rs"]
+#[path = "../../../runtime/examples/embed/application.rs"]
 mod application;
-use application::{Application, CUBE, CUBE_COLOUR};
+mod host_map;
+mod lights;
+mod lost;
+mod mistakes;
+mod projection;
+mod stage;
 
-const SIZE: [u32; 2] = [320, 240];
-const COLOUR: TextureFormat = TextureFormat::Rgba16Float;
-const DEPTH: DepthFormat = DepthFormat { format: TextureFormat::Depth32Float, is_reversed: true };
-/// Radius of the meshes in mm.
-const RADIUS: f32 = 8.0;
-/// Where the BTF lies.
-const LEATHER_AT: Vec3 = Vec3::new(9.0, 0.0, 2.0);
+use application::{CUBE, CUBE_COLOUR};
+use stage::{LEATHER_AT, RADIUS, SIZE, Stage, luminance, sun, sun_from};
+
 /// Pixels at the outlines: meshes have flat facets, the rays of the test meet spheres.
 const OUTLINE: f64 = 0.001;
 
@@ -35,98 +30,6 @@ enum Front {
     Cube,
     Jade,
     Leather,
-}
-
-/// Application with a jade sphere and a leather one.
-struct Stage {
-    app: Application,
-    gpu: Gpu,
-    renderer: Renderer,
-    mesh: GpuMesh,
-    jade: Material,
-    splats: Material,
-    leather: Material,
-}
-
-impl Stage {
-    fn open(backends: Backends) -> Self {
-        let app = Application::open(backends, SIZE, COLOUR, DEPTH.format).unwrap();
-        let gpu = Gpu::from_device(app.device.clone(), app.queue.clone(), app.info.clone());
-        let (file, btf) = (material_of("jade"), NestedShape::typical().database(1).to_bytes());
-        let load = |bytes| Material::load(&gpu, &File::parse(bytes).unwrap()).unwrap();
-        let (jade, leather) = (load(&file), load(&btf));
-        let file = Bssrdf::parse(&file).unwrap();
-        let mesh = sphere(RADIUS, 64);
-        let (ambient, tangents) = (AmbientTransfer::of(&mesh, &file).unwrap(), mesh.tangents().unwrap());
-        let known = VertexData { ambient: Some(&ambient), tangents: Some(&tangents), points: None };
-        let mesh = GpuMesh::upload(&gpu, &mesh, known).unwrap();
-        let splats: Material = Load::splat(&gpu, &file).unwrap().finish().unwrap().into();
-        // Light from all around that has no grain, so that pictures can be compared bit for bit.
-        let btf = BtfOptions { samples: 0, ..BtfOptions::default() };
-        let options = RuntimeOptions { format: COLOUR, depth: DEPTH, tone_mapping: false, btf, ..Default::default() };
-        let mut renderer = Renderer::new(&gpu, options).unwrap();
-        for material in [&jade, &splats, &leather] {
-            renderer.compile(&gpu, material.technique()).unwrap();
-        }
-        Self { app, gpu, renderer, mesh, jade, splats, leather }
-    }
-
-    /// Target of the application, drawn over what is there.
-    fn over<'a>(&'a self, colour: &'a wgpu::TextureView) -> Target<'a> {
-        Target {
-            colour,
-            load: LoadOp::Load,
-            resolve: None,
-            depth: &self.app.depth,
-            depth_ops: Operations { load: LoadOp::Load, store: StoreOp::Store },
-            origin: [0; 2],
-        }
-    }
-
-    fn jade(&self) -> Object<'_> {
-        Object::new(&self.mesh, &self.jade, Mapping::Box, 0.25)
-    }
-
-    fn leather(&self) -> Object<'_> {
-        let at = Mat4::from_translation(LEATHER_AT);
-        Object { world_from_mesh: at, ..Object::new(&self.mesh, &self.leather, Mapping::Uv([6.0, 3.0]), 1.0) }
-    }
-
-    /// One submission with the cube and some objects under a view.
-    fn draw(&self, view: View, objects: &[Object<'_>], lights: &[Light], has_cube: bool) -> Vec<[f32; 4]> {
-        self.draw_part(view, objects, lights, has_cube, [[0; 2], SIZE])
-    }
-
-    /// The same in a part of the target, from a pixel on and of a size.
-    fn draw_part(
-        &self,
-        view: View,
-        objects: &[Object<'_>],
-        lights: &[Light],
-        has_cube: bool,
-        [origin, size]: [[u32; 2]; 2],
-    ) -> Vec<[f32; 4]> {
-        let environment = Environment::uniform([0.35, 0.4, 0.5]);
-        let lighting = Lighting { lights, environment: &environment, reference_mm: Vec3::ZERO };
-        let input = Input { view, exposure: 1.0, lighting, objects };
-        let mut frame = self.renderer.prepare(&self.gpu, &input, size).unwrap();
-        let mut encoder = self.app.device.create_command_encoder(&Default::default());
-        let clear = LoadOp::Clear(Color::TRANSPARENT);
-        let (mut load, mut load_depth) = (clear, LoadOp::Clear(DEPTH.furthest()));
-        if has_cube {
-            self.app.draw_cube(&mut encoder);
-            (load, load_depth) = (LoadOp::Load, LoadOp::Load);
-        }
-        let colour = self.app.colour.create_view(&wgpu::TextureViewDescriptor::default());
-        let depth_ops = Operations { load: load_depth, store: StoreOp::Store };
-        let target = Target { load, depth_ops, origin, ..self.over(&colour) };
-        let scope = self.app.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        self.renderer.draw(&self.gpu, &mut encoder, &mut frame, &input, &target).unwrap();
-        self.app.queue.submit([encoder.finish()]);
-        let complaint = pollster::block_on(scope.pop());
-        assert!(complaint.is_none(), "{complaint:?}");
-        self.app.read().unwrap()
-    }
 }
 
 /// Distance along a ray to a sphere.
@@ -201,15 +104,6 @@ fn depth_is_shared_on_gles_3_0() {
     who_is_in_front(Backends::GL);
 }
 
-fn luminance(pixels: &[[f32; 4]]) -> f64 {
-    pixels.iter().map(|[r, g, b, _]| f64::from(r + g + b)).sum()
-}
-
-/// Sun from above and from the left.
-fn sun() -> Light {
-    Light { shape: LightShape::Directional { towards: Vec3::new(-1.0, 0.6, 0.5) }, irradiance: [3.0; 3] }
-}
-
 /// A mesh that is drawn elsewhere, turned, under a camera and a light that moved along, looks the same.
 #[test]
 fn transforms_move_objects_with_their_material() {
@@ -218,7 +112,7 @@ fn transforms_move_objects_with_their_material() {
     let view = application::view();
     let along = View { view_from_world: view.view_from_world * moved.inverse(), ..view };
     let towards = moved.transform_vector3(Vec3::new(-1.0, 0.6, 0.5));
-    let turned = Light { shape: LightShape::Directional { towards }, irradiance: [3.0; 3] };
+    let turned = sun_from(towards);
     for material in [&stage.jade, &stage.splats] {
         let object = Object { material, ..stage.jade() };
         let here = stage.draw(view, &[object], &[sun()], false);
@@ -261,7 +155,7 @@ fn objects_out_of_view_cast_shadows() {
     let view = application::view();
     // Along the light, far above the picture.
     let towards = Vec3::new(-0.2, 1.0, 0.1).normalize();
-    let light = Light { shape: LightShape::Directional { towards }, irradiance: [3.0; 3] };
+    let light = sun_from(towards);
     let blocker = Object { world_from_mesh: Mat4::from_translation(45.0 * towards), ..stage.leather() };
     let [alone, hidden, shadowed] = [&[stage.jade()][..], &[blocker], &[stage.jade(), blocker]]
         .map(|objects| stage.draw(view, objects, &[light], false));
@@ -329,7 +223,7 @@ fn objects_come_and_go() {
     let lights = [sun()];
     let lighting = Lighting { lights: &lights, environment: &environment, reference_mm: Vec3::ZERO };
     let all = [stage.jade(), stage.leather(), Object { material: &stage.splats, ..stage.jade() }];
-    let whole = Input { view: application::view(), exposure: 1.0, lighting, objects: &all };
+    let whole = Input { view: application::view(), exposure: 1.0, lighting, shadow_maps: &[], objects: &all };
     let size = [32, 24];
     let mut frame = stage.renderer.prepare(&stage.gpu, &whole, size).unwrap();
     let view = stage.app.colour.create_view(&wgpu::TextureViewDescriptor::default());
@@ -359,67 +253,4 @@ fn objects_come_and_go() {
     println!("{after_some:?} bytes after 100 frames, {} after 1000", allocated());
     assert_eq!(stage.gpu.ledger().bytes(), after_some.0, "by the ledger");
     assert!(allocated() <= after_some.1 + (1 << 20), "{} after {after_some:?}", allocated());
-}
-
-/// What a host does wrong is said, and is no failure of the device.
-#[test]
-fn mistakes_are_the_callers() {
-    let stage = Stage::open(Backends::VULKAN);
-    let environment = Environment::uniform([1.0; 3]);
-    let lighting = Lighting { lights: &[], environment: &environment, reference_mm: Vec3::ZERO };
-    let (view, exposure) = (application::view(), 1.0);
-    let [jade, leather] = [stage.jade(), stage.leather()];
-    let only_jade = [jade];
-    let prepared = Input { view, exposure, lighting, objects: &only_jade };
-    let mut frame = stage.renderer.prepare(&stage.gpu, &prepared, SIZE).unwrap();
-    let skewed = Object { world_from_mesh: Mat4::from_scale(Vec3::new(1.0, 2.0, 1.0)), ..jade };
-    let many = [jade; 17];
-    for (objects, reason) in
-        [(&[leather][..], "not prepared for"), (&[skewed][..], "no rotation"), (&many[..], "17 objects")]
-    {
-        let mut encoder = stage.app.device.create_command_encoder(&Default::default());
-        let view_of = stage.app.colour.create_view(&wgpu::TextureViewDescriptor::default());
-        let target = stage.over(&view_of);
-        let input = Input { objects, ..prepared };
-        match stage.renderer.draw(&stage.gpu, &mut encoder, &mut frame, &input, &target) {
-            Err(Error::Usage(said)) => assert!(said.contains(reason), "{said}"),
-            other => panic!("{other:?}, expected: {reason}"),
-        }
-    }
-}
-
-/// The device is lost between recording and submission, and before a frame is recorded: an error, never a panic; and a new
-/// device draws the same picture from the same bytes.
-#[test]
-fn a_device_is_lost_in_the_middle_of_a_frame() {
-    for backends in [Backends::VULKAN, Backends::GL] {
-        let stage = Stage::open(backends);
-        let objects = [stage.jade(), stage.leather(), Object { material: &stage.splats, ..stage.jade() }];
-        let lights = [sun()];
-        let before = stage.draw(application::view(), &objects, &lights, true);
-
-        let environment = Environment::uniform([0.35, 0.4, 0.5]);
-        let lighting = Lighting { lights: &lights, environment: &environment, reference_mm: Vec3::ZERO };
-        let input = Input { view: application::view(), exposure: 1.0, lighting, objects: &objects };
-        let mut frame = stage.renderer.prepare(&stage.gpu, &input, SIZE).unwrap();
-        let view = stage.app.colour.create_view(&wgpu::TextureViewDescriptor::default());
-        let mut draw = |encoder: &mut wgpu::CommandEncoder| {
-            stage.renderer.draw(&stage.gpu, encoder, &mut frame, &input, &stage.over(&view))
-        };
-        let mut encoder = stage.app.device.create_command_encoder(&Default::default());
-        draw(&mut encoder).unwrap();
-        stage.app.device.destroy();
-        stage.app.queue.submit([encoder.finish()]);
-        assert!(matches!(stage.gpu.finish(), Err(Error::Device(_))), "{backends:?}: waiting for what was recorded");
-
-        let mut encoder = stage.app.device.create_command_encoder(&Default::default());
-        assert!(matches!(draw(&mut encoder), Err(Error::Device(_))), "{backends:?}: the next frame");
-        stage.app.queue.submit([encoder.finish()]);
-        let anew = stage.renderer.prepare(&stage.gpu, &input, SIZE);
-        assert!(matches!(anew, Err(Error::Device(_))), "{backends:?}: room for another frame");
-
-        let other = Stage::open(backends);
-        let objects = [other.jade(), other.leather(), Object { material: &other.splats, ..other.jade() }];
-        assert!(other.draw(application::view(), &objects, &lights, true) == before, "{backends:?}: the same picture");
-    }
 }
