@@ -61,16 +61,13 @@ fn judge(scene: BuiltinMaterial, share: f64) {
     let finish = Finish { one_way: true, sensor: None };
     let capture = simulated(folder.path(), scene, 80, 12, 0.5, Addressing::Clamp, &finish);
 
-    let [song, clusters, direct] =
-        [Method::Song2009, Method::Clusters, Method::Direct].map(|method| quality(&capture, method, 128));
+    let [clusters, direct] = [Method::Clusters, Method::Direct].map(|method| quality(&capture, method, 128));
     println!(
-        "{}: relative error {:.5} (per-pixel profiles {:.5}, clusters {:.5}), {:.2} dB ({:.2}, {:.2})",
+        "{}: relative error {:.5} (clusters {:.5}), {:.2} dB ({:.2})",
         scene.name(),
         direct.relative_error,
-        song.relative_error,
         clusters.relative_error,
         direct.uniform_db,
-        song.uniform_db,
         clusters.uniform_db,
     );
     // At the same bytes there is room for more clusters, 16-bit indices included.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::synthetic::NestedShape;
-use subsurf_runtime::{Backend, Gpu, RuntimeOptions};
+use subsurf_runtime::{Backend, BtfOptions, Gpu, RuntimeOptions};
 use subsurf_scene::{Environment, UpAxis};
 use subsurf_tests::drawable;
 use subsurf_tests::program::under_display;
@@ -68,7 +68,11 @@ fn draw(bytes: &[u8], backend: Backend) {
         // Small, for a processor may have to draw it.
         size: SIZE,
         backends: vec![backend],
-        options: RuntimeOptions { budget_bytes: Some(12_000_000), ..options() },
+        options: RuntimeOptions {
+            budget_bytes: Some(12_000_000),
+            btf: BtfOptions { samples: 1, ..BtfOptions::default() },
+            ..options()
+        },
         captures: true,
     })
     .unwrap();
