@@ -29,11 +29,14 @@ fn runs(gpu: &Gpu) -> usize {
     if gpu.info().backend == wgpu::Backend::Vulkan { 3 } else { 1 }
 }
 
+/// Loads bytes, once.
+type Once<'a> = Box<dyn Fn(&[u8]) -> LoadTimes + 'a>;
+
 /// Way to store a material, and how it is loaded.
 struct Case<'a> {
     name: &'static str,
     bytes: &'a [u8],
-    load: Box<dyn Fn(&[u8]) -> LoadTimes + 'a>,
+    load: Once<'a>,
     /// Pipelines of frames.
     compiled: Duration,
 }
