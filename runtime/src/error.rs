@@ -51,8 +51,8 @@ pub enum Error {
     },
     /// Passes that need half floats to draw to, on a device that cannot draw to them.
     #[error(
-        "{what} need half floats to draw to, which this device does not offer (GL_EXT_color_buffer_half_float); meshes are \
-         drawn without them by the gather and by the separable path, flat patches by the gather"
+        "{what} need half floats to draw to, which this device does not offer (GL_EXT_color_buffer_half_float); meshes and \
+         flat patches are drawn without them by the gather and by the separable path"
     )]
     NoHalfFloats {
         /// Passes that were asked for.

@@ -6,6 +6,7 @@ mod asset;
 mod error;
 mod frame;
 mod gpu;
+mod load;
 mod technique;
 
 pub use asset::{
@@ -18,6 +19,7 @@ pub use frame::{
     ShadowMap, Target,
 };
 pub use gpu::{Backend, ColourTarget, Gpu, Ledger, OnScreen, Purpose, devices};
+pub use load::{Load, LoadPhase, LoadTimer, LoadTimes, RawImages, Stored};
 pub use subsurf_shaders::uniform::BtfFiltering;
 pub use subsurf_shaders::{BtfLayout, MaterialLayout, TargetFormat};
 pub use technique::{

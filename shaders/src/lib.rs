@@ -3,7 +3,7 @@
 //! - [`passes`]: the table of all passes. WGSL files are joined, not preprocessed: a pass is a file under `wgsl/pass/` after
 //!   the parts that its first line names, files under `wgsl/lib/` and `wgsl/material/`.
 //! - [`uniform`]: uniform blocks, laid out as in WGSL.
-//! - [`separable`]: what the separable passes draw, the basis of a material with the coefficients of every pixel.
+//! - [`separable`]: what the separable passes draw, the basis of a material, with the coefficients of every pixel for the CPU.
 //! - [`cpu`] (the gathers, on all cores, with the feature `gather`): a pass `wgsl/pass/…/NAME.wgsl` has a twin `cpu/NAME.rs` that gives the same numbers, but for these:
 //!
 //! * `blur_patch_first`, `blur_patch`, `sum_patch`, `blur_patch_last`: stages of one sum, which

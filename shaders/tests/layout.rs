@@ -48,6 +48,7 @@ macro_rules! assert_layout_of {
 fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(Material: size, addressing, window_radius, samples, base_materials, pitch_mm, r_max_mm, nodes_per_mm, base_rows, row, rows);
     assert_layout_of!(PatchRegion: origin);
+    assert_layout_of!(PatchDomain: size, addressing);
     assert_layout_of!(PointGrid: origin_mm, cell_mm, cells, points);
     assert_layout_of!(LightSource: clip_from_world, position_or_direction, is_local, irradiance, cos_outer, axis, cos_inner, middle_mm, texel_mm, shadow, map);
     assert_layout_of!(Scene: clip_from_world, eye_mm, exposure, forward, lights, centre_mm, row, sky, light);

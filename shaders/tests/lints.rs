@@ -162,15 +162,23 @@ fn texture_loads_are_accounted_for() {
             ("gather, Material(Capture)", 2),
             ("present", 1),
             ("homogeneous", 0),
-            // At the texel of the target; taps wrapped by a sampler.
-            ("blur_patch_first, Terms(1)", 1),
-            ("blur_patch_first, Terms(2)", 1),
+            // At the texel of the target; taps addressed into the patch, irradiance clamped to its one texel or many.
+            ("blur_patch_first, Terms(1)", 2),
+            ("blur_patch_first, Terms(2)", 2),
             ("blur_patch, Terms(1)", 1),
             ("blur_patch, Terms(2)", 1),
             ("sum_patch, Terms(1)", 1),
             ("sum_patch, Terms(2)", 1),
             ("blur_patch_last, Terms(1)", 2),
             ("blur_patch_last, Terms(2)", 2),
+            // Entries clamped to the table, spans to the finer level.
+            ("profile_sums, Material(Bmpp1)", 3),
+            ("profile_sums, Material(Bmpp2)", 4),
+            ("profile_sums, Material(Bmpp2Palette)", 4),
+            ("profile_sums, Material(Bmpp3)", 4),
+            ("profile_sums, Material(Bmpp5)", 4),
+            ("profile_sums, Material(PerPixel)", 4),
+            ("patch_reduce", 1),
             // Cell starts clamped to the number of points, pixels to the patch; the tables of the points have equal sizes.
             ("irradiance", 3),
             ("surface_gather, Material(Bmpp1)", 8),

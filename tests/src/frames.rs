@@ -6,13 +6,13 @@ use glam::Vec3;
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_runtime::{
-    BACKGROUND, Backend, BssrdfPlanes, Frame, GatherMaterial, Gpu, GpuMesh, GpuPoints, Input, Material, Object,
-    PictureTarget, Renderer, Result, RuntimeOptions, SeparableMaterial, SplatMaterial, VertexData,
+    BACKGROUND, Backend, BssrdfPlanes, Frame, GatherMaterial, Gpu, GpuMesh, GpuPoints, Input, Load, Material, Object,
+    PictureTarget, Renderer, Result, RuntimeOptions, VertexData,
 };
 use subsurf_scene::{
     AmbientTransfer, Camera, Environment, Light, LightShape, Mapping, Mesh, Scene, Shadow, SurfacePoints, visibility,
 };
-use subsurf_shaders::separable::ProjectedBasis;
+use subsurf_shaders::separable::BasisNumbers;
 
 /// Display values: steps of 255 between the two APIs. Their arithmetic is the same but for rounding; sums of splats are
 /// half floats that lose up to 2⁻¹¹ with each addition.
@@ -104,10 +104,10 @@ impl Loaded {
                 let planes = BssrdfPlanes::upload(gpu, &material).unwrap();
                 (GpuMesh::upload(gpu, &fine, known).unwrap(), GatherMaterial { planes, points }.into())
             }
-            RenderMode::Splat => (lit(), SplatMaterial::upload(gpu, &material).unwrap().into()),
+            RenderMode::Splat => (lit(), Load::splat(gpu, &material).unwrap().finish().unwrap().into()),
             RenderMode::Separable => {
-                let basis = ProjectedBasis::of(&material).expect("a file with a separable basis");
-                (lit(), SeparableMaterial::upload(gpu, &basis).unwrap().into())
+                let numbers = BasisNumbers::of(&material).expect("a file with a separable basis");
+                (lit(), Load::separable(gpu, &material, &numbers).unwrap().finish().unwrap().into())
             }
         };
         Self { mesh, material, mapping }

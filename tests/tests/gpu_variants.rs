@@ -6,10 +6,11 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_runtime::wgpu::TextureFormat;
 use subsurf_runtime::{
-    BACKGROUND, Backend, BssrdfPlanes, Error, Gpu, MaterialLayout, PatchLight, PatchRenderer, Region, Renderer,
-    RuntimeOptions, TargetFormat, Technique,
+    BACKGROUND, Backend, BssrdfPlanes, Error, Gpu, Load, MaterialLayout, PatchLight, PatchRenderer, Region, Renderer,
+    RuntimeOptions, SeparableRenderer, TargetFormat, Technique,
 };
 use subsurf_scene::{Light, LightShape, Mapping, Mesh, Scene, bowl, drapery, torus};
+use subsurf_shaders::separable::BasisNumbers;
 use subsurf_tests::drawable;
 use subsurf_tests::frames::{
     API_TOLERANCE, EDGE_PIXELS, Loaded, RenderMode, SIZE, assert_close, device, material_of, psnr, scene,
@@ -99,6 +100,21 @@ fn devices_without_half_floats_to_draw_to_draw_the_same() {
         let (halves, bits) = (exitance(&gpu), exitance(&packed));
         for (a, b) in halves.iter().flatten().zip(bits.iter().flatten()) {
             assert!((a - b).abs() <= a.abs() / 1024.0 + 6e-8, "{backend}: {a} {b}");
+        }
+        // The same by separable blurs, after nine roundings on the way.
+        let blurred = |gpu: &Gpu| {
+            let material = Bssrdf::parse(&file).unwrap();
+            let numbers = BasisNumbers::of(&material).unwrap();
+            let material = Load::separable(gpu, &material, &numbers).unwrap().finish().unwrap();
+            let light = PatchLight::upload(gpu, [31; 2], &[[0.5, 1.0, 2.0]; 31 * 31]).unwrap();
+            let renderer = SeparableRenderer::new(gpu, material.terms()).unwrap();
+            let patch = renderer.prepare(gpu, &material, &light).unwrap();
+            renderer.draw(gpu, &patch).unwrap().read(gpu).unwrap()
+        };
+        let (halves, bits) = (blurred(&gpu), blurred(&packed));
+        let largest = halves.iter().flatten().copied().fold(0.0, f32::max);
+        for (a, b) in halves.iter().flatten().zip(bits.iter().flatten()) {
+            assert!((a - b).abs() <= 9.0 / 1024.0 * largest, "{backend}: {a} {b} of {largest}");
         }
         for mode in [RenderMode::Gather, RenderMode::Separable] {
             let draw = |gpu: &Gpu| Loaded::new(gpu, mode, &file, &mesh).picture(gpu, &scene, SIZE);

@@ -6,18 +6,16 @@
 mod asset;
 mod error;
 mod file;
-mod load;
 mod request;
 mod units;
 mod window;
 
 pub use asset::{
     Asset, BtfImageSet, GpuAsset, MappingChoice, RenderSession, Scattering, TexturedMesh, basis, choose_mapping,
-    expect_uvs, exposure_of, light_of, points, repeats, upload_images,
+    expect_uvs, exposure_of, light_of, numbers, points, repeats, upload_images,
 };
 pub use error::{Error, Result, one_line};
 pub use file::{DrawnMaterial, material_number, parse, parse_btf, read, stem};
-pub use load::{Loader, Loading, Stored};
 pub use request::{Angles, DEFAULT_LIGHT, ROUGHNESS, RenderRequest};
 pub use units::human;
 pub use window::{Config, Event, Host, KEYS, LoadImages, Picture, Viewer, event_loop, options};

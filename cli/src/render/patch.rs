@@ -4,11 +4,9 @@ use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::bssrdf::Light;
-use subsurf_runtime::{
-    BssrdfPlanes, Gpu, PatchLight, PatchRenderer, Region, SeparableMaterial, SeparableRenderer, layout_of,
-};
+use subsurf_runtime::{BssrdfPlanes, Gpu, Load, PatchLight, PatchRenderer, Region, SeparableRenderer, layout_of};
 use subsurf_shaders::{Rgb, cpu};
-use subsurf_viewer::{Scattering, basis};
+use subsurf_viewer::{Scattering, basis, numbers};
 
 use super::exposure::exposure_for;
 use crate::picture::image;
@@ -51,7 +49,7 @@ pub(crate) fn draw_patch(
                     (renderer.gather(gpu, &uploaded, &light, whole)?, uploaded.gpu_bytes())
                 }
                 Scattering::Separable | Scattering::Homogeneous => {
-                    let uploaded = SeparableMaterial::upload(gpu, &basis(material, technique)?)?;
+                    let uploaded = Load::separable(gpu, material, &numbers(material, technique)?)?.finish()?;
                     let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
                     let patch = renderer.prepare(gpu, &uploaded, &light)?;
                     renderer.draw(gpu, &patch)?;

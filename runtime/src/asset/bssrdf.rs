@@ -7,7 +7,7 @@ use subsurf_shaders::uniform::{self, BASE_ROWS, ROW};
 use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
 
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Purpose, Surface2d, TextureSpec, Tracked, layers_of};
+use crate::gpu::{Fill, Gpu, Purpose, Surface2d, TextureSpec, Tracked, layers_of};
 
 /// Layout of a file on the device.
 #[must_use]
@@ -41,10 +41,20 @@ impl BssrdfPlanes {
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no texture of that size.
     pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>) -> Result<Self> {
+        let (planes, fills) = Self::begin(gpu, material)?;
+        fills.iter().try_for_each(|fill| fill.write(gpu))?;
+        Ok(planes)
+    }
+
+    /// Makes the textures of the planes; they have to be filled.
+    ///
+    /// # Errors
+    /// As [`BssrdfPlanes::upload`].
+    pub(crate) fn begin<'a>(gpu: &Gpu, material: &Bssrdf<'a>) -> Result<(Self, Vec<Fill<'a>>)> {
         let header = material.header();
         let size = [header.width, header.height];
         let layout = layout_of(material);
-        let mut planes = Planes { gpu, size, all: Vec::new() };
+        let mut planes = Planes { gpu, size, all: Vec::new(), fills: Vec::new() };
         match material.model() {
             BssrdfModel::PerPixel(profiles) => {
                 let count = 3 * u32::from(header.samples);
@@ -56,7 +66,7 @@ impl BssrdfPlanes {
             }
         }
         let (textures, views) = planes.all.into_iter().unzip();
-        Ok(Self::new(gpu, layout, header, [ROW; 2], textures, views))
+        Ok((Self::new(gpu, layout, header, [ROW; 2], textures, views), planes.fills))
     }
 
     /// Uploads an uncompressed capture, `[y][x][dy][dx][rgb]` of little-endian f32, for comparison: sizes, pitch and
@@ -127,36 +137,36 @@ impl BssrdfPlanes {
 }
 
 /// Textures of a file, in the order of [`MaterialLayout::bindings`], each with the view that shaders take.
-struct Planes<'a> {
-    gpu: &'a Gpu,
+struct Planes<'g, 'a> {
+    gpu: &'g Gpu,
     /// Width and height of the patch in pixels.
     size: [u32; 2],
     all: Vec<(Surface2d, TextureView)>,
+    fills: Vec<Fill<'a>>,
 }
 
-impl Planes<'_> {
+impl<'a> Planes<'_, 'a> {
     /// Adds a texture of one layer.
-    fn texture(&mut self, spec: &TextureSpec, bytes: &[u8]) -> Result<()> {
-        let surface = self.gpu.filled(spec, bytes)?;
+    fn texture(&mut self, spec: &TextureSpec, bytes: &'a [u8]) -> Result<()> {
+        let surface = self.gpu.texture(spec)?;
+        self.fills.extend(Fill::pieces(&surface.texture, 0, bytes));
         let view = surface.view.clone();
         self.all.push((surface, view));
         Ok(())
     }
 
     /// Adds a texture of one texel for each pixel of the patch.
-    fn table(&mut self, label: &'static str, format: TextureFormat, bytes: &[u8]) -> Result<()> {
+    fn table(&mut self, label: &'static str, format: TextureFormat, bytes: &'a [u8]) -> Result<()> {
         self.texture(&TextureSpec::table(label, self.size, format), bytes)
     }
 
     /// Adds `count` layers of one texel for each pixel of the patch.
-    fn layers(&mut self, label: &'static str, count: u32, format: TextureFormat, bytes: &[u8]) -> Result<()> {
+    fn layers(&mut self, label: &'static str, count: u32, format: TextureFormat, bytes: &'a [u8]) -> Result<()> {
         let surface = self.gpu.texture(&TextureSpec::layered(label, self.size, count, format))?;
         let plane = bytes.len() / count as usize;
-        self.gpu.checked(|| {
-            for (bytes, layer) in bytes.chunks(plane).zip(0..) {
-                self.gpu.fill(&surface.texture, layer, bytes);
-            }
-        })?;
+        for (bytes, layer) in bytes.chunks(plane).zip(0..) {
+            self.fills.extend(Fill::pieces(&surface.texture, layer, bytes));
+        }
         let view = layers_of(&surface);
         self.all.push((surface, view));
         Ok(())
@@ -179,14 +189,14 @@ impl Planes<'_> {
             let (column, row) = (base / BASE_ROWS as usize * samples as usize + h, base % BASE_ROWS as usize);
             texels[(row * width as usize + column) * 4 * channel..][..3 * channel].copy_from_slice(node);
         }
-        self.gpu.checked(|| self.gpu.fill(&surface.texture, 0, &texels))?;
+        self.fills.push(Fill::whole(&surface.texture, texels));
         let view = surface.view.clone();
         self.all.push((surface, view));
         Ok(())
     }
 
     /// Adds the planes that say of which base materials a pixel is mixed.
-    fn mixtures(&mut self, mixtures: Mixtures<'_>) -> Result<()> {
+    fn mixtures(&mut self, mixtures: Mixtures<'a>) -> Result<()> {
         match mixtures {
             Mixtures::One(indices) => self.table("base indices", TextureFormat::R8Uint, indices),
             Mixtures::OneOfMany(indices) => self.table("base indices", TextureFormat::R16Uint, indices.as_bytes()),

@@ -6,7 +6,7 @@ use subsurf_shaders::uniform::{BtfCodebooks, BtfTexture};
 use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
 
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Purpose, Surface2d, TextureSpec, Tracked};
+use crate::gpu::{Fill, Gpu, Purpose, Surface2d, TextureSpec, Tracked};
 
 /// BTF on the device: its file, word by word, and a block that says where its codebooks are; or its images.
 #[derive(Debug)]
@@ -26,18 +26,28 @@ impl BtfMaterial {
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no texture of that size.
     pub fn upload(gpu: &Gpu, btf: &NestedBtf<'_>) -> Result<Self> {
+        let (material, fills) = Self::begin(gpu, btf)?;
+        fills.iter().try_for_each(|fill| fill.write(gpu))?;
+        Ok(material)
+    }
+
+    /// Makes the texture of a file; it has to be filled.
+    ///
+    /// # Errors
+    /// As [`BtfMaterial::upload`].
+    pub(crate) fn begin<'a>(gpu: &Gpu, btf: &NestedBtf<'a>) -> Result<(Self, Vec<Fill<'a>>)> {
         let file = btf.file();
         let too_large = || Error::Unsupported { what: "bytes of a BTF", need: file.len() as u64, have: 512 << 20 };
         let books = BtfCodebooks::of(btf).ok_or_else(too_large)?;
-        // Of the last word, zeros are missing.
-        let mut bytes = file.to_vec();
-        bytes.resize(file.len().next_multiple_of(4), 0);
-        let words = TextureSpec::array("BTF", bytes.len() / 4, TextureFormat::R32Uint);
         let materials = usize::from(btf.header().materials);
         let textures = (0..materials).filter_map(|number| BtfTexture::of(btf, number)).collect();
-        let words = gpu.filled(&words, &bytes)?;
+        let words = gpu.texture(&TextureSpec::array("BTF", file.len().div_ceil(4), TextureFormat::R32Uint))?;
+        let fills = Fill::pieces(&words.texture, 0, file).collect();
         let view = words.view.clone();
-        Ok(Self::new(BtfLayout::Nested, textures, words, view, gpu.uniform(Purpose::Material, "codebooks", &books)))
+        Ok((
+            Self::new(BtfLayout::Nested, textures, words, view, gpu.uniform(Purpose::Material, "codebooks", &books)),
+            fills,
+        ))
     }
 
     pub(super) fn new(

@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use subsurf_decoder::{Content, File};
 use subsurf_scene::{Mapping, Placement};
-use subsurf_shaders::separable::ProjectedBasis;
 
 use super::bssrdf::BssrdfPlanes;
 use super::btf::BtfMaterial;
@@ -13,7 +11,6 @@ use super::points::GpuPoints;
 use super::separable::SeparableMaterial;
 use super::splat::SplatMaterial;
 use crate::error::{Error, Result};
-use crate::gpu::Gpu;
 use crate::technique::Technique;
 
 /// Material for the gather on the device: planes of its file, and the points of the one mesh that it lies on.
@@ -39,23 +36,6 @@ pub enum Material {
 }
 
 impl Material {
-    /// Uploads a file for the fastest technique that it offers: separable blurs where it has a basis for them, else splats; a
-    /// BTF as it is, its first material.
-    ///
-    /// # Errors
-    /// [`Error::Usage`] for a factored BTF, which no technique draws; [`Error::Unsupported`] if the device takes no texture of
-    /// that size.
-    pub fn load(gpu: &Gpu, file: &File<'_>) -> Result<Self> {
-        match file.content() {
-            Content::Bssrdf(material) => match ProjectedBasis::of(&material) {
-                Some(basis) => Ok(SeparableMaterial::upload(gpu, &basis)?.into()),
-                None => Ok(SplatMaterial::upload(gpu, &material)?.into()),
-            },
-            Content::NestedBtf(btf) => Ok(Self::Btf(Arc::new(BtfMaterial::upload(gpu, &btf)?), 0)),
-            _ => Err(Error::Usage("factored BTFs are not drawn from the file: encode the images as nested".to_owned())),
-        }
-    }
-
     /// Technique that draws the material.
     #[must_use]
     pub fn technique(&self) -> Technique {
@@ -122,14 +102,14 @@ impl From<GatherMaterial> for Material {
     }
 }
 
-impl From<SplatMaterial> for Material {
-    fn from(material: SplatMaterial) -> Self {
-        Self::Splat(Arc::new(material))
+impl From<Arc<SplatMaterial>> for Material {
+    fn from(material: Arc<SplatMaterial>) -> Self {
+        Self::Splat(material)
     }
 }
 
-impl From<SeparableMaterial> for Material {
-    fn from(material: SeparableMaterial) -> Self {
-        Self::Separable(Arc::new(material))
+impl From<Arc<SeparableMaterial>> for Material {
+    fn from(material: Arc<SeparableMaterial>) -> Self {
+        Self::Separable(material)
     }
 }

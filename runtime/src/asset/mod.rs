@@ -16,6 +16,7 @@ pub use btf_images::BtfImages;
 pub use material::{GatherMaterial, Material};
 pub use mesh::{GpuMesh, VertexData};
 pub(crate) use mesh::{TANGENTS, VERTICES};
+pub(crate) use patch_layers::PatchLayers;
 pub use points::GpuPoints;
 pub(crate) use points::LitBy;
 pub use separable::SeparableMaterial;

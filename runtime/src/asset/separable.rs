@@ -1,8 +1,8 @@
 //! Materials for separable blurs on the device.
 
 use subsurf_decoder::bssrdf::BssrdfHeader;
-use subsurf_shaders::separable::ProjectedBasis;
-use subsurf_shaders::uniform;
+use subsurf_shaders::separable::BasisNumbers;
+use subsurf_shaders::{Rgb, uniform};
 use wgpu::Buffer;
 
 use super::patch_layers::PatchLayers;
@@ -23,18 +23,17 @@ pub struct SeparableMaterial {
 }
 
 impl SeparableMaterial {
-    /// Uploads the basis of a file, [`ProjectedBasis::of`]; coefficients become half floats.
+    /// Makes room for a basis, and its blocks; the layers have to be projected.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if the device takes no texture of that size.
-    pub fn upload(gpu: &Gpu, basis: &ProjectedBasis) -> Result<Self> {
+    pub(crate) fn new(gpu: &Gpu, basis: &BasisNumbers) -> Result<Self> {
         let terms = basis.size().terms;
-        let layers = (0..terms).map(|l| basis.coefficients_of(l).to_vec()).chain([basis.albedo()]);
         let stages = uniform::BlurStage::cascade(basis);
         Ok(Self {
             header: *basis.header(),
             terms,
-            layers: PatchLayers::upload(gpu, basis.header(), layers.collect())?,
+            layers: PatchLayers::new(gpu, basis.header(), terms + 1)?,
             transmission: gpu.uniform(Purpose::Material, "transmission", &uniform::Transmission::new(basis)),
             narrowest_pixels: basis.sigmas().first().copied().unwrap_or(1.0),
             stages: stages
@@ -54,6 +53,15 @@ impl SeparableMaterial {
     #[must_use]
     pub fn terms(&self) -> usize {
         self.terms
+    }
+
+    /// Reads a mipmap level of a layer back, row by row: coefficients c_l for l < L, the albedo under uniform light for l = L;
+    /// linear Rec. 709.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if there is none; [`Error::Device`] if the device is lost.
+    pub fn read(&self, gpu: &Gpu, l: usize, level: u32) -> Result<Vec<Rgb>> {
+        self.layers.read(gpu, l, level)
     }
 
     /// Refuses a material of another number of terms than a pass was built for.

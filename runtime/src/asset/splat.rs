@@ -1,7 +1,6 @@
 //! Materials for splats on the device.
 
 use subsurf_decoder::Bssrdf;
-use subsurf_shaders::separable::albedo;
 use subsurf_shaders::{Rgb, softening_gain};
 
 use super::bssrdf::BssrdfPlanes;
@@ -21,22 +20,27 @@ pub struct SplatMaterial {
 }
 
 impl SplatMaterial {
-    /// Uploads the planes of a file as they stand in it, and its albedo, [`albedo`].
+    /// Makes room for the albedo beside the planes of a file; it has to be projected.
     ///
     /// # Errors
     /// [`Error::Unsupported`](crate::Error::Unsupported) if the device takes no texture of that size.
-    pub fn upload(gpu: &Gpu, material: &Bssrdf<'_>) -> Result<Self> {
-        Ok(Self {
-            planes: BssrdfPlanes::upload(gpu, material)?,
-            softening_gain: softening_gain(material),
-            albedo: PatchLayers::upload(gpu, material.header(), vec![albedo(material)])?,
-        })
+    pub(crate) fn new(gpu: &Gpu, material: &Bssrdf<'_>, planes: BssrdfPlanes) -> Result<Self> {
+        let albedo = PatchLayers::new(gpu, material.header(), 1)?;
+        Ok(Self { planes, softening_gain: softening_gain(material), albedo })
     }
 
     /// Planes of the file.
     #[must_use]
     pub fn planes(&self) -> &BssrdfPlanes {
         &self.planes
+    }
+
+    /// Reads a mipmap level of the albedo under uniform light back: linear Rec. 709, row by row.
+    ///
+    /// # Errors
+    /// [`Error::Usage`](crate::Error::Usage) if there is none; [`Error::Device`](crate::Error::Device) if the device is lost.
+    pub fn read_albedo(&self, gpu: &Gpu, level: u32) -> Result<Vec<Rgb>> {
+        self.albedo.read(gpu, 0, level)
     }
 
     /// Bytes of planes and albedo on the device.

@@ -42,7 +42,8 @@ impl Renderer {
     ///
     /// # Errors
     /// [`Error::Usage`] if the frame was not prepared for a material or for as many shadows, if there are too many objects or
-    /// lights, a shadow map is not what it has to be, an object lacks what its material needs, the light of a gather was never summed, or the target is smaller than the frame.
+    /// lights, a shadow map is not what it has to be, an object lacks what its material needs, the light of a gather was never summed, or the target is smaller than the
+    /// frame; [`Error::Device`] if the device is lost.
     pub fn draw(
         &self,
         gpu: &Gpu,
@@ -176,7 +177,7 @@ impl Frame {
         input.project_maps(&mut block);
         self.common.host_shadows.show(gpu, input.shadow_maps)?;
         self.lights.update(gpu, block.drawn_shadows());
-        gpu.queue.write_buffer(&self.common.scene, 0, bytemuck::bytes_of(&block));
+        gpu.write(&self.common.scene, bytemuck::bytes_of(&block))?;
         self.common.show(gpu, lighting.environment);
 
         self.blocks.clear();

@@ -73,8 +73,9 @@ impl Renderer {
     /// # Errors
     /// [`Error::OverBudget`](crate::Error::OverBudget) if even the coarsest does not fit, before anything is allocated;
     /// [`Error::Usage`] if a technique was not compiled, the size is 0, there are too many lights or materials, or a shadow map
-    /// is not what it has to be.
+    /// is not what it has to be; [`Error::Device`] if the device is lost.
     pub fn prepare(&self, gpu: &Gpu, input: &Input<'_>, size: [u32; 2]) -> Result<Frame> {
+        gpu.expect_alive()?;
         let mut materials: Vec<&Material> = Vec::new();
         for object in input.objects {
             if !materials.iter().any(|known| known.is(object.material)) {

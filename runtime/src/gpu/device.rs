@@ -6,17 +6,20 @@ use half::f16;
 use subsurf_shaders::TargetFormat;
 use wgpu::rwh::HasDisplayHandle;
 use wgpu::{
-    Adapter, AdapterInfo, Color, Device, DeviceDescriptor, ErrorFilter, ExperimentalFeatures, Extent3d, Features,
-    Instance, Limits, MemoryHints, Queue, RequestAdapterOptions, Surface, SurfaceTarget, TextureDescriptor,
-    TextureDimension, TextureFormat, TextureUsages, Trace,
+    Adapter, AdapterInfo, Buffer, BufferDescriptor, BufferSize, BufferUsages, Color, Device, DeviceDescriptor,
+    ErrorFilter, ExperimentalFeatures, Extent3d, Features, Instance, Limits, MemoryHints, Queue, RequestAdapterOptions,
+    Surface, SurfaceTarget, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages, Trace,
 };
 
 use super::backend::{Backend, adapters, instance, ready};
+use super::cache::PipelineCache;
 use super::ledger::Ledger;
 use crate::error::{Error, Result};
 
 /// What timing passes takes. A device that has it is opened with it; none needs it.
 pub(crate) const TIMESTAMPS: Features = Features::TIMESTAMP_QUERY.union(Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
+/// What is written to find out whether a device is lost.
+const PROBE: [u8; 4] = [0; 4];
 
 /// Device and queue, within the limits of WebGL2, and the ledger of what lives on the device.
 #[derive(Debug)]
@@ -26,6 +29,10 @@ pub struct Gpu {
     target_format: TargetFormat,
     info: AdapterInfo,
     ledger: Ledger,
+    /// Full-screen passes that were compiled, with their targets: loads share them.
+    pub(super) fullscreen: PipelineCache,
+    /// Room for [`PROBE`].
+    probe: Buffer,
 }
 
 /// Device that draws to a window, and what it takes to make the window's surface anew when it is lost.
@@ -111,7 +118,15 @@ impl Gpu {
     /// Wraps a device that the caller owns; `info` is what its adapter says. `Limits::downlevel_webgl2_defaults()` are enough.
     #[must_use]
     pub fn from_device(device: Device, queue: Queue, info: AdapterInfo) -> Self {
-        Self { target_format: target_format_of(&device), device, queue, info, ledger: Ledger::default() }
+        let target_format = target_format_of(&device);
+        let probe = device.create_buffer(&BufferDescriptor {
+            label: Some("probe"),
+            size: PROBE.len() as u64,
+            usage: BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let (ledger, fullscreen) = (Ledger::default(), PipelineCache::default());
+        Self { target_format, device, queue, info, ledger, fullscreen, probe }
     }
 
     /// Storage of intermediate targets.
@@ -123,7 +138,7 @@ impl Gpu {
     /// The same device with another layout of intermediate targets: for drivers that claim to draw to half floats and fail.
     #[must_use]
     pub fn with_target_format(self, target_format: TargetFormat) -> Self {
-        Self { target_format, ..self }
+        Self { target_format, fullscreen: PipelineCache::default(), ..self }
     }
 
     /// Texture format of intermediate targets.
@@ -193,6 +208,26 @@ impl Gpu {
         failed.map_or(Ok(result), |error| Err(Error::Device(error.to_string())))
     }
 
+    /// Writes to a buffer before the next submission.
+    ///
+    /// # Errors
+    /// [`Error::Device`] if the device is lost: it takes everything else in silence then.
+    pub(crate) fn write(&self, buffer: &Buffer, bytes: &[u8]) -> Result<()> {
+        let lost = || Error::Device("it is lost: open another one, and load again".to_owned());
+        let size = BufferSize::new(bytes.len() as u64).ok_or_else(lost)?;
+        let mut staging = self.checked(|| self.queue.write_buffer_with(buffer, 0, size))?.ok_or_else(lost)?;
+        staging.copy_from_slice(bytes);
+        Ok(())
+    }
+
+    /// Refuses to go on with a device that is lost.
+    ///
+    /// # Errors
+    /// [`Error::Device`] if it is.
+    pub(crate) fn expect_alive(&self) -> Result<()> {
+        self.write(&self.probe, &PROBE)
+    }
+
     /// Submits what is still waiting to be uploaded, and waits until the device has done everything.
     ///
     /// # Errors
@@ -202,7 +237,7 @@ impl Gpu {
         loop {
             // The GL backend gives up after two seconds of waiting, however long it was asked to wait.
             match self.device.poll(wgpu::PollType::wait_indefinitely()) {
-                Ok(_) => return Ok(()),
+                Ok(_) => return self.expect_alive(),
                 Err(wgpu::PollError::Timeout) => {}
                 Err(error) => return Err(Error::Device(error.to_string())),
             }

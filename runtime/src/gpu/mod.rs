@@ -1,7 +1,9 @@
 //! The device: what lives on it, how passes are compiled and begun.
 
 mod backend;
+mod cache;
 mod device;
+mod fill;
 mod layout;
 mod ledger;
 mod pass;
@@ -10,11 +12,13 @@ mod read;
 mod resource;
 
 pub use backend::{Backend, devices};
+pub(crate) use cache::Pipeline;
 pub(crate) use device::TIMESTAMPS;
 pub use device::{Gpu, OnScreen};
+pub(crate) use fill::Fill;
 pub(crate) use ledger::Tracked;
 pub use ledger::{Ledger, Purpose};
 pub(crate) use pass::{FullscreenPass, QuadPass, Rows};
-pub(crate) use pipeline::{Drawing, Pipeline, Program, attachment, bind, bind_group_layout};
+pub(crate) use pipeline::{Drawing, Program, attachment, bind, bind_group_layout};
 pub use read::ColourTarget;
 pub(crate) use resource::{DEPTH, HALF, Surface2d, TextureSpec, array_size, layer_of, layers_of, level_of};

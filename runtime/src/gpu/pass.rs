@@ -1,24 +1,28 @@
 //! Passes without a mesh: one triangle over the whole target, or quads that are added up.
 
+use std::sync::Arc;
+
 use subsurf_shaders::passes::Variant;
 use wgpu::{
     BindGroup, BindingResource, BlendComponent, BlendFactor, BlendOperation, BlendState, Color, CommandEncoder,
     CommandEncoderDescriptor, LoadOp, PrimitiveTopology, TextureFormat, TextureView,
 };
 
+use super::cache::Pipeline;
 use super::device::Gpu;
-use super::pipeline::{Drawing, Pipeline, Program, attachment};
+use super::pipeline::{Drawing, Program, attachment};
 use crate::error::Result;
 
-/// Pass that covers its whole target with one triangle.
-#[derive(Debug)]
-pub(crate) struct FullscreenPass(Pipeline);
+/// Pass that covers its whole target with one triangle; passes of one variant and targets share a pipeline.
+#[derive(Clone, Debug)]
+pub(crate) struct FullscreenPass(Arc<Pipeline>);
 
 impl FullscreenPass {
-    /// Compiles a variant of a full-screen pass for targets of these formats.
+    /// Compiles a variant of a full-screen pass for targets of these formats, unless it is.
     pub(crate) fn new(gpu: &Gpu, variant: Variant, targets: &[TextureFormat]) -> Result<Self> {
         let program = Program { variant, constants: &[], targets };
-        Ok(Self(Pipeline::new(gpu, &program, Drawing::default())?))
+        let compile = || Pipeline::new(gpu, &program, Drawing::default());
+        Ok(Self(gpu.fullscreen.get_or(variant.name(), targets, compile)?))
     }
 
     /// Name of the pass.

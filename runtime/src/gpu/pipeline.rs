@@ -6,22 +6,14 @@ use wgpu::{
     BlendState, Color, ColorTargetState, ColorWrites, CommandEncoder, DepthStencilState, FragmentState, LoadOp,
     MultisampleState, Operations, PipelineCompilationOptions, PipelineLayoutDescriptor, PrimitiveState,
     PrimitiveTopology, RenderPass, RenderPassColorAttachment, RenderPassDepthStencilAttachment, RenderPassDescriptor,
-    RenderPipeline, RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp, TextureFormat,
-    TextureView, VertexBufferLayout, VertexState,
+    RenderPipelineDescriptor, ShaderModuleDescriptor, ShaderSource, StoreOp, TextureFormat, TextureView,
+    VertexBufferLayout, VertexState,
 };
 
+use super::cache::Pipeline;
 use super::device::Gpu;
 use super::layout::layout_entries;
 use crate::error::Result;
-
-/// Render pipeline, and the layouts of its bind groups.
-#[derive(Debug)]
-pub(crate) struct Pipeline {
-    /// Name of the pass.
-    pub(crate) name: &'static str,
-    pipeline: RenderPipeline,
-    groups: Vec<BindGroupLayout>,
-}
 
 /// Shader of a pipeline, what it reads and what it draws to.
 pub(crate) struct Program<'a> {

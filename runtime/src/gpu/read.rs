@@ -40,10 +40,15 @@ impl Gpu {
         self.read(&target.0.texture)
     }
 
-    /// Texels of a texture of one layer, row by row.
+    /// Texels of a texture, the finest level of its first layer, row by row.
     pub(crate) fn read<T: Pod>(&self, texture: &Texture) -> Result<Vec<T>> {
+        self.read_level(texture, 0, 0)
+    }
+
+    /// Texels of one mipmap level of a layer, row by row.
+    fn read_level<T: Pod>(&self, texture: &Texture, layer: u32, mip_level: u32) -> Result<Vec<T>> {
         let texel = texture.format().block_copy_size(None).unwrap_or(4);
-        let (width, height) = (texture.width(), texture.height());
+        let [width, height] = [texture.width(), texture.height()].map(|side| (side >> mip_level).max(1));
         let row = (width * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         // As many rows at a time as a buffer may have.
         let most = self.device.limits().max_buffer_size / u64::from(row);
@@ -51,21 +56,22 @@ impl Gpu {
         let mut texels = Vec::with_capacity(width as usize * height as usize);
         for first in (0..height).step_by(most as usize) {
             let rows = most.min(height - first);
-            self.read_rows(texture, first, [width, rows], row, &mut texels)?;
+            let origin = wgpu::Origin3d { x: 0, y: first, z: layer };
+            let from = wgpu::TexelCopyTextureInfo { mip_level, origin, ..texture.as_image_copy() };
+            self.read_rows(from, [width, rows], row, &mut texels)?;
         }
         Ok(texels)
     }
 
-    /// Appends the texels of some rows from `first` on to `texels`; in the buffer between, rows are `row` bytes apart.
+    /// Appends the texels of some rows to `texels`; in the buffer between, rows are `row` bytes apart.
     fn read_rows<T: Pod>(
         &self,
-        texture: &Texture,
-        first: u32,
+        from: wgpu::TexelCopyTextureInfo<'_>,
         size: [u32; 2],
         row: u32,
         texels: &mut Vec<T>,
     ) -> Result<()> {
-        let texel = texture.format().block_copy_size(None).unwrap_or(4);
+        let texel = from.texture.format().block_copy_size(None).unwrap_or(4);
         let [width, height] = size;
         let bytes = u64::from(row) * u64::from(height);
         let buffer = self.checked(|| {
@@ -81,8 +87,6 @@ impl Gpu {
             let mut encoder = self.device.create_command_encoder(&CommandEncoderDescriptor::default());
             let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
             let to = TexelCopyBufferInfo { buffer: &buffer, layout };
-            let origin = wgpu::Origin3d { x: 0, y: first, z: 0 };
-            let from = wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() };
             encoder.copy_texture_to_buffer(from, to, extent(size, 1));
             self.queue.submit([encoder.finish()]);
         })?;
@@ -108,7 +112,12 @@ impl Gpu {
 
     /// Linear rgb of every texel of a target of [`Gpu::map_format`], half floats or their bits, row by row.
     pub(crate) fn read_rgb(&self, texture: &Texture) -> Result<Vec<[f32; 3]>> {
-        let texels: Vec<[u16; 4]> = self.read(texture)?;
+        self.read_rgb_level(texture, 0, 0)
+    }
+
+    /// The same of one mipmap level of a layer.
+    pub(crate) fn read_rgb_level(&self, texture: &Texture, layer: u32, level: u32) -> Result<Vec<[f32; 3]>> {
+        let texels: Vec<[u16; 4]> = self.read_level(texture, layer, level)?;
         Ok(texels.iter().map(|[r, g, b, _]| [*r, *g, *b].map(|bits| f16::from_bits(bits).to_f32())).collect())
     }
 }

@@ -3,8 +3,8 @@
 use bytemuck::Pod;
 use subsurf_shaders::uniform::ROW;
 use wgpu::{
-    Buffer, BufferUsages, Extent3d, TexelCopyBufferLayout, Texture, TextureDescriptor, TextureDimension, TextureFormat,
-    TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
+    Buffer, BufferUsages, Extent3d, Texture, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages,
+    TextureView, TextureViewDescriptor, TextureViewDimension,
 };
 
 use super::device::Gpu;
@@ -154,33 +154,6 @@ impl Gpu {
         })?;
         let view = texture.create_view(&TextureViewDescriptor::default());
         Ok(Surface2d { texture: self.ledger().enter(spec.purpose, texture, spec.bytes()), view })
-    }
-
-    /// Fills the finest level of one layer from `bytes`, row by row; texels beyond the last byte stay as they are.
-    pub(crate) fn fill(&self, texture: &Texture, layer: u32, bytes: &[u8]) {
-        self.fill_level(texture, layer, 0, bytes);
-    }
-
-    /// Fills one level of one layer from `bytes`, row by row; texels beyond the last byte stay as they are.
-    pub(crate) fn fill_level(&self, texture: &Texture, layer: u32, mip_level: u32, bytes: &[u8]) {
-        let texel = texture.format().block_copy_size(None).unwrap_or(4);
-        let columns = (texture.width() >> mip_level).max(1);
-        let row = (columns * texel) as usize;
-        let (whole, part) = bytes.split_at(bytes.len() / row * row);
-        let rows = u32::try_from(whole.len() / row).unwrap_or(u32::MAX);
-        let rest = u32::try_from(part.len()).unwrap_or(0) / texel;
-        for (bytes, y, width, height) in [(whole, 0, columns, rows), (part, rows, rest, 1)] {
-            if width > 0 && height > 0 {
-                let origin = wgpu::Origin3d { x: 0, y, z: layer };
-                let to = wgpu::TexelCopyTextureInfo { origin, mip_level, ..texture.as_image_copy() };
-                let layout = TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(width * texel),
-                    rows_per_image: Some(height),
-                };
-                self.queue.write_texture(to, bytes, layout, extent([width, height], 1));
-            }
-        }
     }
 
     /// Creates a texture of one layer with its contents.

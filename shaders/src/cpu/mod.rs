@@ -8,7 +8,9 @@ mod fresnel;
 #[cfg(feature = "gather")]
 mod gather;
 mod irradiance;
+mod patch_reduce;
 mod present;
+mod profile_sums;
 mod raster;
 mod scene;
 mod shade_btf;
@@ -22,7 +24,9 @@ pub use fresnel::{diffuse_transmittance, fresnel_transmittance};
 #[cfg(feature = "gather")]
 pub use gather::{Reflectance, gather};
 pub use irradiance::irradiance;
+pub use patch_reduce::patch_reduce;
 pub use present::present;
+pub use profile_sums::profile_sums;
 pub use scene::{entering, incident, sky_irradiance};
 pub use shade_btf::{BtfSurface, BtfTriangles, shade_btf};
 pub use shade_vertex::{Triangles, shade_vertex};

@@ -8,8 +8,8 @@ use super::file::{File, wgsl};
 pub enum TargetFormat {
     /// Four half floats.
     Half,
-    /// Bits of four half floats in integers, which every GLES 3.0 device draws to. They cannot be blended or filtered: splats,
-    /// and blurs on flat patches, need [`TargetFormat::Half`].
+    /// Bits of four half floats in integers, which every GLES 3.0 device draws to. They cannot be blended or filtered: splats
+    /// need [`TargetFormat::Half`].
     Packed,
 }
 

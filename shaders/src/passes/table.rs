@@ -98,29 +98,40 @@ pub static HOMOGENEOUS: Pass =
 pub static BLUR_PATCH_FIRST: Pass = fullscreen(
     wgsl!("pass/patch/blur_patch_first"),
     &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_IRRADIANCE],
-    &[Group::Fixed(&[Uniform, Nearest, FilteredLayers, Float])],
+    &[Group::Fixed(&[Uniform, Uniform, FloatLayers, Float])],
 );
 
 /// Stages of the cascade on a flat patch, along rows or along columns, but for the first and the last.
 pub static BLUR_PATCH: Pass = fullscreen(
     wgsl!("pass/patch/blur_patch"),
     &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_STAGE],
-    &[Group::Maps(&[Uniform, Nearest, FloatLayers])],
+    &[Group::Maps(&[Uniform, Uniform, TargetLayers])],
 );
 
 /// Sum over the stages of the cascade on a flat patch so far, once one of them is through.
 pub static SUM_PATCH: Pass = fullscreen(
     wgsl!("pass/patch/sum_patch"),
     &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_STAGE, STAGE_SUM],
-    &[Group::Maps(&[Uniform, Nearest, FloatLayers, TargetLayers])],
+    &[Group::Maps(&[Uniform, Uniform, TargetLayers, TargetLayers])],
 );
 
 /// Last stage of the cascade on a flat patch, along columns, and the exitance.
 pub static BLUR_PATCH_LAST: Pass = fullscreen(
     wgsl!("pass/patch/blur_patch_last"),
     &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_PATCH, BLUR, MAPS_STAGE, STAGE_SUM],
-    &[Group::Maps(&[Uniform, Nearest, FloatLayers, TargetLayers, FilteredLayers])],
+    &[Group::Maps(&[Uniform, Uniform, TargetLayers, TargetLayers, FilteredLayers])],
 );
+
+/// Coefficients of the separable basis of every pixel, or its albedo, from the planes of a file.
+pub static PROFILE_SUMS: Pass = fullscreen(
+    wgsl!("pass/patch/profile_sums"),
+    &[Part::TargetFormat, Part::FittedLayout, FULLSCREEN],
+    &[Group::Material, Group::Fixed(&[Float])],
+);
+
+/// Next mipmap level of layers over a patch.
+pub static PATCH_REDUCE: Pass =
+    fullscreen(wgsl!("pass/patch/patch_reduce"), &[Part::TargetFormat, FULLSCREEN], &[Group::Fixed(&[FloatLayers])]);
 
 /// Irradiance that enters a surface at each of its points.
 pub static IRRADIANCE: Pass = fullscreen(
@@ -315,7 +326,7 @@ pub static SHADE_BTF: Pass = shaded(
 );
 
 /// All passes.
-pub static ALL: [&Pass; 23] = [
+pub static ALL: [&Pass; 25] = [
     &GATHER,
     &PRESENT,
     &HOMOGENEOUS,
@@ -323,6 +334,8 @@ pub static ALL: [&Pass; 23] = [
     &BLUR_PATCH,
     &SUM_PATCH,
     &BLUR_PATCH_LAST,
+    &PROFILE_SUMS,
+    &PATCH_REDUCE,
     &IRRADIANCE,
     &SURFACE_GATHER,
     &SHADE_VERTEX,

@@ -1,22 +1,18 @@
 //! The basis of a material, with the coefficients of every pixel.
 
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::basis::{BasisSize, Cascade};
-use subsurf_decoder::bssrdf::{BssrdfHeader, SeparableBasis};
+use subsurf_decoder::bssrdf::basis::BasisSize;
 
-use super::project::coefficients;
+use super::numbers::BasisNumbers;
+use crate::cpu::profile_sums;
 use crate::rgb::Rgb;
 
 /// Separable basis of a material, with the coefficients of every pixel; lengths are in pixels of the patch.
 #[derive(Clone, Debug)]
 pub struct ProjectedBasis {
-    header: BssrdfHeader,
-    size: BasisSize,
-    /// Coefficients c_l, shape `[L][height][width]`.
-    coefficients: Vec<Rgb>,
-    sigmas: Vec<f32>,
-    /// Weights w_lma, shape `[L][L][A]`.
-    weights: Vec<Rgb>,
+    numbers: BasisNumbers,
+    /// Coefficients c_l, shape `[l][height][width]`.
+    coefficients: Vec<Vec<Rgb>>,
 }
 
 impl ProjectedBasis {
@@ -24,28 +20,21 @@ impl ProjectedBasis {
     /// no basis.
     #[must_use]
     pub fn of(material: &Bssrdf<'_>) -> Option<Self> {
-        material.basis().map(|basis| Self::with(material, basis))
+        let numbers = BasisNumbers::of(material)?;
+        Some(Self { coefficients: profile_sums(material, numbers.sums()), numbers })
     }
 
-    /// Basis of a material by numbers of another file or of a fit.
-    fn with(material: &Bssrdf<'_>, basis: &SeparableBasis<'_>) -> Self {
-        let size = basis.size();
-        let pairs = (0..size.terms).flat_map(|l| (0..size.terms).map(move |m| (l, m)));
-        let weights = pairs.flat_map(|(l, m)| (0..size.gaussians).map(move |a| basis.weight(l, m, a)));
-        Self {
-            header: *material.header(),
-            size,
-            coefficients: coefficients(material, basis),
-            sigmas: basis.sigmas().collect(),
-            weights: weights.collect(),
-        }
+    /// Numbers of the basis, those of the file but for [`Self::homogeneous`].
+    #[must_use]
+    pub fn numbers(&self) -> &BasisNumbers {
+        &self.numbers
     }
 
     /// Basis of the mean profile, the same for all pixels: what a renderer draws that knows no heterogeneity. One term, as many
     /// Gaussians.
     #[must_use]
     pub fn homogeneous(&self) -> Self {
-        let BasisSize { terms, gaussians } = self.size;
+        let BasisSize { terms, gaussians } = self.numbers.size();
         let pixels = self.coefficients_of(0).len();
         let mut weights = vec![[0.0; 3]; gaussians];
         for (l, m) in (0..terms).flat_map(|l| (0..terms).map(move |m| (l, m))) {
@@ -62,57 +51,19 @@ impl ProjectedBasis {
                 reason = "a mean of numbers around 1"
             )]
             let mean = mean.map(|sum| (sum / pixels as f64) as f32);
-            for (sum, weight) in weights.iter_mut().zip(self.weights_of(l, m)) {
+            for (sum, weight) in weights.iter_mut().zip(self.numbers.weights_of(l, m)) {
                 for c in 0..3 {
                     sum[c] += mean[c] * weight[c];
                 }
             }
         }
-        Self {
-            header: self.header,
-            size: BasisSize { terms: 1, gaussians },
-            coefficients: vec![[1.0; 3]; pixels],
-            sigmas: self.sigmas.clone(),
-            weights,
-        }
-    }
-
-    /// Size, pitch, window and addressing of the material.
-    #[must_use]
-    pub fn header(&self) -> &BssrdfHeader {
-        &self.header
-    }
-
-    /// L and A.
-    #[must_use]
-    pub fn size(&self) -> BasisSize {
-        self.size
-    }
-
-    /// Standard deviations σ_a in pixels, by rising width; shape `[A]`.
-    #[must_use]
-    pub fn sigmas(&self) -> &[f32] {
-        &self.sigmas
-    }
-
-    /// Stages of the blurs.
-    #[must_use]
-    pub fn cascade(&self) -> Cascade {
-        Cascade::new(self.sigmas.iter().copied())
-    }
-
-    /// Weights w_lma of all Gaussians for one l and m, symmetric in them, linear Rec. 709; shape `[A]`. G_a sums to 1.
-    #[must_use]
-    pub fn weights_of(&self, l: usize, m: usize) -> &[Rgb] {
-        let count = self.size.gaussians;
-        &self.weights[(l * self.size.terms + m) * count..][..count]
+        Self { numbers: self.numbers.with_weights(weights), coefficients: vec![vec![[1.0; 3]; pixels]] }
     }
 
     /// Coefficients c_l of all pixels for one l, linear Rec. 709; shape `[height][width]`.
     #[must_use]
     pub fn coefficients_of(&self, l: usize) -> &[Rgb] {
-        let pixels = self.coefficients.len() / self.size.terms;
-        &self.coefficients[l * pixels..][..pixels]
+        &self.coefficients[l]
     }
 
     /// Exitance of the whole patch, row by row, for `irradiance` of the whole patch: what the passes `blur_patch_*.wgsl` draw.
@@ -133,11 +84,12 @@ impl ProjectedBasis {
 
     /// Exitance for an irradiance by the number of the pixel.
     fn lit(&self, irradiance: impl Fn(usize) -> Rgb) -> Vec<Rgb> {
-        let terms = self.size.terms;
+        let header = self.numbers.header();
+        let terms = self.numbers.size().terms;
         let pixels = self.coefficients_of(0).len();
         let mut exitance = vec![[0.0; 3]; pixels];
         let mut between = vec![0.0; pixels];
-        let cascade = self.cascade();
+        let cascade = self.numbers.cascade();
         for c in 0..3 {
             // S_m = Σ_la w_lma G_a * c_l E.
             let mut sums = vec![vec![0.0_f32; pixels]; terms];
@@ -145,9 +97,9 @@ impl ProjectedBasis {
                 let weighted = self.coefficients_of(l).iter().enumerate();
                 let mut map: Vec<f32> = weighted.map(|(pixel, rgb)| rgb[c] * irradiance(pixel)[c]).collect();
                 for (a, stage) in cascade.stages().iter().enumerate() {
-                    stage.blur(&mut map, &mut between, [self.header.width, self.header.height], self.header.addressing);
+                    stage.blur(&mut map, &mut between, [header.width, header.height], header.addressing);
                     for (m, sum) in sums.iter_mut().enumerate() {
-                        let weight = self.weights_of(l, m)[a][c];
+                        let weight = self.numbers.weights_of(l, m)[a][c];
                         sum.iter_mut().zip(&map).for_each(|(sum, blurred)| *sum += weight * blurred);
                     }
                 }

@@ -8,9 +8,10 @@
 //!
 //! which takes L maps and A separable blurs of each, whatever the material.
 
-mod albedo;
 mod basis;
-mod project;
+mod numbers;
+mod sums;
 
-pub use albedo::albedo;
 pub use basis::ProjectedBasis;
+pub use numbers::BasisNumbers;
+pub use sums::ProfileSums;

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use subsurf_decoder::bssrdf::basis::{MAX_GAUSSIANS, MAX_TERMS};
 
-use crate::separable::ProjectedBasis;
+use crate::separable::BasisNumbers;
 
 /// `BlurStage` of `blur.wgsl`.
 #[repr(C)]
@@ -30,7 +30,7 @@ pub struct BlurStage {
 impl BlurStage {
     /// Blocks of all stages for the basis of a material, along rows and along columns; shape `[a][2]`.
     #[must_use]
-    pub fn cascade(basis: &ProjectedBasis) -> Vec<[Self; 2]> {
+    pub fn cascade(basis: &BasisNumbers) -> Vec<[Self; 2]> {
         let terms = basis.size().terms;
         let cascade = basis.cascade();
         let blocks = cascade.stages().iter().enumerate().map(|(a, stage)| {
@@ -101,7 +101,7 @@ pub struct Transmission {
 impl Transmission {
     /// Block for the basis of a material.
     #[must_use]
-    pub fn new(basis: &ProjectedBasis) -> Self {
+    pub fn new(basis: &BasisNumbers) -> Self {
         let mut weights = [[0.0; 4]; MAX_GAUSSIANS * MAX_TERMS * MAX_TERMS];
         let stages = BlurStage::cascade(basis);
         for (a, ([rows, _], sigma)) in stages.iter().zip(basis.sigmas()).enumerate() {

@@ -12,6 +12,6 @@ pub use blur::{BlurStage, MOST_TAPS, ScreenDomain, Transmission, Upsampling};
 pub use btf::{BtfCodebooks, BtfFiltering, BtfImages, BtfTable, BtfTexture, MAX_LEVELS, MAX_RINGS_OF_DIRECTIONS};
 pub use material::{BASE_ROWS, Material, ROW};
 pub use object::{Blocks, Object};
-pub use patch::{Frame, Kernel, MAX_KERNEL, PatchRegion};
+pub use patch::{Frame, Kernel, MAX_KERNEL, PatchDomain, PatchRegion};
 pub use scene::{HOST_SHADOW, HOST_SHADOW_REVERSED, LightSource, NO_SHADOW, OWN_SHADOW, PointGrid, Scene};
 pub use splat::{MAX_RINGS, Splat, SplatRings, TsmLight};

@@ -1,6 +1,7 @@
 //! Blocks of passes on flat patches.
 
 use bytemuck::{Pod, Zeroable};
+use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use crate::rgb::Rgb;
 
@@ -12,6 +13,26 @@ pub struct PatchRegion {
     pub origin: [u32; 2],
     #[doc(hidden)]
     pub pad: [u32; 2],
+}
+
+/// `PatchDomain` of `domain_patch.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct PatchDomain {
+    /// Pixels of the patch, columns and rows.
+    pub size: [u32; 2],
+    /// 0 clamp, 1 repeat, 2 mirror.
+    pub addressing: u32,
+    #[doc(hidden)]
+    pub pad: u32,
+}
+
+impl PatchDomain {
+    /// Block for the patch of a file.
+    #[must_use]
+    pub fn new(header: &BssrdfHeader) -> Self {
+        Self { size: [header.width, header.height], addressing: header.addressing.code().into(), pad: 0 }
+    }
 }
 
 /// Largest number of taps to one side of `homogeneous.wgsl`, the middle one counted.

@@ -12,7 +12,7 @@ use subsurf_decoder::container::ENTRY_BYTES;
 use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, fit_basis, with_basis};
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_encoder::metrics::psnr_db;
-use subsurf_runtime::{Backend, Gpu, PatchLight, SeparableMaterial, SeparableRenderer};
+use subsurf_runtime::{Backend, Gpu, Load, PatchLight, SeparableMaterial, SeparableRenderer};
 use subsurf_shaders::separable::ProjectedBasis;
 use subsurf_shaders::{Rgb, cpu};
 use subsurf_viewer::{read, stem};
@@ -64,7 +64,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 );
                 let by_cpu = ("CPU, single precision".to_owned(), psnr_of(&lights, |light| Ok(basis.exitance(light)))?);
                 let by_gpu = |(backend, gpu): &(Backend, Gpu)| {
-                    let uploaded = SeparableMaterial::upload(gpu, &basis)?;
+                    let uploaded = Load::separable(gpu, &material, basis.numbers())?.finish()?;
                     Ok((backend.to_string(), psnr_of(&lights, |light| drawn(gpu, &uploaded, light))?))
                 };
                 let by_gpus: Vec<_> = gpus.iter().map(by_gpu).collect::<anyhow::Result<_>>()?;

@@ -11,11 +11,11 @@ use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, add_basis};
 use subsurf_encoder::synthetic::Shape;
 use subsurf_runtime::{
-    Backend, BssrdfPlanes, Gpu, HomogeneousRenderer, PatchLight, PatchRenderer, Region, SeparableMaterial,
-    SeparableRenderer, layout_of,
+    Backend, BssrdfPlanes, Gpu, HomogeneousRenderer, Load, PatchLight, PatchRenderer, Region, SeparableRenderer,
+    layout_of,
 };
 use subsurf_shaders::mean_kernel;
-use subsurf_viewer::{Scattering, basis};
+use subsurf_viewer::{Scattering, numbers};
 
 use super::devices::to_compare;
 use super::timing::median;
@@ -77,8 +77,8 @@ fn measure(gpu: &Gpu, backend: Backend, side: u32, args: &Args) -> anyhow::Resul
     // A gather takes long enough to be timed a few times only.
     let gather = times(gpu, args.frames.min(3), || renderer.gather(gpu, &uploaded, &light, whole).map(|_| ()))?;
 
-    let basis = basis(&material, Scattering::Separable)?;
-    let uploaded = SeparableMaterial::upload(gpu, &basis)?;
+    let numbers = numbers(&material, Scattering::Separable)?;
+    let uploaded = Load::separable(gpu, &material, &numbers)?.finish()?;
     let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
     let patch = renderer.prepare(gpu, &uploaded, &light)?;
     let separable = times(gpu, args.frames, || renderer.draw(gpu, &patch).map(|_| ()))?;
@@ -88,7 +88,7 @@ fn measure(gpu: &Gpu, backend: Backend, side: u32, args: &Args) -> anyhow::Resul
     let patch = renderer.prepare(gpu, material.header(), &kernel, &light)?;
     let homogeneous = times(gpu, args.frames, || renderer.draw(gpu, &patch).map(|_| ()))?;
 
-    let taps: i32 = basis.cascade().stages().iter().map(|stage| 2 * stage.taps + 1).sum();
+    let taps: i32 = numbers.cascade().stages().iter().map(|stage| 2 * stage.taps + 1).sum();
     let [gather, separable, homogeneous] = [gather, separable, homogeneous].map(|times| median(&times));
     outln!(
         "  {side}x{side}: gather {gather:.1} ms, separable {separable:.2} ms ({taps} taps an axis), one kernel \

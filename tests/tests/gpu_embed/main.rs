@@ -12,6 +12,7 @@ use subsurf_scene::{Environment, Lighting, Mapping, View};
 mod application;
 mod host_map;
 mod lights;
+mod lost;
 mod mistakes;
 mod projection;
 mod stage;

@@ -5,8 +5,7 @@ use subsurf_decoder::{Bssrdf, File};
 use subsurf_encoder::synthetic::NestedShape;
 use subsurf_runtime::wgpu::{self, Backends, Color, LoadOp, Operations, StoreOp, TextureFormat};
 use subsurf_runtime::{
-    BtfOptions, DepthFormat, Gpu, GpuMesh, Input, Material, Object, Renderer, RuntimeOptions, SplatMaterial, Target,
-    VertexData,
+    BtfOptions, DepthFormat, Gpu, GpuMesh, Input, Load, Material, Object, Renderer, RuntimeOptions, Target, VertexData,
 };
 use subsurf_scene::{AmbientTransfer, Environment, Light, LightShape, Lighting, Mapping, Shadow, View, sphere};
 use subsurf_tests::frames::material_of;
@@ -49,7 +48,7 @@ impl Stage {
         let (ambient, tangents) = (AmbientTransfer::of(&mesh, &file).unwrap(), mesh.tangents().unwrap());
         let known = VertexData { ambient: Some(&ambient), tangents: Some(&tangents), points: None };
         let mesh = GpuMesh::upload(&gpu, &mesh, known).unwrap();
-        let splats: Material = SplatMaterial::upload(&gpu, &file).unwrap().into();
+        let splats: Material = Load::splat(&gpu, &file).unwrap().finish().unwrap().into();
         // Light from all around that has no grain, so that pictures can be compared bit for bit.
         let btf = BtfOptions { samples: 0, ..BtfOptions::default() };
         let options = RuntimeOptions { format: COLOUR, depth: DEPTH, tone_mapping: false, btf, ..options };

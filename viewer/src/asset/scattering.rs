@@ -3,11 +3,9 @@
 use std::sync::Arc;
 
 use subsurf_decoder::Bssrdf;
-use subsurf_runtime::{
-    BssrdfPlanes, GatherMaterial, Gpu, GpuMesh, GpuPoints, Material, SeparableMaterial, SplatMaterial, VertexData,
-};
+use subsurf_runtime::{BssrdfPlanes, GatherMaterial, Gpu, GpuMesh, GpuPoints, Load, Material, VertexData};
 use subsurf_scene::{AmbientTransfer, Mapping, Mesh, Scene, SurfacePoints, visibility};
-use subsurf_shaders::separable::ProjectedBasis;
+use subsurf_shaders::separable::{BasisNumbers, ProjectedBasis};
 
 use super::gpu::GpuAsset;
 use crate::error::{Error, Result};
@@ -37,7 +35,7 @@ pub struct Asset {
 enum Parts {
     Gather { fine: Mesh, surface: SurfacePoints },
     Splat { sky: Arc<Vec<AmbientTransfer>> },
-    Separable { sky: Arc<Vec<AmbientTransfer>>, basis: ProjectedBasis },
+    Separable { sky: Arc<Vec<AmbientTransfer>>, numbers: BasisNumbers },
 }
 
 impl Asset {
@@ -66,7 +64,7 @@ impl Asset {
             }
             Scattering::Splat => Parts::Splat { sky: sky()? },
             Scattering::Separable | Scattering::Homogeneous => {
-                Parts::Separable { basis: basis(material, technique)?, sky: sky()? }
+                Parts::Separable { numbers: numbers(material, technique)?, sky: sky()? }
             }
         };
         Ok(Self { mapping, parts })
@@ -96,8 +94,10 @@ impl Asset {
                 let material = GatherMaterial { planes, points: GpuPoints::upload(gpu, surface)? };
                 (GpuMesh::upload(gpu, fine, known)?, material.into())
             }
-            Parts::Splat { sky } => (shared(sky)?, SplatMaterial::upload(gpu, material)?.into()),
-            Parts::Separable { sky, basis } => (shared(sky)?, SeparableMaterial::upload(gpu, basis)?.into()),
+            Parts::Splat { sky } => (shared(sky)?, Load::splat(gpu, material)?.finish()?.into()),
+            Parts::Separable { sky, numbers } => {
+                (shared(sky)?, Load::separable(gpu, material, numbers)?.finish()?.into())
+            }
         };
         Ok(GpuAsset { mesh, material, mapping: self.mapping })
     }
@@ -108,13 +108,26 @@ impl Asset {
 /// # Errors
 /// The file has no basis.
 pub fn basis(material: &Bssrdf<'_>, technique: Scattering) -> Result<ProjectedBasis> {
-    let basis = ProjectedBasis::of(material).ok_or_else(|| {
-        Error::Request(
-            "the file has no separable basis: draw it by splat or gather, or add one with `subsurf encode --add-basis FILE`"
-                .to_owned(),
-        )
-    })?;
+    let basis = ProjectedBasis::of(material).ok_or_else(no_basis)?;
     Ok(if technique == Scattering::Homogeneous { basis.homogeneous() } else { basis })
+}
+
+/// Numbers of the separable basis of a file, or those of its mean for [`Scattering::Homogeneous`].
+///
+/// # Errors
+/// The file has no basis.
+pub fn numbers(material: &Bssrdf<'_>, technique: Scattering) -> Result<BasisNumbers> {
+    if technique == Scattering::Homogeneous {
+        return Ok(basis(material, technique)?.numbers().clone());
+    }
+    BasisNumbers::of(material).ok_or_else(no_basis)
+}
+
+fn no_basis() -> Error {
+    Error::Request(
+        "the file has no separable basis: draw it by splat or gather, or add one with `subsurf encode --add-basis FILE`"
+            .to_owned(),
+    )
 }
 
 /// The mesh with vertices close enough to gather light at, and them as points that exchange light.

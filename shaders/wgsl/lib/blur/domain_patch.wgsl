@@ -1,6 +1,14 @@
-// Domain of blurs on a flat patch: taps as far apart as the stage has them, wrapped at the border by the sampler.
+// Domain of blurs on a flat patch: taps as far apart as the stage has them, texels beyond the border addressed as the patch says.
 
-@group(0) @binding(1) var nearest: sampler;
+struct PatchDomain {
+    // Pixels of the patch, columns and rows.
+    size: vec2<u32>,
+    // 0 clamp, 1 repeat, 2 mirror.
+    addressing: u32,
+    pad: u32,
+}
+
+@group(0) @binding(1) var<uniform> domain: PatchDomain;
 
 // Taps of the stage, the same for all texels.
 fn taps_at(centre: vec4<f32>) -> Taps {
@@ -19,7 +27,15 @@ fn has_sum() -> bool {
     return stage.has_sum != 0u;
 }
 
-// Texture coordinates of the middle of a texel.
-fn middle_of(x: vec2<i32>, size: vec2<u32>) -> vec2<f32> {
-    return (vec2<f32>(x) + 0.5) / vec2<f32>(size);
+// Pixel of the patch for a texel, or for a tap of it beyond the border.
+fn addressed(x: vec2<i32>) -> vec2<u32> {
+    let last = vec2<i32>(domain.size) - 1;
+    let inside = clamp(x, vec2<i32>(0), last);
+    if domain.addressing == 0u || all(inside == x) {
+        return vec2<u32>(inside);
+    }
+    // Mirrored patches repeat after two. Made positive first: GLSL's remainder of negative numbers is another one.
+    let period = domain.size * select(1u, 2u, domain.addressing == 2u);
+    let m = vec2<u32>(x + vec2<i32>(period) * max(stage.taps * stage.stride, 1)) % period;
+    return min(m, select(m, period - 1u - m, domain.addressing == 2u));
 }

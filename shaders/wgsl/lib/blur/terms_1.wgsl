@@ -3,7 +3,6 @@
 const TERMS: u32 = 1u;
 
 alias TargetMaps = TargetTexture;
-alias FloatMaps = texture_2d<f32>;
 
 struct Maps {
     @location(0) first: TargetTexel,
@@ -17,11 +16,6 @@ struct MapsAndSums {
 // Map l at a texel.
 fn load_map(maps: TargetMaps, texel: vec2<i32>, l: u32) -> vec4<f32> {
     return unpack(textureLoad(maps, texel, 0));
-}
-
-// Map l at texture coordinates.
-fn sample_map(maps: FloatMaps, map_sampler: sampler, uv: vec2<f32>, l: u32) -> vec4<f32> {
-    return textureSampleLevel(maps, map_sampler, uv, 0.0);
 }
 
 // Targets for the maps.

@@ -3,7 +3,6 @@
 const TERMS: u32 = 2u;
 
 alias TargetMaps = TargetTextureArray;
-alias FloatMaps = texture_2d_array<f32>;
 
 struct Maps {
     @location(0) first: TargetTexel,
@@ -20,11 +19,6 @@ struct MapsAndSums {
 // Map l at a texel.
 fn load_map(maps: TargetMaps, texel: vec2<i32>, l: u32) -> vec4<f32> {
     return unpack(textureLoad(maps, texel, l, 0));
-}
-
-// Map l at texture coordinates.
-fn sample_map(maps: FloatMaps, map_sampler: sampler, uv: vec2<f32>, l: u32) -> vec4<f32> {
-    return textureSampleLevel(maps, map_sampler, uv, l, 0.0);
 }
 
 // Targets for the maps.

@@ -3,22 +3,25 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use anyhow::bail;
+use anyhow::{Context, bail};
+use clap::ValueEnum;
 use serde_json::{Value, json};
 use subsurf_cli::info::parse;
 use subsurf_cli::options::Size;
+use subsurf_cli::program::failure::bad_request;
 use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader};
 use subsurf_encoder::Progress;
+use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, add_basis};
 use subsurf_encoder::capture::{CaptureWriter, Scalar, Sidecar};
 use subsurf_encoder::synthetic::{Shape, capture_row};
 use subsurf_encoder::write_bytes;
 use subsurf_viewer::read;
 
-use super::options::{LoadOptions, load_one};
+use super::options::{LoadOptions, Way, load_one};
 use super::results::{Steps, Storage};
-use super::table::NAMES;
 
 /// Size of a synthetic material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +51,7 @@ impl FromStr for CaseArg {
 /// Usual cases: the size of the demo's material, one in between, and the paper's onyx: 229 × 229 pixels, W = 39, M = 128, S = 25.
 pub(super) const USUAL: [&str; 3] = ["64x64,25,64,13", "128x128,25,128,13", "229x229,39,128,25"];
 
-/// Case: three files of one material, and how large it is.
+/// Case: files of one material, and how large it is.
 pub(super) struct Case {
     pub(super) size: [u32; 2],
     pub(super) window: u32,
@@ -56,19 +59,33 @@ pub(super) struct Case {
     pub(super) samples: u32,
     /// Origin of the files, in words.
     pub(super) source: &'static str,
-    /// Capture, per-pixel profiles, 2-BMPP.
-    pub(super) files: [PathBuf; 3],
+    /// Capture, per-pixel profiles, 2-BMPP, 2-BMPP with a separable basis.
+    pub(super) files: [PathBuf; 4],
 }
 
+/// Ways to load a material, as results name them: number of the file, and what draws it.
+pub(super) const STORAGES: [(&str, usize, Way); 6] = [
+    ("capture", 0, Way::Gather),
+    ("profiles", 1, Way::Gather),
+    ("profiles_splat", 1, Way::Splat),
+    ("bmpp", 2, Way::Gather),
+    ("bmpp_splat", 2, Way::Splat),
+    ("separable", 3, Way::Separable),
+];
+
 impl Case {
-    /// Files that are there: a capture, its per-pixel profiles and its 2-BMPP.
-    pub(super) fn of_files(files: [PathBuf; 3]) -> anyhow::Result<Self> {
-        let bytes = read(&files[2])?;
-        let header = *parse(&files[2], &bytes)?.header();
-        Ok(Self::new(&header, "files", files))
+    /// Files that are there: a capture, its per-pixel profiles and its 2-BMPP, with a basis.
+    pub(super) fn of_files([capture, profiles, bmpp]: [PathBuf; 3]) -> anyhow::Result<Self> {
+        let bytes = read(&bmpp)?;
+        let material = parse(&bmpp, &bytes)?;
+        if material.basis().is_none() {
+            let name = bmpp.display();
+            return Err(bad_request(format!("{name}: no separable basis, add one with `subsurf encode --add-basis`")));
+        }
+        Ok(Self::new(material.header(), "files", [capture, profiles, bmpp.clone(), bmpp]))
     }
 
-    fn new(header: &BssrdfHeader, source: &'static str, files: [PathBuf; 3]) -> Self {
+    fn new(header: &BssrdfHeader, source: &'static str, files: [PathBuf; 4]) -> Self {
         Self {
             size: [header.width, header.height],
             window: 2 * u32::from(header.window_radius) + 1,
@@ -80,12 +97,16 @@ impl Case {
     }
 }
 
-/// Writes a synthetic material three times.
+/// Writes a synthetic material in every way.
 pub(super) fn write_files(folder: &Path, shape: &Shape) -> anyhow::Result<Case> {
-    let files = ["capture.npy", "profiles.subsurf", "bmpp.subsurf"].map(|name| folder.join(name));
+    let names = ["capture.npy", "profiles.subsurf", "bmpp.subsurf", "separable.subsurf"];
+    let files = names.map(|name| folder.join(name));
     let bmpp = shape.bmpp();
     write_bytes(&files[1], &shape.per_pixel())?;
     write_bytes(&files[2], &bmpp)?;
+    // The largest usual basis, from the start of the fit: only the count of its numbers matters.
+    let choice = BasisChoice::Size(BasisSize { terms: 2, gaussians: 4 });
+    write_bytes(&files[3], &add_basis(&bmpp, &BasisOptions { choice, steps: 0 }, &())?)?;
     let material = Bssrdf::parse(&bmpp)?;
     let header = *material.header();
     let sidecar = Sidecar {
@@ -113,17 +134,24 @@ pub(super) fn write_files(folder: &Path, shape: &Shape) -> anyhow::Result<Case> 
     Ok(Case::new(&header, "synthetic, for timing", files))
 }
 
-/// Loads the three files, each in a process of its own.
+/// Loads the files for every technique, each in a process of its own.
 pub(super) fn measure(case: &Case, options: &LoadOptions) -> anyhow::Result<Value> {
     let bars = Bars::new();
-    bars.begin(&format!("loading {} × {} pixels", case.size[0], case.size[1]), 3);
+    bars.begin(&format!("loading {} × {} pixels", case.size[0], case.size[1]), STORAGES.len() as u64);
+    let has_device = options.has_device()?;
     let mut storages = Vec::new();
-    for file in &case.files {
-        storages.push(load_one(file, None, options)?);
+    for (name, file, way) in STORAGES {
+        // Only devices draw meshes.
+        if way == Way::Gather || has_device {
+            let named = way.to_possible_value().context("ways have names")?;
+            let more = ["--way".as_ref(), named.get_name().as_ref()];
+            storages.push((name, load_one(&case.files[file], &more, options)?));
+        }
         bars.advance(1);
     }
-    let [capture, profiles, bmpp] = &storages[..] else {
-        bail!("three files make three results");
+    let of = |wanted: &str| storages.iter().find(|(name, _)| *name == wanted).map(|(_, storage)| storage);
+    let (Some(capture), Some(profiles), Some(bmpp)) = (of("capture"), of("profiles"), of("bmpp")) else {
+        bail!("what is gathered is always loaded");
     };
     let ratios = |other: &Storage| {
         let load = |steps: &Option<Steps>| steps.map(|steps| steps.load());
@@ -138,7 +166,7 @@ pub(super) fn measure(case: &Case, options: &LoadOptions) -> anyhow::Result<Valu
     };
     let parse_over_memcpy = bmpp.parts_us.get("checks_us").zip(bmpp.parts_us.get("memcpy_us")).map(|(a, b)| a / b);
     let mut storage = serde_json::Map::new();
-    for (name, result) in NAMES.iter().zip(&storages) {
+    for (name, result) in &storages {
         storage.insert((*name).to_owned(), serde_json::to_value(result)?);
     }
     Ok(json!({
@@ -152,5 +180,6 @@ pub(super) fn measure(case: &Case, options: &LoadOptions) -> anyhow::Result<Valu
         "storage": storage,
         "ratios": { "capture_over_bmpp": ratios(capture), "profiles_over_bmpp": ratios(profiles) },
         "bmpp_checks_over_memcpy": parse_over_memcpy,
+        "separable_cpu_over_bmpp": of("separable").map(|separable| separable.warm_us.cpu() / bmpp.warm_us.cpu()),
     }))
 }

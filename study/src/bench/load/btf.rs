@@ -27,7 +27,7 @@ pub(super) fn run(options: &LoadOptions, file: &Path, images: &Path) -> anyhow::
     let bars = Bars::new();
     bars.begin("loading", 2);
     let one = |path: &Path| {
-        let found = load_one(path, Some(images), options);
+        let found = load_one(path, &["--images".as_ref(), images.as_os_str()], options);
         bars.advance(1);
         found
     };
@@ -60,6 +60,7 @@ pub(super) fn run(options: &LoadOptions, file: &Path, images: &Path) -> anyhow::
     row("on the device", &|storage| bytes_of(storage.gpu_bytes), size_of);
     row("peak resident memory", &|storage| bytes_of(storage.peak_rss_bytes), size_of);
     row("of it before loading", &|storage| bytes_of(storage.baseline_rss_bytes), size_of);
+    row("pipelines, once", &|storage| Some(storage.pipelines_us), micros);
     type Step = (&'static str, fn(&Steps) -> f64);
     let steps: [Step; 5] = [
         ("read", |steps| steps.read),

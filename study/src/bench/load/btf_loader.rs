@@ -5,8 +5,8 @@ use std::path::Path;
 use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::NestedBtf;
 use subsurf_encoder::capture::Folder;
-use subsurf_runtime::{BtfLayout, Gpu};
-use subsurf_viewer::{Loader, Stored, parse_btf};
+use subsurf_runtime::{BtfLayout, Gpu, LoadTimer, RawImages, Stored, Technique};
+use subsurf_viewer::parse_btf;
 
 use super::results::Steps;
 use crate::bench::timing::Clock;
@@ -22,7 +22,7 @@ pub(super) struct BtfLoader<'a> {
     lights: Vec<glam::Vec3>,
     views: Vec<glam::Vec3>,
     /// None if texels are looked up on the CPU.
-    loader: Option<Loader<'a>>,
+    timer: Option<LoadTimer<'a>>,
 }
 
 impl<'a> BtfLoader<'a> {
@@ -34,21 +34,24 @@ impl<'a> BtfLoader<'a> {
         let [lights, views]: [Vec<glam::Vec3>; 2] =
             [folder.lights(), folder.views()].map(|all| all.iter().map(|direction| direction.unit()).collect());
         let stored = match layout {
-            BtfLayout::Nested => Stored::Btf,
-            BtfLayout::Images => Stored::Images { size: folder.size(), lights: lights.clone(), views: views.clone() },
+            BtfLayout::Nested => Stored::File(Technique::Btf(layout)),
+            BtfLayout::Images => {
+                Stored::Images(RawImages { size: folder.size(), lights: lights.clone(), views: views.clone() })
+            }
         };
-        let loader = gpu.map(|gpu| Loader::new(gpu, stored)).transpose()?;
-        Ok(Self { path, layout, size: folder.size(), lights, views, loader })
+        let timer = gpu.map(|gpu| LoadTimer::new(gpu, stored)).transpose()?;
+        Ok(Self { path, layout, size: folder.size(), lights, views, timer })
     }
 
-    /// File to picture, once; and the material's bytes on the device.
-    pub(super) fn once(&self) -> anyhow::Result<(Steps, u64)> {
+    /// File to picture, once; microseconds of pipelines that were compiled before it or in it; the material's bytes on the device.
+    pub(super) fn once(&self) -> anyhow::Result<(Steps, f64, u64)> {
         let mut clock = Clock::new();
         let bytes = std::fs::read(self.path)?;
         let read = clock.lap();
-        if let Some(loader) = &self.loader {
-            let loading = loader.load(&bytes)?;
-            return Ok((Steps::of(read, &loading), loading.gpu_bytes));
+        if let Some(timer) = &self.timer {
+            let times = timer.load(&bytes)?;
+            let pipelines = 1e6 * (timer.compiled() + times.pipelines).as_secs_f64();
+            return Ok((Steps::of(read, &times), pipelines, times.gpu_bytes));
         }
         // There is nothing to check in an array but its length.
         let btf = match self.layout {
@@ -59,7 +62,7 @@ impl<'a> BtfLoader<'a> {
         let parse = clock.lap();
         std::hint::black_box(self.picture(btf.as_ref(), &bytes));
         let first_frame = clock.lap();
-        Ok((Steps { read, parse, upload: 0.0, first_frame, total: read + parse + first_frame }, 0))
+        Ok((Steps::by_cpu(read, parse, first_frame), 0.0, 0))
     }
 
     fn image_len(&self) -> usize {

@@ -7,26 +7,35 @@ use subsurf_cli::info::parse;
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
 use subsurf_decoder::bssrdf::{BssrdfHeader, Coding};
 use subsurf_encoder::capture::{Capture, Overrides};
-use subsurf_runtime::{Gpu, MaterialLayout, layout_of};
+use subsurf_runtime::{Gpu, LoadTimer, MaterialLayout, Stored, Technique, layout_of};
 use subsurf_shaders::Rgb;
 use subsurf_shaders::cpu::{self, Reflectance};
-use subsurf_viewer::{Loader, Stored};
 
+use super::options::Way;
 use super::results::Steps;
 use crate::bench::timing::Clock;
 
 /// Pixels to a side of the first frame.
 const FRAME: u32 = 64;
 
-/// What the header says, and how the device will hold it.
-pub(super) fn describe(path: &Path, is_capture: bool) -> anyhow::Result<(BssrdfHeader, MaterialLayout)> {
-    if is_capture {
-        let capture = Capture::open(path, &Overrides::default())?;
-        return Ok((header_of(&capture)?, MaterialLayout::Capture));
+/// What the header says, how the device will hold it, and what is timed.
+fn describe(path: &Path, way: Way) -> anyhow::Result<(BssrdfHeader, MaterialLayout, Stored)> {
+    if path.extension().is_some_and(|extension| extension == "npy") {
+        let header = header_of(&Capture::open(path, &Overrides::default())?)?;
+        return Ok((header, MaterialLayout::Capture, Stored::Capture(header)));
     }
     let bytes = std::fs::read(path)?;
     let material = parse(path, &bytes)?;
-    Ok((*material.header(), layout_of(&material)))
+    let layout = layout_of(&material);
+    let stored = match way {
+        Way::Gather => Stored::Planes(layout),
+        Way::Splat => Stored::File(Technique::Splat(layout)),
+        Way::Separable => {
+            let basis = material.basis().context("the file has no separable basis")?;
+            Stored::File(Technique::Separable(basis.size().terms))
+        }
+    };
+    Ok((*material.header(), layout, stored))
 }
 
 /// A capture has no profiles; everything else is as in a file.
@@ -53,26 +62,18 @@ pub(super) struct FileLoader<'a> {
     header: BssrdfHeader,
     layout: MaterialLayout,
     /// None if the picture is drawn on the CPU.
-    loader: Option<Loader<'a>>,
+    timer: Option<LoadTimer<'a>>,
 }
 
 impl<'a> FileLoader<'a> {
     /// Compiles what an application has before it loads its first material.
-    pub(super) fn new(
-        gpu: Option<&'a Gpu>,
-        path: &'a Path,
-        header: BssrdfHeader,
-        layout: MaterialLayout,
-    ) -> anyhow::Result<Self> {
-        let stored = match layout {
-            MaterialLayout::Capture => Stored::Capture(header),
-            layout => Stored::Planes(layout),
-        };
-        Ok(Self { path, header, layout, loader: gpu.map(|gpu| Loader::new(gpu, stored)).transpose()? })
+    pub(super) fn new(gpu: Option<&'a Gpu>, path: &'a Path, way: Way) -> anyhow::Result<Self> {
+        let (header, layout, stored) = describe(path, way)?;
+        Ok(Self { path, header, layout, timer: gpu.map(|gpu| LoadTimer::new(gpu, stored)).transpose()? })
     }
 
-    /// File to picture, once; and the material's bytes on the device.
-    pub(super) fn once(&self) -> anyhow::Result<(Steps, u64)> {
+    /// File to picture, once; microseconds of pipelines that were compiled before it or in it; the material's bytes on the device.
+    pub(super) fn once(&self) -> anyhow::Result<(Steps, f64, u64)> {
         let mut clock = Clock::new();
         let bytes = std::fs::read(self.path)?;
         let read = clock.lap();
@@ -81,9 +82,10 @@ impl<'a> FileLoader<'a> {
             MaterialLayout::Capture => self.entries_of(&bytes)?,
             _ => &bytes,
         };
-        if let Some(loader) = &self.loader {
-            let loading = loader.load(bytes)?;
-            return Ok((Steps::of(read, &loading), loading.gpu_bytes));
+        if let Some(timer) = &self.timer {
+            let times = timer.load(bytes)?;
+            let pipelines = 1e6 * (timer.compiled() + times.pipelines).as_secs_f64();
+            return Ok((Steps::of(read, &times), pipelines, times.gpu_bytes));
         }
         let mut clock = Clock::new();
         let material = if self.layout == MaterialLayout::Capture { None } else { Some(parse(self.path, bytes)?) };
@@ -98,7 +100,7 @@ impl<'a> FileLoader<'a> {
         };
         std::hint::black_box(cpu::present(&exitance, size, size, 1.0));
         let first_frame = clock.lap();
-        Ok((Steps { read, parse, upload: 0.0, first_frame, total: read + parse + first_frame }, 0))
+        Ok((Steps::by_cpu(read, parse, first_frame), 0.0, 0))
     }
 
     fn entries_of<'b>(&self, bytes: &'b [u8]) -> anyhow::Result<&'b [u8]> {

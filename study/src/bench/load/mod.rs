@@ -22,10 +22,10 @@ use self::table::markdown;
 
 pub(super) use one::{Args as OneArgs, run as run_one};
 
-/// Time how materials load: uncompressed capture, per-pixel profiles and 2-BMPP of the same size.
+/// Time how materials load: uncompressed capture, per-pixel profiles and 2-BMPP of the same size, for every technique.
 ///
-/// Each is read, parsed with all checks, uploaded, and drawn once (64 × 64 pixels), again and again, in a process of its
-/// own, with the file in the page cache and without. Times are medians in microseconds. The materials are synthetic:
+/// Each is read, parsed with all checks, uploaded, projected where its technique wants that, and drawn once (64 × 64 pixels), again and
+/// again, in a process of its own, with the file in the page cache and without. Times are medians in microseconds. The materials are synthetic:
 /// for timing their numbers do not matter. With --btf, a file of yours is timed beside its images. So it
 /// is with --files and three files of one material.
 #[derive(clap::Args)]
@@ -33,7 +33,7 @@ pub(crate) struct Args {
     /// WIDTHxHEIGHT,WINDOW,M,S; more than once for several. The last of the usual ones has the size of the paper's onyx
     #[arg(long = "case", value_name = "WxH,D,M,S")]
     cases: Vec<CaseArg>,
-    /// Files of one material instead: a capture, its per-pixel profiles, its 2-BMPP
+    /// Files of one material instead: a capture, its per-pixel profiles, its 2-BMPP with a basis
     #[arg(long, value_names = ["CAPTURE", "PROFILES", "BMPP"], num_args = 3, conflicts_with = "cases")]
     files: Option<Vec<PathBuf>>,
     /// A BTF of nested codebooks instead, beside its images in one uncompressed array

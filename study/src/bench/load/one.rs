@@ -11,7 +11,8 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::container::{Container, Crc, crc32};
 
 use super::btf_loader::BtfLoader;
-use super::file_loader::{FileLoader, describe};
+use super::file_loader::FileLoader;
+use super::options::Way;
 use super::results::{Steps, Storage, medians};
 use crate::bench::timing::{Clock, median};
 
@@ -22,6 +23,9 @@ pub(crate) struct Args {
     /// The images of a BTF
     #[arg(long)]
     images: Option<PathBuf>,
+    /// What a translucent material is drawn by
+    #[arg(long, value_enum, default_value = "gather")]
+    way: Way,
     #[arg(long)]
     runs: usize,
     #[arg(long, value_enum)]
@@ -37,8 +41,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         return report(args, baseline, || loader.once(), || Ok(BTreeMap::new()));
     }
     let is_capture = args.file.extension().is_some_and(|extension| extension == "npy");
-    let (header, layout) = describe(&args.file, is_capture)?;
-    let loader = FileLoader::new(gpu.as_ref(), &args.file, header, layout)?;
+    let loader = FileLoader::new(gpu.as_ref(), &args.file, args.way)?;
     let parts =
         || Ok(if is_capture { BTreeMap::new() } else { parts_of_parse(&std::fs::read(&args.file)?, args.runs) });
     report(args, baseline, || loader.once(), parts)
@@ -48,12 +51,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 fn report(
     args: &Args,
     baseline: u64,
-    once: impl Fn() -> anyhow::Result<(Steps, u64)>,
+    once: impl Fn() -> anyhow::Result<(Steps, f64, u64)>,
     parts_us: impl FnOnce() -> anyhow::Result<BTreeMap<String, f64>>,
 ) -> anyhow::Result<()> {
-    // One run that does not count: driver caches, page cache.
-    let (_, gpu_bytes) = once()?;
-    let steps = || once().map(|(steps, _)| steps);
+    // One run whose steps do not count: pipelines, driver caches, page cache.
+    let (_, pipelines_us, gpu_bytes) = once()?;
+    let steps = || once().map(|(steps, ..)| steps);
     let warm: Vec<Steps> = (0..args.runs).map(|_| steps()).collect::<anyhow::Result<_>>()?;
     let mut cold = Vec::new();
     for _ in 0..args.runs {
@@ -68,6 +71,7 @@ fn report(
         gpu_bytes,
         peak_rss_bytes,
         baseline_rss_bytes: baseline,
+        pipelines_us,
         warm_us: medians(&warm),
         cold_us: (!cold.is_empty()).then(|| medians(&cold)),
         parts_us: parts_us()?,

@@ -1,15 +1,28 @@
 //! What all measurements of loading have in common: options, and a process for each file.
 
+use std::ffi::OsStr;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, bail};
+use clap::ValueEnum;
 use subsurf_cli::devices::{self, BackendArg};
 use subsurf_cli::program::failure::bad_request;
 use tempfile::TempDir;
 
 use super::results::Storage;
+
+/// Technique that a translucent material is loaded for and drawn by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Way {
+    /// Planes as they stand in the file, gathered on a flat patch.
+    Gather,
+    /// Splats on a mesh.
+    Splat,
+    /// Separable blurs on a mesh.
+    Separable,
+}
 
 /// Options of all measurements of loading.
 #[derive(clap::Args)]
@@ -38,20 +51,23 @@ impl LoadOptions {
         folder.map_err(|error| bad_request(format!("no folder for the files, name one with --dir: {error}")))
     }
 
+    /// Whether a device draws, not the CPU.
+    pub(super) fn has_device(&self) -> anyhow::Result<bool> {
+        Ok(self.backend.open()?.is_some())
+    }
+
     /// Name of what draws.
     pub(super) fn device(&self) -> anyhow::Result<String> {
         Ok(devices::name(self.backend.open()?.as_ref()))
     }
 }
 
-/// Loads one file in a process of its own: of a BTF, with the folder of its images.
-pub(super) fn load_one(file: &Path, images: Option<&Path>, options: &LoadOptions) -> anyhow::Result<Storage> {
-    let backend = clap::ValueEnum::to_possible_value(&options.backend).context("backends have names")?;
+/// Loads one file in a process of its own, with what `more` says of it: how it is drawn, where the images of a BTF are.
+pub(super) fn load_one(file: &Path, more: &[&OsStr], options: &LoadOptions) -> anyhow::Result<Storage> {
+    let backend = options.backend.to_possible_value().context("backends have names")?;
     let mut command = Command::new(std::env::current_exe()?);
     command.args(["bench", "load-one", "--runs", &options.runs.to_string(), "--backend", backend.get_name()]).arg(file);
-    if let Some(images) = images {
-        command.arg("--images").arg(images);
-    }
+    command.args(more);
     let output = command.stderr(Stdio::piped()).output()?;
     if !output.status.success() {
         std::io::stderr().write_all(&output.stderr)?;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use subsurf_viewer::Loading;
+use subsurf_runtime::LoadTimes;
 
 use crate::bench::timing::median;
 
@@ -17,23 +17,39 @@ pub(super) struct Steps {
     pub(super) parse: f64,
     /// Onto the device, until it has everything.
     pub(super) upload: f64,
-    /// Gathering 64 × 64 pixels and reading their picture back.
+    /// Coefficients and albedo, until the device has drawn them.
+    pub(super) projection: f64,
+    /// Of that, until they were recorded and submitted.
+    pub(super) recording: f64,
+    /// Drawing 64 × 64 pixels, until they are there.
     pub(super) first_frame: f64,
-    /// Sum of all steps.
+    /// Sum of all steps; pipelines are compiled before.
     pub(super) total: f64,
 }
 
 impl Steps {
     /// Steps of a load on a device, after so many microseconds of reading.
-    pub(super) fn of(read: f64, loading: &Loading) -> Self {
-        let [parse, upload, first_frame] =
-            [loading.parse, loading.upload, loading.first_frame].map(|time| 1e6 * time.as_secs_f64());
-        Self { read, parse, upload, first_frame, total: read + parse + upload + first_frame }
+    pub(super) fn of(read: f64, times: &LoadTimes) -> Self {
+        let LoadTimes { parse, upload, projection, recording, first_frame, .. } = *times;
+        let [parse, upload, projection, recording, first_frame] =
+            [parse, upload, projection, recording, first_frame].map(|time| 1e6 * time.as_secs_f64());
+        let total = read + parse + upload + projection + first_frame;
+        Self { read, parse, upload, projection, recording, first_frame, total }
     }
 
-    /// Until the material can be drawn: read, parse, upload.
+    /// Steps of a picture that the CPU draws.
+    pub(super) fn by_cpu(read: f64, parse: f64, first_frame: f64) -> Self {
+        Self { read, parse, first_frame, total: read + parse + first_frame, ..Self::default() }
+    }
+
+    /// Until the material can be drawn: read, parse, upload, projection.
     pub(super) fn load(&self) -> f64 {
-        self.read + self.parse + self.upload
+        self.read + self.parse + self.upload + self.projection
+    }
+
+    /// Work of the CPU from bytes to what can be drawn: parse, upload, recording the projection.
+    pub(super) fn cpu(&self) -> f64 {
+        self.parse + self.upload + self.recording
     }
 }
 
@@ -44,6 +60,8 @@ pub(super) fn medians(runs: &[Steps]) -> Steps {
         read: of(|run| run.read),
         parse: of(|run| run.parse),
         upload: of(|run| run.upload),
+        projection: of(|run| run.projection),
+        recording: of(|run| run.recording),
         first_frame: of(|run| run.first_frame),
         total: of(|run| run.total),
     }
@@ -60,6 +78,8 @@ pub(super) struct Storage {
     pub(super) peak_rss_bytes: u64,
     /// Of that, what the process and its driver had before the first load.
     pub(super) baseline_rss_bytes: u64,
+    /// Microseconds of compiling all pipelines, once.
+    pub(super) pipelines_us: f64,
     /// Times with the file in the page cache.
     pub(super) warm_us: Steps,
     /// Times with the page cache dropped before every read; absent where the system cannot.

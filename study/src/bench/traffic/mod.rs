@@ -12,7 +12,7 @@ use subsurf_cli::outln;
 use subsurf_cli::program::failure::bad_request;
 use subsurf_runtime::{Input, RuntimeOptions};
 use subsurf_scene::{Mesh, View};
-use subsurf_shaders::separable::ProjectedBasis;
+use subsurf_shaders::separable::BasisNumbers;
 use subsurf_shaders::uniform::BlurStage;
 use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scattering, choose_mapping, read, stem};
 
@@ -43,7 +43,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let bytes = read(&args.file)?;
     let material = parse(&args.file, &bytes)?;
-    let basis = ProjectedBasis::of(&material)
+    let basis = BasisNumbers::of(&material)
         .ok_or_else(|| bad_request("a file without separable basis; `subsurf encode --add-basis FILE` adds one"))?;
     let gpus = to_compare();
     let (_, gpu) =

@@ -1,0 +1,126 @@
+//! Steps that make a material of a file, one list for each technique.
+
+use std::sync::Arc;
+
+use subsurf_decoder::{Bssrdf, Content, File};
+use subsurf_shaders::MaterialLayout;
+use subsurf_shaders::separable::{BasisNumbers, ProfileSums};
+
+use super::projection::{Projection, levels_pass, sums_pass, table};
+use super::steps::{Load, LoadPhase};
+use crate::asset::{BssrdfPlanes, BtfMaterial, Material, SeparableMaterial, SplatMaterial};
+use crate::error::{Error, Result};
+use crate::gpu::Gpu;
+use crate::technique::SeparableRenderer;
+
+impl<'a> Load<'a> {
+    /// Begins to load a file for the fastest technique that it offers: separable blurs where it has a basis for them, else splats;
+    /// a BTF as it is, its first material.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for a factored BTF, which no technique draws; [`Error::Unsupported`] if the device takes no texture of
+    /// that size.
+    pub fn new(gpu: &'a Gpu, file: &File<'a>) -> Result<Self> {
+        match file.content() {
+            Content::Bssrdf(material) => match BasisNumbers::of(&material) {
+                Some(numbers) => Ok(Load::separable(gpu, &material, &numbers)?.map(Material::Separable)),
+                None => Ok(Load::splat(gpu, &material)?.map(Material::Splat)),
+            },
+            Content::NestedBtf(btf) => {
+                let (material, fills) = BtfMaterial::begin(gpu, &btf)?;
+                Ok(Load::of(gpu, Material::Btf(Arc::new(material), 0)).filled(fills))
+            }
+            _ => Err(Error::Usage("factored BTFs are not drawn from the file: encode the images as nested".to_owned())),
+        }
+    }
+}
+
+impl<'a> Load<'a, Arc<SeparableMaterial>> {
+    /// Begins to load a translucent material for separable blurs by the numbers of a basis, [`BasisNumbers::of`] the same file.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no texture of that size; [`Error::Usage`] for numbers of another patch.
+    pub fn separable(gpu: &'a Gpu, material: &Bssrdf<'a>, numbers: &BasisNumbers) -> Result<Self> {
+        if numbers.header() != material.header() {
+            return Err(Error::Usage("numbers of a basis for another material".to_owned()));
+        }
+        let (planes, fills) = BssrdfPlanes::begin(gpu, material)?;
+        let (table, fill) = table(gpu, numbers.sums())?;
+        let made = Arc::new(SeparableMaterial::new(gpu, numbers)?);
+        let (terms, to) = (made.terms(), made.clone());
+        let load = Load::of(gpu, made).filled(fills).filled([fill]);
+        let load = load.sums_compiled(planes.layout(), terms).albedo_compiled(terms).levels_compiled(terms + 1);
+        Ok(load.then(LoadPhase::Projection, move |gpu| {
+            let mut projection = Projection::new(gpu, &to.layers)?;
+            projection.sums(&planes, &table, terms)?;
+            projection.albedo(&to, to.layers.count - 1)?;
+            projection.levels()?;
+            projection.submit()
+        }))
+    }
+}
+
+impl<'a> Load<'a, Arc<SplatMaterial>> {
+    /// Begins to load a translucent material for splats: the planes of its file, and its albedo under uniform light: by the basis
+    /// of the file; where it has none, [`ProfileSums::albedo`].
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no texture of that size.
+    pub fn splat(gpu: &'a Gpu, material: &Bssrdf<'a>) -> Result<Self> {
+        let (planes, fills) = BssrdfPlanes::begin(gpu, material)?;
+        let layout = planes.layout();
+        let made = Arc::new(SplatMaterial::new(gpu, material, planes)?);
+        let to = made.clone();
+        let load = Load::of(gpu, made).filled(fills);
+        let Some(numbers) = BasisNumbers::of(material) else {
+            let (table, fill) = table(gpu, &ProfileSums::albedo(material))?;
+            let load = load.filled([fill]).sums_compiled(layout, 1).levels_compiled(1);
+            return Ok(load.then(LoadPhase::Projection, move |gpu| {
+                let mut projection = Projection::new(gpu, &to.albedo)?;
+                projection.sums(&to.planes, &table, 1)?;
+                projection.levels()?;
+                projection.submit()
+            }));
+        };
+        let (table, fill) = table(gpu, numbers.sums())?;
+        let basis = SeparableMaterial::new(gpu, &numbers)?;
+        let terms = basis.terms();
+        let load = load.filled([fill]).sums_compiled(layout, terms).albedo_compiled(terms).levels_compiled(1);
+        Ok(load.then(LoadPhase::Projection, move |gpu| {
+            let mut coefficients = Projection::new(gpu, &basis.layers)?;
+            coefficients.sums(&to.planes, &table, terms)?;
+            coefficients.submit()?;
+            let mut projection = Projection::new(gpu, &to.albedo)?;
+            projection.albedo(&basis, 0)?;
+            projection.levels()?;
+            projection.submit()
+        }))
+    }
+}
+
+impl<M> Load<'_, M> {
+    /// Compiles the pass of so many sums over profiles.
+    fn sums_compiled(self, layout: MaterialLayout, count: usize) -> Self {
+        self.then(LoadPhase::Pipelines, move |gpu| sums_pass(gpu, layout, count).map(|_| ()))
+    }
+
+    /// Compiles the passes of an albedo by a basis of so many terms.
+    fn albedo_compiled(self, terms: usize) -> Self {
+        self.then(LoadPhase::Pipelines, move |gpu| SeparableRenderer::new(gpu, terms).map(|_| ()))
+    }
+
+    /// Compiles the pass of mipmap levels of so many layers.
+    fn levels_compiled(self, layers: usize) -> Self {
+        self.then(LoadPhase::Pipelines, move |gpu| levels_pass(gpu, layers).map(|_| ()))
+    }
+}
+
+impl Material {
+    /// Uploads a file for the fastest technique that it offers, all steps of [`Load::new`] at once.
+    ///
+    /// # Errors
+    /// As [`Load::new`] and [`Load::step`].
+    pub fn load(gpu: &Gpu, file: &File<'_>) -> Result<Self> {
+        Load::new(gpu, file)?.finish()
+    }
+}

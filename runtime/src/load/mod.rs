@@ -1,0 +1,12 @@
+//! Loading: from a file to a material on the device, in steps.
+
+mod first_frame;
+mod materials;
+mod projection;
+mod steps;
+mod stored;
+mod timer;
+
+pub use steps::{Load, LoadPhase};
+pub use stored::{RawImages, Stored};
+pub use timer::{LoadTimer, LoadTimes};

@@ -1,0 +1,173 @@
+//! Timed loads: from the bytes of a file to its first frame, step by step. Benchmarks and tests on every system share it.
+
+use std::time::Duration;
+
+use subsurf_decoder::bssrdf::BssrdfHeader;
+use subsurf_decoder::{Bssrdf, Content, File};
+use subsurf_shaders::{BtfLayout, MaterialLayout};
+use web_time::Instant;
+
+use super::first_frame::{Stage, gathered};
+use super::steps::{Load, LoadPhase};
+use super::stored::{RawImages, Stored, capture_bytes, expect_length};
+use crate::asset::{BssrdfPlanes, Material};
+use crate::error::Result;
+use crate::gpu::Gpu;
+use crate::technique::{PatchRenderer, Technique};
+
+/// Load of one file: how long each phase took, and what the device holds then.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LoadTimes {
+    /// All checks, CRCs included.
+    pub parse: Duration,
+    /// Onto the device, until it has everything.
+    pub upload: Duration,
+    /// Pipelines that the load compiled: none but at the first load of a kind.
+    pub pipelines: Duration,
+    /// Passes of the projection, recorded and submitted: what the CPU does of it where the device is none.
+    pub recording: Duration,
+    /// Projection from its beginning until the device has done it.
+    pub projection: Duration,
+    /// First frame of 64 × 64 pixels at most, until it is done.
+    pub first_frame: Duration,
+    /// Bytes of the material on the device.
+    pub gpu_bytes: u64,
+}
+
+/// What an application has before it loads its first material: pipelines of frames, and a mesh.
+pub struct LoadTimer<'a> {
+    gpu: &'a Gpu,
+    ready: Ready,
+    compiled: Duration,
+}
+
+/// Pipelines and what is loaded for them.
+enum Ready {
+    Planes(PatchRenderer),
+    Capture(PatchRenderer, BssrdfHeader),
+    File(Stage, Technique),
+    Images(Stage, RawImages),
+}
+
+impl LoadTimes {
+    /// Work of the CPU besides pipelines until the material can be drawn: parse, upload, recording.
+    #[must_use]
+    pub fn cpu(&self) -> Duration {
+        self.parse + self.upload + self.recording
+    }
+
+    /// Time besides pipelines until the material can be drawn: parse, upload, projection.
+    #[must_use]
+    pub fn drawable(&self) -> Duration {
+        self.parse + self.upload + self.projection
+    }
+}
+
+impl<'a> LoadTimer<'a> {
+    /// Compiles the pipelines of frames.
+    ///
+    /// # Errors
+    /// The device cannot draw it.
+    pub fn new(gpu: &'a Gpu, stored: Stored) -> Result<Self> {
+        let begin = Instant::now();
+        let ready = match stored {
+            Stored::Planes(layout) => Ready::Planes(PatchRenderer::new(gpu, layout)?),
+            Stored::Capture(header) => Ready::Capture(PatchRenderer::new(gpu, MaterialLayout::Capture)?, header),
+            Stored::File(technique) => Ready::File(Stage::new(gpu, technique)?, technique),
+            Stored::Images(images) => Ready::Images(Stage::new(gpu, Technique::Btf(BtfLayout::Images))?, images),
+        };
+        Ok(Self { gpu, ready, compiled: begin.elapsed() })
+    }
+
+    /// Time that the pipelines of frames took.
+    #[must_use]
+    pub fn compiled(&self) -> Duration {
+        self.compiled
+    }
+
+    /// Loads a file, once.
+    ///
+    /// # Errors
+    /// The bytes are not what they should be, or the device has no room for them.
+    pub fn load(&self, bytes: &[u8]) -> Result<LoadTimes> {
+        let gpu = self.gpu;
+        let mut times = LoadTimes::default();
+        let begin = Instant::now();
+        match &self.ready {
+            Ready::Planes(renderer) => {
+                let file = Bssrdf::parse(bytes)?;
+                times.parse = begin.elapsed();
+                let planes = timed(&mut times.upload, || uploaded(gpu, BssrdfPlanes::upload(gpu, &file)))?;
+                times.gpu_bytes = planes.gpu_bytes();
+                timed(&mut times.first_frame, || gathered(gpu, renderer, &planes))?;
+            }
+            Ready::Capture(renderer, header) => {
+                // There is nothing to check in an array but its length.
+                expect_length(bytes, capture_bytes(header))?;
+                times.parse = begin.elapsed();
+                let upload = || uploaded(gpu, BssrdfPlanes::upload_capture(gpu, header, bytes));
+                let planes = timed(&mut times.upload, upload)?;
+                times.gpu_bytes = planes.gpu_bytes();
+                timed(&mut times.first_frame, || gathered(gpu, renderer, &planes))?;
+            }
+            Ready::Images(stage, images) => {
+                expect_length(bytes, images.bytes())?;
+                times.parse = begin.elapsed();
+                let material = timed(&mut times.upload, || uploaded(gpu, images.upload(gpu, bytes)))?;
+                times.gpu_bytes = material.gpu_bytes();
+                timed(&mut times.first_frame, || stage.draw(gpu, &material))?;
+            }
+            Ready::File(stage, technique) => {
+                let file = File::parse(bytes)?;
+                times.parse = begin.elapsed();
+                let load = match (technique, file.content()) {
+                    (Technique::Splat(_), Content::Bssrdf(material)) => {
+                        timed(&mut times.upload, || Load::splat(gpu, &material))?.map(Material::Splat)
+                    }
+                    _ => timed(&mut times.upload, || Load::new(gpu, &file))?,
+                };
+                let material = in_phases(gpu, load, &mut times)?;
+                times.gpu_bytes = material.gpu_bytes();
+                timed(&mut times.first_frame, || stage.draw(gpu, &material))?;
+            }
+        }
+        Ok(times)
+    }
+}
+
+/// Does all steps of a load; the device has done those of a phase before the next begins.
+fn in_phases(gpu: &Gpu, mut load: Load<'_>, times: &mut LoadTimes) -> Result<Material> {
+    while let Some(phase) = load.phase() {
+        let begin = Instant::now();
+        load.step()?;
+        let worked = begin.elapsed();
+        if load.phase() != Some(phase) {
+            gpu.finish()?;
+        }
+        let done = begin.elapsed();
+        match phase {
+            LoadPhase::Upload => times.upload += done,
+            LoadPhase::Pipelines => times.pipelines += done,
+            LoadPhase::Projection => {
+                times.recording += worked;
+                times.projection += done;
+            }
+        }
+    }
+    load.finish()
+}
+
+/// What was made, once the device has everything.
+fn uploaded<T>(gpu: &Gpu, made: Result<T>) -> Result<T> {
+    let made = made?;
+    gpu.finish()?;
+    Ok(made)
+}
+
+/// Adds how long something takes to a phase.
+fn timed<T>(phase: &mut Duration, work: impl FnOnce() -> Result<T>) -> Result<T> {
+    let begin = Instant::now();
+    let made = work();
+    *phase += begin.elapsed();
+    made
+}
