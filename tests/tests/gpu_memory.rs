@@ -137,7 +137,7 @@ fn lights_without_shadows_take_no_memory() {
         for mode in [RenderMode::Splat, RenderMode::Separable] {
             let loaded = Loaded::new(&gpu, mode, &file, &mesh);
             let taken = |drawn, through| {
-                let frame = prepared(&gpu, &loaded, &with(drawn, through), None).unwrap();
+                let _frame = prepared(&gpu, &loaded, &with(drawn, through), None).unwrap();
                 (gpu.ledger().bytes(), gpu.ledger().bytes_of(Purpose::LightView))
             };
             assert_eq!(taken(1, 0), taken(1, 7), "{mode:?}: one shadow");

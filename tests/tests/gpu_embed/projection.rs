@@ -5,13 +5,14 @@ use subsurf_runtime::{Backend, Gpu, Input, PictureTarget, RuntimeOptions};
 use subsurf_scene::{Mesh, View, torus};
 use subsurf_tests::frames::{Loaded, RenderMode, device, material_of, psnr, scene};
 
-/// Picture of `size` pixels of a mesh under a view.
+/// Picture of `size` pixels of a mesh under a view, with maps as fine as the material asks for.
 fn picture(gpu: &Gpu, mode: RenderMode, file: &[u8], mesh: &Mesh, view: View, size: [u32; 2]) -> Vec<[u8; 3]> {
     let loaded = Loaded::new(gpu, mode, file, mesh);
     let scene = scene(mesh);
     let objects = [loaded.object(&scene)];
     let input = Input { view, ..Input::new(&scene, &objects, size) };
-    let renderer = loaded.renderer(gpu, RuntimeOptions::default()).unwrap();
+    let options = RuntimeOptions { map_bytes_per_pixel: 64.0, ..RuntimeOptions::default() };
+    let renderer = loaded.renderer(gpu, options).unwrap();
     let mut frame = renderer.prepare(gpu, &input, size).unwrap();
     let target = PictureTarget::new(gpu, size, renderer.options()).unwrap();
     renderer.picture(gpu, &mut frame, &input, &target).unwrap()
