@@ -163,8 +163,8 @@ fn texture_loads_are_accounted_for() {
             ("present", 1),
             ("homogeneous", 0),
             // At the texel of the target; taps addressed into the patch, irradiance clamped to its one texel or many.
-            ("blur_patch_first, Terms(1)", 2),
-            ("blur_patch_first, Terms(2)", 2),
+            ("blur_patch_first, Terms(1)", 3),
+            ("blur_patch_first, Terms(2)", 3),
             ("blur_patch, Terms(1)", 1),
             ("blur_patch, Terms(2)", 1),
             ("sum_patch, Terms(1)", 1),
