@@ -28,6 +28,13 @@ pub(crate) fn not_null<T>(name: &'static str, pointer: *const T) -> Result<(), F
     if pointer.is_null() { Err(Failure::Null(name)) } else { Ok(()) }
 }
 
+/// Refuses more bytes than a slice has.
+pub(crate) fn in_memory(name: &'static str, length: usize) -> Result<(), Failure<'static>> {
+    let most = isize::MAX.unsigned_abs();
+    let (value, len) = (length as u64, (most as u64).saturating_add(1));
+    if length <= most { Ok(()) } else { Err(Failure::OutOfRange { what: name, value, len }) }
+}
+
 /// Writes a value where a pointer leads; it needs no alignment.
 ///
 /// # Safety

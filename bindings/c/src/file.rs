@@ -125,7 +125,7 @@ unsafe fn open(
 /// Opens a file whose bytes are in memory: checks all of it, copies none.
 ///
 /// `bytes`: `length` bytes of any alignment; what follows the file is ignored. `*file_out`: the handle; only written on success.
-/// Errors: `INVALID_ARGUMENT` (null), `INVALID_FILE`, `OUT_OF_MEMORY` (a handle takes about 2 kB).
+/// Errors: `INVALID_ARGUMENT` (null; more bytes than memory can have), `INVALID_FILE`, `OUT_OF_MEMORY` (a handle takes about 2 kB).
 /// Ownership: the bytes stay the caller's, who keeps them as they are until the file is closed.
 /// Threads: any.
 ///
@@ -140,6 +140,7 @@ pub unsafe extern "C" fn subsurf_file_open_memory(
     let open = || {
         border::not_null("bytes", bytes)?;
         border::not_null("file_out", file_out)?;
+        border::in_memory("length", length)?;
         let bytes = core::ptr::slice_from_raw_parts(bytes.cast::<u8>(), length);
         // SAFETY: the caller keeps the bytes.
         unsafe { open(bytes, None, None, file_out) }
@@ -180,7 +181,7 @@ pub unsafe extern "C" fn subsurf_file_open_fd(
 /// Opens a file by its path: maps it, copies nothing.
 ///
 /// `path`: zero-terminated; on Windows in UTF-8. `*file_out`: the handle; only written on success.
-/// Errors: `INVALID_ARGUMENT` (null), `IO`, `INVALID_FILE`, `OUT_OF_MEMORY`; their text begins with the path.
+/// Errors: `INVALID_ARGUMENT` (null), `IO`, `INVALID_FILE`, `OUT_OF_MEMORY`; the text of `IO` and `INVALID_FILE` begins with the path.
 /// Ownership: the path is not needed afterwards. Who shortens the file while it is open ends the process: replace files, do
 /// not rewrite them.
 /// Threads: any.

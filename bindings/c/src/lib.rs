@@ -1,7 +1,8 @@
 //! C functions around the decoder: what `bindings/include/subsurf.h` declares of files.
 //!
 //! Handles are opaque, calls return a [`SubsurfStatus`], and what went wrong is told by [`subsurf_last_error`]. Nothing
-//! here panics or allocates by Rust's allocator: memory is malloc's, files are mapped, and everything else is the decoder.
+//! here panics, and on Unix nothing allocates by Rust's allocator: memory is malloc's, files are mapped, and everything else is
+//! the decoder.
 #![cfg_attr(unix, no_std)]
 #![deny(
     clippy::arithmetic_side_effects,

@@ -186,7 +186,10 @@ impl Renderer {
             let distance_mm = if view.is_parallel() {
                 1.0
             } else {
-                (bounds.centre_mm - view.eye_mm()).dot(view.forward()).max(0.01 * bounds.radius_mm)
+                let from_eye = bounds.centre_mm - view.eye_mm();
+                let depth_mm = from_eye.dot(view.forward());
+                // What is beside the eye or around it is seen from about its radius, if at all.
+                if depth_mm < bounds.radius_mm { from_eye.length().max(bounds.radius_mm) } else { depth_mm }
             };
             // Along the axis where pixels are larger.
             #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]

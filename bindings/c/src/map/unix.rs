@@ -35,6 +35,14 @@ pub(crate) enum MapError {
         length: u64,
         have_bytes: u64,
     },
+    /// This system maps no bytes so far behind the start of a file.
+    TooFar {
+        offset: u64,
+    },
+    /// This process has no room for so many bytes.
+    TooLong {
+        length: u64,
+    },
     Empty,
 }
 
@@ -55,6 +63,10 @@ impl fmt::Display for MapError {
             Self::Beyond { offset, length, have_bytes } => {
                 write!(f, "the file has {have_bytes} bytes, expected are {length} from byte {offset} on")
             }
+            Self::TooFar { offset } => {
+                write!(f, "byte {offset} is further than this system maps: read the bytes instead")
+            }
+            Self::TooLong { length } => write!(f, "{length} bytes are more than this process can map at once"),
             Self::Empty => f.write_str("the file has no bytes to map"),
         }
     }
@@ -116,8 +128,10 @@ impl Mapping {
         // SAFETY: it only asks for a number.
         let page = u64::try_from(unsafe { libc::sysconf(libc::_SC_PAGESIZE) }).unwrap_or(1);
         let start = offset.checked_rem(page).unwrap_or(0);
-        let first = libc::off_t::try_from(offset.saturating_sub(start)).map_err(|_| beyond)?;
-        let mapped = usize::try_from(length.saturating_add(start)).map_err(|_| beyond)?;
+        let first = libc::off_t::try_from(offset.saturating_sub(start)).map_err(|_| MapError::TooFar { offset })?;
+        // No slice is longer than half of the addresses.
+        let mapped = isize::try_from(length.saturating_add(start)).ok().and_then(|mapped| usize::try_from(mapped).ok());
+        let mapped = mapped.ok_or(MapError::TooLong { length })?;
         // SAFETY: the system chooses the place of new pages, which nothing else uses.
         let address = unsafe { libc::mmap(ptr::null_mut(), mapped, libc::PROT_READ, libc::MAP_PRIVATE, fd, first) };
         match NonNull::new(address.cast::<u8>()).filter(|_| address != libc::MAP_FAILED) {

@@ -46,6 +46,9 @@ impl fmt::Display for MapError {
     }
 }
 
+/// The system's number for a handle that is none.
+const INVALID_HANDLE: i32 = 6;
+
 fn system(call: &'static str) -> impl Fn(Error) -> MapError {
     move |error| MapError::System { call, code: error.raw_os_error().unwrap_or(0) }
 }
@@ -59,9 +62,12 @@ impl Mapping {
 
     /// Maps `length` bytes of a file that the C library opened, or all, from `offset`.
     pub(crate) fn of_fd(fd: c_int, offset: u64, length: Option<u64>) -> Result<Self, MapError> {
-        // SAFETY: a number that is no open file gives no handle.
+        if fd < 0 {
+            return Err(MapError::System { call: "get_osfhandle", code: INVALID_HANDLE });
+        }
+        // SAFETY: a number that was never a file's ends the process by the C library's own check, as it would in C.
         let handle = unsafe { libc::get_osfhandle(fd) };
-        if handle == -1 {
+        if handle < 0 {
             return Err(system("get_osfhandle")(Error::last_os_error()));
         }
         // SAFETY: the handle is open, and stays so for the caller.

@@ -175,6 +175,7 @@ static void misuse(const char *bssrdf_path, const char *nested_path, const char 
     FAILS(INVALID_ARGUMENT, "texel is", subsurf_btf_eval(nested, btf.texels, LIGHT, VIEW, rgb));
     FAILS(INVALID_ARGUMENT, "no level 0 of a material 1000", subsurf_btf_texel(nested, 1000, 0, 0, 0, &texel));
     FAILS(INVALID_ARGUMENT, "no level 300", subsurf_btf_texel(nested, 0, 300, 0, 0, &texel));
+    FAILS(INVALID_ARGUMENT, "length is", subsurf_file_open_memory(words, SIZE_MAX, &none));
     FAILS(INVALID_ARGUMENT, "light is null", subsurf_btf_eval(nested, 0, NULL, VIEW, rgb));
     FAILS(INVALID_ARGUMENT, "value is null", subsurf_btf_eval(nested, 0, LIGHT, VIEW, NULL));
     FAILS(INVALID_ARGUMENT, "rd is null", subsurf_bssrdf_rd(bssrdf, 0, 0, 0, 0, NULL));
@@ -186,12 +187,12 @@ static void misuse(const char *bssrdf_path, const char *nested_path, const char 
     subsurf_file_close(factored);
 }
 
-/* Cut at every length and with every byte changed, in memory of exactly that length. */
+/* Cut at every length, in memory of exactly that length, and with every byte changed. */
 static void hostile(const char *path) {
     size_t length;
     unsigned char *whole = read_file(path, &length);
     for (size_t cut = 0; cut < length; cut++) {
-        unsigned char *bytes = malloc(cut + 1);
+        unsigned char *bytes = malloc(cut > 0 ? cut : 1);
         SubsurfFile *file = NULL;
         memcpy(bytes, whole, cut);
         EXPECT(subsurf_file_open_memory(bytes, cut, &file) == SUBSURF_STATUS_INVALID_FILE && file == NULL);

@@ -83,6 +83,10 @@ fn host_visibility(i: u32, position_mm: vec3<f32>, towards: vec3<f32>, slope: f3
         return 1.0;
     }
     let nearer = source.clip_from_world * vec4<f32>(position_mm + coord.texel_mm * slope * towards, 1.0);
+    // Steps beyond a light that is close meet nothing before it.
+    if nearer.w <= 0.0 {
+        return 1.0;
+    }
     let depth = clamp(nearer.z / nearer.w, 0.0, 1.0);
     // What is reversed is compared with its sign reversed.
     let sign = select(1.0, -1.0, source.shadow == HOST_SHADOW_REVERSED);

@@ -134,7 +134,11 @@ fn splat_quad(@builtin(vertex_index) corner: u32, @builtin(instance_index) insta
     let beyond = vec2<f32>(-1.0, 1.0);
     let x = projected_bounds(rows[0].xyz, rows[3].xyz, centre.x, centre.w, radius) + beyond / f32(size.x);
     let y = projected_bounds(rows[1].xyz, rows[3].xyz, centre.y, centre.w, radius) + beyond / f32(size.y);
-    let place = vec2<f32>(x[corner & 1u], y[corner >> 1u]);
+    // The last column and row of the target may have their middle beyond the G-buffer, of which they show the last texel.
+    let last = vec2<f32>(1.0) - 2.0 / vec2<f32>(size);
+    let right = select(x.y, 3.0, x.y > last.x);
+    let bottom = select(y.x, -3.0, y.x < -last.y);
+    let place = vec2<f32>(select(x.x, right, (corner & 1u) == 1u), select(bottom, y.y, (corner >> 1u) == 1u));
     // Texels of the last column and row of the target may reach beyond the G-buffer.
     let stride = splat_block.stride;
     let share = vec2<f32>(size) / vec2<f32>((size + stride - 1u) / stride * stride);
