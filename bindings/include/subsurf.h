@@ -7,7 +7,7 @@
  * alignment and must not be null. Structs begin with struct_size, which the caller sets to its own sizeof, so that later
  * versions can append fields. No panic or exception leaves a function.
  *
- * Written by cbindgen from bindings/c/src; a test compares it. */
+ * Written by cbindgen from bindings/c/src; scripts/lint compares it. */
 
 #ifndef SUBSURF_H
 #define SUBSURF_H
@@ -513,7 +513,7 @@ const char *subsurf_last_error(void);
  * Opens a file whose bytes are in memory: checks all of it, copies none.
  *
  * `bytes`: `length` bytes of any alignment; what follows the file is ignored. `*file_out`: the handle; only written on success.
- * Errors: `INVALID_ARGUMENT` (null), `INVALID_FILE`, `OUT_OF_MEMORY` (a handle takes about 2 kB).
+ * Errors: `INVALID_ARGUMENT` (null; more bytes than memory can have), `INVALID_FILE`, `OUT_OF_MEMORY` (a handle takes about 2 kB).
  * Ownership: the bytes stay the caller's, who keeps them as they are until the file is closed.
  * Threads: any.
  */
@@ -541,7 +541,7 @@ SubsurfStatus subsurf_file_open_fd(int fd,
  * Opens a file by its path: maps it, copies nothing.
  *
  * `path`: zero-terminated; on Windows in UTF-8. `*file_out`: the handle; only written on success.
- * Errors: `INVALID_ARGUMENT` (null), `IO`, `INVALID_FILE`, `OUT_OF_MEMORY`; their text begins with the path.
+ * Errors: `INVALID_ARGUMENT` (null), `IO`, `INVALID_FILE`, `OUT_OF_MEMORY`; the text of `IO` and `INVALID_FILE` begins with the path.
  * Ownership: the path is not needed afterwards. Who shortens the file while it is open ends the process: replace files, do
  * not rewrite them.
  * Threads: any.
