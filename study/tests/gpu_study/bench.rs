@@ -6,6 +6,8 @@ use std::time::Duration;
 
 use crate::common::{assert_refused, command, files, json, run, succeed};
 use subsurf_decoder::bssrdf::Addressing;
+use subsurf_decoder::bssrdf::basis::BasisSize;
+use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, add_basis};
 use subsurf_encoder::capture::{FolderWriter, Pixels};
 use subsurf_encoder::simulate::relief::{Sample, simulate};
 use subsurf_encoder::synthetic::{NestedShape, Shape};
@@ -78,14 +80,16 @@ fn files_of_ones_own_are_timed() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let shape = Shape { size: [12, 10], radius: 2, samples: 4, base_materials: 6, addressing: Addressing::Clamp };
-    std::fs::write(folder.join("a.subsurf"), shape.bmpp()).unwrap();
+    let choice = BasisChoice::Size(BasisSize { terms: 1, gaussians: 2 });
+    let bmpp = add_basis(&shape.bmpp(), &BasisOptions { choice, steps: 0 }, &()).unwrap();
+    std::fs::write(folder.join("a.subsurf"), &bmpp).unwrap();
     std::fs::write(folder.join("p.subsurf"), shape.per_pixel()).unwrap();
     let told = succeed(folder, "bench load --files p.subsurf p.subsurf a.subsurf --runs 1 --backend cpu -o .");
     assert!(told.out.contains("12 × 10 pixels, window 5, M = 6, S = 4 (files)"), "{}", told.out);
     assert!(std::fs::read_to_string(folder.join("loading.md")).unwrap().contains("per-pixel profiles over 2-BMPP"));
     let numbers: serde_json::Value =
         serde_json::from_slice(&std::fs::read(folder.join("loading.json")).unwrap()).unwrap();
-    assert_eq!(numbers["cases"][0]["storage"]["bmpp"]["bytes"], shape.bmpp().len());
+    assert_eq!(numbers["cases"][0]["storage"]["bmpp"]["bytes"], bmpp.len());
     assert_refused(&run(folder, "bench load --files p.subsurf p.subsurf p.npy"), &["p.npy"]);
 }
 
