@@ -16,6 +16,7 @@
 mod border;
 mod bssrdf;
 mod btf;
+mod extent;
 mod failure;
 mod file;
 mod handle;

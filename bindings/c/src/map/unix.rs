@@ -4,6 +4,8 @@ use core::ffi::{CStr, c_int};
 use core::fmt;
 use core::ptr::{self, NonNull};
 
+use crate::extent::{NoExtent, extent};
+
 /// Bytes of a file, mapped for reading.
 pub(crate) struct Mapping {
     /// First page.
@@ -23,27 +25,13 @@ unsafe impl Sync for Mapping {}
 #[derive(Clone, Copy)]
 pub(crate) enum MapError {
     /// System call of this name failed with an `errno`.
-    System {
-        call: &'static str,
-        errno: c_int,
-    },
+    System { call: &'static str, errno: c_int },
     /// Not a file that has a length.
     NotRegular,
-    /// The bytes that were asked for are not in the file.
-    Beyond {
-        offset: u64,
-        length: u64,
-        have_bytes: u64,
-    },
+    /// The bytes that were asked for cannot be mapped.
+    Extent(NoExtent),
     /// This system maps no bytes so far behind the start of a file.
-    TooFar {
-        offset: u64,
-    },
-    /// This process has no room for so many bytes.
-    TooLong {
-        length: u64,
-    },
-    Empty,
+    TooFar { offset: u64 },
 }
 
 impl fmt::Display for MapError {
@@ -60,14 +48,10 @@ impl fmt::Display for MapError {
                 }
             }
             Self::NotRegular => f.write_str("not a regular file, which can be mapped: read it, and open its bytes"),
-            Self::Beyond { offset, length, have_bytes } => {
-                write!(f, "the file has {have_bytes} bytes, expected are {length} from byte {offset} on")
-            }
+            Self::Extent(error) => error.fmt(f),
             Self::TooFar { offset } => {
                 write!(f, "byte {offset} is further than this system maps: read the bytes instead")
             }
-            Self::TooLong { length } => write!(f, "{length} bytes are more than this process can map at once"),
-            Self::Empty => f.write_str("the file has no bytes to map"),
         }
     }
 }
@@ -115,23 +99,15 @@ impl Mapping {
             return Err(MapError::NotRegular);
         }
         let have_bytes = u64::try_from(stat.st_size).unwrap_or(0);
-        let rest = have_bytes.saturating_sub(offset);
-        let length = length.unwrap_or(rest);
-        let beyond = MapError::Beyond { offset, length, have_bytes };
-        if offset > have_bytes || length > rest {
-            return Err(beyond);
-        }
-        if length == 0 {
-            return Err(MapError::Empty);
-        }
+        let length = extent(offset, length, have_bytes).map_err(MapError::Extent)?;
         // Mappings begin where pages do.
         // SAFETY: it only asks for a number.
         let page = u64::try_from(unsafe { libc::sysconf(libc::_SC_PAGESIZE) }).unwrap_or(1);
         let start = offset.checked_rem(page).unwrap_or(0);
         let first = libc::off_t::try_from(offset.saturating_sub(start)).map_err(|_| MapError::TooFar { offset })?;
-        // No slice is longer than half of the addresses.
+        // With the rest of its first page, too, they are no more than a slice has.
         let mapped = isize::try_from(length.saturating_add(start)).ok().and_then(|mapped| usize::try_from(mapped).ok());
-        let mapped = mapped.ok_or(MapError::TooLong { length })?;
+        let mapped = mapped.ok_or(MapError::Extent(NoExtent::TooLong { length }))?;
         // SAFETY: the system chooses the place of new pages, which nothing else uses.
         let address = unsafe { libc::mmap(ptr::null_mut(), mapped, libc::PROT_READ, libc::MAP_PRIVATE, fd, first) };
         match NonNull::new(address.cast::<u8>()).filter(|_| address != libc::MAP_FAILED) {

@@ -11,6 +11,8 @@ use std::os::windows::io::{FromRawHandle, RawHandle};
 
 use memmap2::{Mmap, MmapOptions};
 
+use crate::extent::{NoExtent, extent};
+
 /// Bytes of a file, mapped for reading.
 pub(crate) struct Mapping(Mmap);
 
@@ -18,19 +20,11 @@ pub(crate) struct Mapping(Mmap);
 #[derive(Clone, Copy)]
 pub(crate) enum MapError {
     /// The system failed with this code.
-    System {
-        call: &'static str,
-        code: i32,
-    },
+    System { call: &'static str, code: i32 },
     /// The path is not UTF-8.
     Path,
-    /// The bytes that were asked for are not in the file.
-    Beyond {
-        offset: u64,
-        length: u64,
-        have_bytes: u64,
-    },
-    Empty,
+    /// The bytes that were asked for cannot be mapped.
+    Extent(NoExtent),
 }
 
 impl fmt::Display for MapError {
@@ -38,10 +32,7 @@ impl fmt::Display for MapError {
         match *self {
             Self::System { call, code } => write!(f, "{call}: {}", Error::from_raw_os_error(code)),
             Self::Path => f.write_str("the path is not UTF-8"),
-            Self::Beyond { offset, length, have_bytes } => {
-                write!(f, "the file has {have_bytes} bytes, expected are {length} from byte {offset} on")
-            }
-            Self::Empty => f.write_str("the file has no bytes to map"),
+            Self::Extent(error) => error.fmt(f),
         }
     }
 }
@@ -77,16 +68,9 @@ impl Mapping {
 
     fn of_file(file: &File, offset: u64, length: Option<u64>) -> Result<Self, MapError> {
         let have_bytes = file.metadata().map_err(system("stat"))?.len();
-        let rest = have_bytes.saturating_sub(offset);
-        let length = length.unwrap_or(rest);
-        let beyond = MapError::Beyond { offset, length, have_bytes };
-        if offset > have_bytes || length > rest {
-            return Err(beyond);
-        }
-        if length == 0 {
-            return Err(MapError::Empty);
-        }
-        let length = usize::try_from(length).map_err(|_| beyond)?;
+        let length = extent(offset, length, have_bytes).map_err(MapError::Extent)?;
+        let too_long = MapError::Extent(NoExtent::TooLong { length });
+        let length = usize::try_from(length).map_err(|_| too_long)?;
         // SAFETY: the caller promises that nobody changes the file while it is open.
         let map = unsafe { MmapOptions::new().offset(offset).len(length).map(file) };
         map.map(Self).map_err(system("map"))
