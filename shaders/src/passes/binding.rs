@@ -33,7 +33,6 @@ impl Binding {
     /// The same with one layer in place of an array of maps.
     pub(super) fn plain(self) -> Self {
         match self {
-            Self::FloatLayers => Self::Float,
             Self::TargetLayers => Self::Target,
             other => other,
         }
