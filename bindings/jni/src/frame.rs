@@ -10,7 +10,7 @@ const FRAME: usize = 40;
 /// Numbers of a light.
 const LIGHT: usize = 12;
 /// Numbers of an object.
-const OBJECT: usize = 20;
+const OBJECT: usize = 21;
 
 /// Frame and what it points to.
 pub(crate) struct Frame {
@@ -51,15 +51,15 @@ impl Frame {
         let [exposure, x, y, z, red, green, blue, alpha] = *rest.first_chunk().unwrap_or(&[0.0; 8]);
         let frame = SubsurfFrame {
             struct_size: struct_size::<SubsurfFrame>(),
-            view_from_world: *view_from_world,
-            clip_from_view: *clip_from_view,
-            exposure,
-            reference_mm: [x, y, z],
-            background: [red, green, blue, alpha],
             light_bytes: struct_size::<SubsurfLight>(),
             light_count: u32::try_from(self.lights.len()).unwrap_or(u32::MAX),
             object_bytes: struct_size::<SubsurfObject>(),
             object_count: u32::try_from(self.objects.len()).unwrap_or(u32::MAX),
+            exposure,
+            background: [red, green, blue, alpha],
+            reference_mm: [x, y, z],
+            view_from_world: *view_from_world,
+            clip_from_view: *clip_from_view,
             lights: self.lights.as_ptr(),
             objects: self.objects.as_ptr(),
             environment: self.environment,
@@ -81,13 +81,14 @@ fn light(&[of, shadow, x, y, z, target_x, target_y, target_z, half_angle_rad, re
 
 fn object(numbers: &[f32; OBJECT], [mesh, material]: [jlong; 2]) -> SubsurfObject {
     let (world_from_mesh, rest) = numbers.split_first_chunk().unwrap_or((&[0.0; 16], &[]));
-    let [mapping, u, v, roughness] = *rest.first_chunk().unwrap_or(&[0.0; 4]);
+    let [number, mapping, u, v, roughness] = *rest.first_chunk().unwrap_or(&[0.0; 5]);
     SubsurfObject {
         mesh: pointer(mesh),
         material: pointer(material),
-        world_from_mesh: *world_from_mesh,
+        number: kind(number),
         mapping: kind(mapping),
         copies: [u, v],
         roughness,
+        world_from_mesh: *world_from_mesh,
     }
 }

@@ -23,14 +23,12 @@ unsafe extern "system" fn Java_dev_subsurf_Native_materialLoad(
     gpu: jlong,
     file: jlong,
     technique: jint,
-    number: jint,
     report_out: jlongArray,
     material_out: jlongArray,
 ) -> jint {
     let options = SubsurfMaterialOptions {
         struct_size: struct_size::<SubsurfMaterialOptions>(),
         technique: unsigned(technique),
-        number: unsigned(number),
     };
     // SAFETY: as the crate says.
     let mut report = unsafe { to_fill::<SubsurfLoadReport>() };

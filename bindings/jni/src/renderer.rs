@@ -5,7 +5,7 @@ use subsurf_c::SubsurfStatus;
 use subsurf_c_draw::{
     SubsurfFrame, SubsurfFrameReport, SubsurfRenderer, SubsurfRendererOptions, subsurf_picture_close,
     subsurf_picture_create, subsurf_picture_read, subsurf_renderer_close, subsurf_renderer_create,
-    subsurf_renderer_draw_picture, subsurf_renderer_draw_surface, subsurf_renderer_trim, subsurf_view_look_at,
+    subsurf_renderer_draw_picture, subsurf_renderer_draw_surface, subsurf_renderer_trim, subsurf_frame_look_at,
 };
 
 use crate::convert::{long, pointer, struct_size, unsigned};
@@ -33,7 +33,7 @@ unsafe extern "system" fn Java_dev_subsurf_Native_rendererCreate(
     unsafe { made(env, renderer_out, |out| subsurf_renderer_create(pointer(gpu), &raw const options, out)) }
 }
 
-/// Draws a frame, and writes the ns of pipelines, preparation, recording and device, if anyone wants them.
+/// Draws a frame, and writes the ns of pipelines, preparation, recording and of all until the device has done it, if anyone wants them.
 ///
 /// # Safety
 /// As the crate says.
@@ -49,8 +49,8 @@ unsafe fn draw(
     let report_to = if report_out.is_null() { core::ptr::null_mut() } else { &raw mut report };
     let status = frame.with(|frame| draw(frame, report_to));
     if status == SubsurfStatus::Ok && !report_out.is_null() {
-        let SubsurfFrameReport { pipelines_ns, prepare_ns, record_ns, device_ns, .. } = report;
-        env.set_longs(report_out, &[pipelines_ns, prepare_ns, record_ns, device_ns].map(long));
+        let SubsurfFrameReport { pipelines_ns, prepare_ns, recording_ns, done_ns, .. } = report;
+        env.set_longs(report_out, &[pipelines_ns, prepare_ns, recording_ns, done_ns].map(long));
     }
     status as jint
 }
@@ -139,7 +139,7 @@ unsafe extern "system" fn Java_dev_subsurf_Native_pictureClose(_: *mut JNIEnv, _
 /// Both matrices, 16 numbers each, of a camera: `numbers` has the eye, what it looks at, angle, aspect, and the nearest and
 /// furthest distance.
 #[unsafe(no_mangle)]
-unsafe extern "system" fn Java_dev_subsurf_Native_viewLookAt(
+unsafe extern "system" fn Java_dev_subsurf_Native_frameLookAt(
     env: *mut JNIEnv,
     _: jclass,
     numbers: jfloatArray,
@@ -152,14 +152,14 @@ unsafe extern "system" fn Java_dev_subsurf_Native_viewLookAt(
         return SubsurfStatus::InvalidArgument as jint;
     };
     let (eye, target): ([jfloat; 3], [jfloat; 3]) = ([ex, ey, ez], [tx, ty, tz]);
-    let mut matrices = [[0.0; 16]; 2];
-    let [view, clip] = &mut matrices;
-    let [view, clip] = [view.as_mut_ptr(), clip.as_mut_ptr()];
-    // SAFETY: numbers of this function's.
-    let status =
-        unsafe { subsurf_view_look_at(eye.as_ptr(), target.as_ptr(), fov_y, aspect, near, far, view, clip) };
+    // SAFETY: as the crate says.
+    let mut frame = unsafe { to_fill::<SubsurfFrame>() };
+    // SAFETY: numbers and a struct of this function's.
+    let status = unsafe {
+        subsurf_frame_look_at(&raw mut frame, eye.as_ptr(), target.as_ptr(), fov_y, aspect, near, far)
+    };
     if status == SubsurfStatus::Ok {
-        env.set_floats(matrices_out, matrices.as_flattened());
+        env.set_floats(matrices_out, [frame.view_from_world, frame.clip_from_view].as_flattened());
     }
     status as jint
 }

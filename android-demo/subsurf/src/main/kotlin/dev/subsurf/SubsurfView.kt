@@ -256,7 +256,7 @@ public class SubsurfView
 
         private fun scene(material: SubsurfMaterial) =
             Scene(
-                listOf(SceneObject(mesh, material, technique, mapping)),
+                listOf(SceneObject(mesh, material, technique, mapping = mapping)),
                 listOf(Light.directional(light)),
                 orbit,
                 environment,

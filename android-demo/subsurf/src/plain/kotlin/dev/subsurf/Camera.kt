@@ -61,7 +61,7 @@ public data class LookAt(
         val (eyeX, eyeY, eyeZ) = eyeMm
         val (x, y, z) = targetMm
         val out = FloatArray(MATRICES)
-        expectOk(Native.viewLookAt(floatArrayOf(eyeX, eyeY, eyeZ, x, y, z, fovYRad, aspect, near, far), out))
+        expectOk(Native.frameLookAt(floatArrayOf(eyeX, eyeY, eyeZ, x, y, z, fovYRad, aspect, near, far), out))
         return out
     }
 

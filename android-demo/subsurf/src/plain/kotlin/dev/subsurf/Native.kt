@@ -128,7 +128,6 @@ internal object Native {
         gpu: Long,
         file: Long,
         technique: Int,
-        number: Int,
         reportOut: LongArray,
         materialOut: LongArray,
     ): Int
@@ -158,7 +157,7 @@ internal object Native {
 
     @JvmStatic external fun rendererCreate(gpu: Long, samples: Int, budgetBytes: Long, rendererOut: LongArray): Int
 
-    /** `numbers` and `handles` are those of [Scene.numbers]; `reportOut`, if there is one: ns of pipelines, preparation, recording, device. */
+    /** `numbers` and `handles` are those of [Scene.numbers]; `reportOut`, if there is one: ns of pipelines, preparation, recording, all. */
     @JvmStatic
     external fun drawPicture(
         renderer: Long,
@@ -188,7 +187,7 @@ internal object Native {
 
     @JvmStatic external fun pictureClose(picture: Long)
 
-    @JvmStatic external fun viewLookAt(numbers: FloatArray, matricesOut: FloatArray): Int
+    @JvmStatic external fun frameLookAt(numbers: FloatArray, matricesOut: FloatArray): Int
 
     /** `window` is a `Surface`. */
     @JvmStatic

@@ -25,7 +25,7 @@ internal class Resources(private val gpu: Handle) : AutoCloseable {
             val handle =
                 handle("the material on the device", Native::materialClose) { out ->
                     material.file.handle.call { file ->
-                        gpu.call { Native.materialLoad(it, file, technique.ordinal, material.number, report, out) }
+                        gpu.call { Native.materialLoad(it, file, technique.ordinal, report, out) }
                     }
                 }
             GpuMaterial(handle, report)

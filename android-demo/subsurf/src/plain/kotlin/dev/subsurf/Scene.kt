@@ -35,7 +35,7 @@ public class Scene
                 out.put(light.targetMm).put(light.halfAngleRad).put(light.irradiance)
             }
             for (shown in objects) {
-                out.put(*shown.worldFromMesh).put(shown.mapping.ordinal.toFloat())
+                out.put(*shown.worldFromMesh).put(shown.number.toFloat(), shown.mapping.ordinal.toFloat())
                 out.put(shown.copiesU, shown.copiesV).put(shown.roughness)
             }
             return out.numbers
@@ -58,7 +58,7 @@ public class Scene
         internal companion object {
             const val FRAME = 40
             const val LIGHT = 12
-            const val OBJECT = 20
+            const val OBJECT = 21
             val DEFAULT_LIGHT = Vector3(0.61f, 0.75f, 0.24f)
             private val SKY = Vector3(0.35f, 0.4f, 0.5f)
             private val GREY = Vector3(0.18f, 0.18f, 0.18f)
@@ -80,6 +80,7 @@ public enum class Mapping {
  * @property mesh Mesh.
  * @property material Material, open as long as it is drawn.
  * @property technique Way to draw it.
+ * @property number Number of the material of a BTF, from 0.
  * @property mapping Rule by which the material lies on the mesh; meshes without texture coordinates take [Mapping.BOX].
  * @property copiesU Copies of the patch within the unit square of texture coordinates, in u.
  * @property copiesV Likewise in v.
@@ -93,6 +94,7 @@ public class SceneObject
         public val mesh: SubsurfMesh,
         public val material: SubsurfMaterial,
         public val technique: Technique = Technique.AUTOMATIC,
+        public val number: Int = 0,
         public val mapping: Mapping = Mapping.BOX,
         public val copiesU: Float = 4f,
         public val copiesV: Float = 4f,

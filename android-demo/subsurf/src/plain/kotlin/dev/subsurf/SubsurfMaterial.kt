@@ -9,34 +9,30 @@ import java.nio.ByteBuffer
  * Threads: any number at once. Ownership: who opens it closes it, once nothing draws it any more.
  *
  * @property file File of the material, closed with it.
- * @property number Number of the material of a BTF, from 0.
  */
-public class SubsurfMaterial
-    @JvmOverloads
-    constructor(
-        public val file: SubsurfFile,
-        public val number: Int = 0,
-    ) : AutoCloseable {
-        /** Closes the file. */
-        override fun close(): Unit = file.close()
+public class SubsurfMaterial(
+    public val file: SubsurfFile,
+) : AutoCloseable {
+    /** Closes the file. */
+    override fun close(): Unit = file.close()
 
-        /** Openers, as those of [SubsurfFile]. */
-        public companion object {
-            /** Opens a file by its path. */
-            @JvmStatic
-            @Throws(SubsurfException::class)
-            public fun open(path: String): SubsurfMaterial = SubsurfMaterial(SubsurfFile.open(path))
+    /** Openers, as those of [SubsurfFile]. */
+    public companion object {
+        /** Opens a file by its path. */
+        @JvmStatic
+        @Throws(SubsurfException::class)
+        public fun open(path: String): SubsurfMaterial = SubsurfMaterial(SubsurfFile.open(path))
 
-            /** Opens a part of a file by its descriptor, which stays the caller's. */
-            @JvmStatic
-            @JvmOverloads
-            @Throws(SubsurfException::class)
-            public fun open(fd: Int, offset: Long = 0, length: Long = SubsurfFile.TO_END): SubsurfMaterial =
-                SubsurfMaterial(SubsurfFile.open(fd, offset, length))
+        /** Opens a part of a file by its descriptor, which stays the caller's. */
+        @JvmStatic
+        @JvmOverloads
+        @Throws(SubsurfException::class)
+        public fun open(fd: Int, offset: Long = 0, length: Long = SubsurfFile.TO_END): SubsurfMaterial =
+            SubsurfMaterial(SubsurfFile.open(fd, offset, length))
 
-            /** Opens the bytes of a direct buffer, which stay as they are until the material is closed. */
-            @JvmStatic
-            @Throws(SubsurfException::class)
-            public fun open(buffer: ByteBuffer): SubsurfMaterial = SubsurfMaterial(SubsurfFile.open(buffer))
-        }
+        /** Opens the bytes of a direct buffer, which stay as they are until the material is closed. */
+        @JvmStatic
+        @Throws(SubsurfException::class)
+        public fun open(buffer: ByteBuffer): SubsurfMaterial = SubsurfMaterial(SubsurfFile.open(buffer))
     }
+}

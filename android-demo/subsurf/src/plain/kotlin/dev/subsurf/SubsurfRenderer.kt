@@ -56,7 +56,7 @@ public class SubsurfRenderer internal constructor(
     ): LoadReport {
         resources.drop(material, technique)
         resources.mesh(mesh)
-        val scene = Scene(listOf(SceneObject(mesh, material, technique, Mapping.UV)))
+        val scene = Scene(listOf(SceneObject(mesh, material, technique, mapping = Mapping.UV)))
         var report: LoadReport? = null
         val before = onLoaded
         onLoaded = { _, made -> report = made }
