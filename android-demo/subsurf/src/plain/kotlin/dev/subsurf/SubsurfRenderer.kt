@@ -135,7 +135,7 @@ public class SubsurfRenderer internal constructor(
         for (shown in loaded.distinctBy { it.material to it.technique }) {
             val load = resources.material(shown.material, shown.technique).report
             val (fileBytes, materialBytes, upload, pipelines, recording) = load
-            val (framePipelines, prepare, record, device) = frame
+            val framePipelines = frame.first()
             val report =
                 LoadReport(
                     device = this.device,
@@ -146,7 +146,7 @@ public class SubsurfRenderer internal constructor(
                     pipelinesNanos = pipelines + framePipelines,
                     recordingNanos = recording,
                     projectionNanos = load.last(),
-                    firstFrameNanos = prepare + record + device,
+                    firstFrameNanos = frame.last() - framePipelines,
                     materialBytes = materialBytes,
                     gpuBytes = memory.bytes,
                     residentBytes = LoadReport.residentBytes(),
