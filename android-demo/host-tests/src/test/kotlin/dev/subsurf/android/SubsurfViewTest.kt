@@ -74,6 +74,7 @@ class SubsurfViewTest {
 
     @After
     fun end() {
+        surface.release()
         controller.close()
         ViewActivity.material?.close()
     }
@@ -147,6 +148,8 @@ class SubsurfViewTest {
         assertEquals(Orbit(1f, 0.5f, 3f), view.orbit)
         assertEquals(Vector3(0f, 0f, 1f), view.light)
         assertTrue("the first view's device is closed", has("close 1"))
+        shadowOf(Looper.getMainLooper()).idle()
+        assertTrue("the second is in a window", view.isAttachedToWindow)
         changeSurface(20, 30)
         await("attach")
     }
