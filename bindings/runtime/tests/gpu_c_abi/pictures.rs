@@ -1,8 +1,8 @@
 //! What `check.c` has to draw, by the renderer itself.
 
+use glam::Vec3;
 use glam::camera::rh::proj::directx::perspective;
 use glam::camera::rh::view::look_at_mat4;
-use glam::Vec3;
 use subsurf_decoder::{Content, File};
 use subsurf_runtime::wgpu::{Color, LoadOp};
 use subsurf_runtime::{
