@@ -197,7 +197,7 @@ static void frames(Stage *stage) {
     frame.environment = NULL;
     OK(subsurf_renderer_draw_picture(stage->renderer, &frame, stage->picture, NULL));
     OK(subsurf_picture_read(stage->picture, pixels, sizeof pixels, 0));
-    EXPECT(pixels[HEIGHT / 2][WIDTH / 2][0] == 26 && pixels[HEIGHT / 2][WIDTH / 2][2] == 77);
+    EXPECT(pixels[HEIGHT / 2][WIDTH / 2][0] == 51 && pixels[HEIGHT / 2][WIDTH / 2][2] == 153);
 }
 
 static void misuse(const char *path, uint32_t backend, const char *btf_path) {

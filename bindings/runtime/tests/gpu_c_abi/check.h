@@ -60,7 +60,7 @@ static inline void identity(float *matrix) {
 static inline void set_scene(Stage *stage, uint32_t mapping) {
     static const float PLACE[3] = {0.9f, 1.1f, 0.35f}, IRRADIANCE[3] = {3.0f, 2.9f, 2.7f}, SKY[3] = {0.35f, 0.4f, 0.5f};
     static const float EYE[3] = {40.0f, 24.0f, 64.0f}, ORIGIN[3] = {0.0f, 0.0f, 0.0f};
-    static const float BACKGROUND[4] = {0.1f, 0.2f, 0.3f, 1.0f};
+    static const float BACKGROUND[4] = {0.2f, 0.4f, 0.6f, 1.0f};
     memset(&stage->light, 0, sizeof stage->light);
     memset(&stage->object, 0, sizeof stage->object);
     memset(&stage->frame, 0, sizeof stage->frame);
