@@ -15,8 +15,8 @@ pub use asset::{
 };
 pub use error::{Error, Result};
 pub use frame::{
-    BACKGROUND, BACKGROUND_COLOUR, DepthTarget, Frame, Input, Object, PassTimes, PictureTarget, Plan, Renderer, RuntimeOptions,
-    ShadowMap, Target,
+    BACKGROUND, BACKGROUND_COLOUR, DepthTarget, Frame, Input, Object, PassTimes, PictureTarget, Plan, Renderer,
+    RuntimeOptions, ShadowMap, Target,
 };
 pub use gpu::{Backend, ColourTarget, Gpu, Ledger, OffScreen, OnScreen, Purpose, Screen, devices};
 pub use load::{Load, LoadPhase, LoadTimer, LoadTimes, RawImages, Stored};

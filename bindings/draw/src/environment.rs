@@ -37,10 +37,7 @@ impl OpenEnvironment {
 }
 
 /// Makes a handle of what `make` gives.
-fn create(
-    environment_out: *mut *mut SubsurfEnvironment,
-    make: impl FnOnce() -> Result<Environment>,
-) -> SubsurfStatus {
+fn create(environment_out: *mut *mut SubsurfEnvironment, make: impl FnOnce() -> Result<Environment>) -> SubsurfStatus {
     call(|| {
         not_null("environment_out", environment_out)?;
         let handle = Handle::create(OpenEnvironment(make()?))?.as_ptr().cast();

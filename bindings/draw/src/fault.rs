@@ -54,7 +54,8 @@ pub(crate) fn one_line(text: &str) -> String {
 /// Does what a call is for. Its failure becomes the thread's text; a panic, where panics unwind, is the failure of a driver or of
 /// this library.
 pub(crate) fn call(work: impl FnOnce() -> Result<()>) -> SubsurfStatus {
-    let panicked = || Fault::Told(SubsurfStatus::DeviceFailed, "the renderer panicked; its message is on stderr".to_owned());
+    let panicked =
+        || Fault::Told(SubsurfStatus::DeviceFailed, "the renderer panicked; its message is on stderr".to_owned());
     match catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err(panicked())) {
         Ok(()) => SubsurfStatus::Ok,
         Err(Fault::Failure(failure)) => status_of(Err(failure)),

@@ -192,7 +192,9 @@ impl<'a> Checked<'a> {
         // SAFETY: the caller's handles.
         let (mesh, of) = unsafe { (OpenMesh::of(object.mesh)?, OpenMaterial::of(object.material)?) };
         if !mesh.gpu.is(gpu) || !of.gpu.is(gpu) {
-            return Err(Fault::invalid("an object's mesh or material is on another SubsurfGpu than the renderer".to_owned()));
+            return Err(Fault::invalid(
+                "an object's mesh or material is on another SubsurfGpu than the renderer".to_owned(),
+            ));
         }
         finite("world_from_mesh", &object.world_from_mesh)?;
         finite("copies", &object.copies)?;
@@ -269,7 +271,8 @@ impl Shown<'_> {
             most: most_objects,
         };
         // SAFETY: the caller's arrays, of numbers and pointers.
-        let (lights, objects) = unsafe { (lights.take(LIGHT_BYTES, NO_LIGHT)?, objects.take(OBJECT_BYTES, NO_OBJECT)?) };
+        let (lights, objects) =
+            unsafe { (lights.take(LIGHT_BYTES, NO_LIGHT)?, objects.take(OBJECT_BYTES, NO_OBJECT)?) };
         let environment = if frame.environment.is_null() {
             None
         } else {

@@ -108,4 +108,3 @@ pub(crate) fn one_of<T: Copy>(what: &'static str, number: u32, values: &[T]) -> 
     let out_of_range = Failure::OutOfRange { what, value: number.into(), len: values.len() as u64 };
     Ok(*values.get(number as usize).ok_or(out_of_range)?)
 }
-

@@ -143,7 +143,9 @@ fn begin<'a>(gpu: &'a OpenGpu, file: &File<'a>, technique: SubsurfTechnique) -> 
         (_, Content::FactoredBtf(_)) => return Err(wrong("BSSRDF or nested BTF")),
         (SubsurfTechnique::Btf, Content::Bssrdf(_)) => return Err(wrong("nested BTF")),
         (SubsurfTechnique::Splat | SubsurfTechnique::Separable, Content::NestedBtf(_)) => return Err(wrong("BSSRDF")),
-        (SubsurfTechnique::Splat, Content::Bssrdf(material)) => Load::splat(&gpu.gpu, &material).map(|load| load.map(Material::Splat)),
+        (SubsurfTechnique::Splat, Content::Bssrdf(material)) => {
+            Load::splat(&gpu.gpu, &material).map(|load| load.map(Material::Splat))
+        }
         (SubsurfTechnique::Separable, Content::Bssrdf(material)) if material.basis().is_none() => {
             let text = "the file has no basis for separable blurs: subsurf encode --add-basis".to_owned();
             return Err(Fault::Told(SubsurfStatus::WrongFamily, text));
@@ -179,12 +181,8 @@ pub unsafe extern "C" fn subsurf_material_load(
         let usual = SubsurfMaterialOptions { struct_size: 0, technique: 0 };
         // SAFETY: the caller's struct, of numbers.
         let options = if options.is_null() { usual } else { unsafe { take("options", options, usual) }? };
-        let techniques = [
-            SubsurfTechnique::Automatic,
-            SubsurfTechnique::Splat,
-            SubsurfTechnique::Separable,
-            SubsurfTechnique::Btf,
-        ];
+        let techniques =
+            [SubsurfTechnique::Automatic, SubsurfTechnique::Splat, SubsurfTechnique::Separable, SubsurfTechnique::Btf];
         let load = begin(gpu, file, one_of("technique", options.technique, &techniques)?)?;
         let materials = match file.content() {
             Content::NestedBtf(btf) => btf.catalog().header().materials.into(),

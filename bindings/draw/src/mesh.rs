@@ -184,7 +184,16 @@ pub unsafe extern "C" fn subsurf_mesh_upload(
     let read = || {
         let null = std::ptr::null();
         let (positions, normals, uvs, indices) = (null, null, null, std::ptr::null());
-        let usual = SubsurfMeshData { struct_size: 0, vertices: 0, triangles: 0, mm_per_unit: 0.0, positions, normals, uvs, indices };
+        let usual = SubsurfMeshData {
+            struct_size: 0,
+            vertices: 0,
+            triangles: 0,
+            mm_per_unit: 0.0,
+            positions,
+            normals,
+            uvs,
+            indices,
+        };
         // SAFETY: the caller's struct, of numbers and pointers.
         let data = unsafe { take("data", data, usual) }?;
         if data.triangles > MOST_TRIANGLES {
@@ -199,9 +208,14 @@ pub unsafe extern "C" fn subsurf_mesh_upload(
             )
         };
         // SAFETY: as many numbers as the struct says.
-        let normals = if data.normals.is_null() { Vec::new() } else { unsafe { array::<Vec3>("normals", data.normals.cast(), vertices) }? };
+        let normals = if data.normals.is_null() {
+            Vec::new()
+        } else {
+            unsafe { array::<Vec3>("normals", data.normals.cast(), vertices) }?
+        };
         // SAFETY: as many numbers as the struct says.
-        let uvs = if data.uvs.is_null() { None } else { Some(unsafe { array::<Vec2>("uvs", data.uvs.cast(), vertices) }?) };
+        let uvs =
+            if data.uvs.is_null() { None } else { Some(unsafe { array::<Vec2>("uvs", data.uvs.cast(), vertices) }?) };
         let mm_per_unit = if data.mm_per_unit == 0.0 { 1.0 } else { data.mm_per_unit };
         let mesh = Mesh::new(positions, normals, uvs, indices, mm_per_unit);
         mesh.map_err(|error| Fault::of(&Error::Scene(error), None))

@@ -132,8 +132,7 @@ impl OpenRenderer {
         let objects: Vec<Object<'_>> = shown.objects.iter().map(|object| object.object()).collect();
         let environment = shown.environment.map_or(&*dark, |environment| &environment.0);
         let lighting = Lighting { lights: &shown.lights, environment, reference_mm: shown.reference_mm };
-        let input =
-            Input { view: shown.view, exposure: shown.exposure, lighting, shadow_maps: &[], objects: &objects };
+        let input = Input { view: shown.view, exposure: shown.exposure, lighting, shadow_maps: &[], objects: &objects };
         let serves = |room: &Room| {
             let is_whole = room.format == canvas.format && room.materials.iter().all(|alive| alive.strong_count() > 0);
             Ok(is_whole && renderer.serves(&room.frame, &input, canvas.size)?)

@@ -44,8 +44,7 @@ unsafe fn surface_of(
     display: &Display,
     window: RawWindowHandle,
 ) -> subsurf_runtime::Result<Surface<'static>> {
-    let target =
-        SurfaceTargetUnsafe::RawHandle { raw_display_handle: Some(display.raw()), raw_window_handle: window };
+    let target = SurfaceTargetUnsafe::RawHandle { raw_display_handle: Some(display.raw()), raw_window_handle: window };
     // SAFETY: the caller's word.
     let surface = unsafe { gpu.instance.create_surface_unsafe(target) };
     surface.map_err(|error| Error::Surface(one_line(&error.to_string())))

@@ -56,7 +56,9 @@ impl Display {
         Ok(match self.system {
             SubsurfWindowSystem::X11 if window == 0 => return Err(null()),
             SubsurfWindowSystem::X11 => {
-                let window = window.try_into().map_err(|_| Fault::invalid(format!("window is {window:#x}, which is none of X11")))?;
+                let window = window
+                    .try_into()
+                    .map_err(|_| Fault::invalid(format!("window is {window:#x}, which is none of X11")))?;
                 RawWindowHandle::Xlib(XlibWindowHandle::new(window))
             }
             SubsurfWindowSystem::Wayland => RawWindowHandle::Wayland(WaylandWindowHandle::new(pointer()?)),

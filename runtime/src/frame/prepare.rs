@@ -123,7 +123,15 @@ impl Renderer {
             slots.push(Slot { material: material.clone(), scene, bindings, bounds: None });
         }
         let objects = self.options.objects as usize;
-        Ok(Frame { plan, wanted_divisor: divisor, common, lights, slots, placed: Vec::with_capacity(objects), blocks: Vec::new() })
+        Ok(Frame {
+            plan,
+            wanted_divisor: divisor,
+            common,
+            lights,
+            slots,
+            placed: Vec::with_capacity(objects),
+            blocks: Vec::new(),
+        })
     }
 
     /// Whether a frame that was prepared serves an input as well as another one would: its size, its materials and its shadows are

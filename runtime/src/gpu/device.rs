@@ -9,8 +9,8 @@ use wgpu::wgt::WgpuHasDisplayHandle;
 use wgpu::{
     Adapter, AdapterInfo, Buffer, BufferDescriptor, BufferSize, BufferUsages, Color, Device, DeviceDescriptor,
     ErrorFilter, ExperimentalFeatures, Extent3d, Features, Instance, InstanceDescriptor, Limits, MemoryHints, Queue,
-    RequestAdapterOptions,
-    Surface, SurfaceTarget, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages, Trace,
+    RequestAdapterOptions, Surface, SurfaceTarget, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages,
+    Trace,
 };
 
 use super::backend::{Backend, adapters, instance, ready};

@@ -1,6 +1,7 @@
 /* What the programs of these tests share; in the common part of C11 and C++17. */
 #include "subsurf.h"
 
+#include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,7 +38,7 @@ typedef struct Stage {
     SubsurfFrame frame;
 } Stage;
 
-static SubsurfGpu *open_gpu(uint32_t backend, uint32_t window_system, void *display) {
+static inline SubsurfGpu *open_gpu(uint32_t backend, uint32_t window_system, void *display) {
     SubsurfGpuOptions options;
     SubsurfGpu *gpu = NULL;
     memset(&options, 0, sizeof options);
@@ -49,17 +50,17 @@ static SubsurfGpu *open_gpu(uint32_t backend, uint32_t window_system, void *disp
     return gpu;
 }
 
-static void identity(float *matrix) {
+static inline void identity(float *matrix) {
     for (int k = 0; k < 16; k++) {
         matrix[k] = k % 5 == 0 ? 1.0f : 0.0f;
     }
 }
 
 /* One light from the side, with its shadow, and a sky. */
-static void set_scene(Stage *stage, uint32_t mapping) {
+static inline void set_scene(Stage *stage, uint32_t mapping) {
     static const float PLACE[3] = {0.9f, 1.1f, 0.35f}, IRRADIANCE[3] = {3.0f, 2.9f, 2.7f}, SKY[3] = {0.35f, 0.4f, 0.5f};
     static const float EYE[3] = {40.0f, 24.0f, 64.0f}, ORIGIN[3] = {0.0f, 0.0f, 0.0f};
-    static const float BACKGROUND[4] = {0.1f, 0.2f, 0.3f, 1.0f};
+    static const float BACKGROUND[4] = {0.2f, 0.4f, 0.6f, 1.0f};
     memset(&stage->light, 0, sizeof stage->light);
     memset(&stage->object, 0, sizeof stage->object);
     memset(&stage->frame, 0, sizeof stage->frame);
@@ -91,7 +92,7 @@ static void set_scene(Stage *stage, uint32_t mapping) {
 }
 
 /* Loads a file and a sphere. */
-static void load(Stage *stage, const char *path, uint32_t technique) {
+static inline void load(Stage *stage, const char *path, uint32_t technique) {
     SubsurfMaterialOptions options;
     options.struct_size = sizeof options;
     options.technique = technique;
@@ -101,17 +102,16 @@ static void load(Stage *stage, const char *path, uint32_t technique) {
     set_scene(stage, SUBSURF_MAPPING_UV);
 }
 
-static Stage open_stage(const char *path, uint32_t backend, uint32_t technique) {
-    Stage stage;
-    memset(&stage, 0, sizeof stage);
-    stage.gpu = open_gpu(backend, SUBSURF_WINDOW_SYSTEM_NONE, NULL);
-    load(&stage, path, technique);
-    OK(subsurf_renderer_create(stage.gpu, NULL, &stage.renderer));
-    OK(subsurf_picture_create(stage.gpu, WIDTH, HEIGHT, &stage.picture));
-    return stage;
+/* Fills a stage, whose frame points into it. */
+static inline void open_stage(Stage *stage, const char *path, uint32_t backend, uint32_t technique) {
+    memset(stage, 0, sizeof *stage);
+    stage->gpu = open_gpu(backend, SUBSURF_WINDOW_SYSTEM_NONE, NULL);
+    load(stage, path, technique);
+    OK(subsurf_renderer_create(stage->gpu, NULL, &stage->renderer));
+    OK(subsurf_picture_create(stage->gpu, WIDTH, HEIGHT, &stage->picture));
 }
 
-static void unload(Stage *stage) {
+static inline void unload(Stage *stage) {
     subsurf_file_close(stage->file);
     subsurf_material_close(stage->material);
     subsurf_mesh_close(stage->mesh);
@@ -121,7 +121,7 @@ static void unload(Stage *stage) {
 }
 
 /* Device first: everything else keeps what it needs. */
-static void close_stage(Stage *stage) {
+static inline void close_stage(Stage *stage) {
     subsurf_gpu_close(stage->gpu);
     unload(stage);
     subsurf_environment_close(stage->environment);
@@ -129,24 +129,23 @@ static void close_stage(Stage *stage) {
     subsurf_picture_close(stage->picture);
 }
 
-static uint64_t bytes_on(const SubsurfGpu *gpu) {
+static inline uint64_t bytes_on(const SubsurfGpu *gpu) {
     SubsurfGpuMemory memory;
     memory.struct_size = sizeof memory;
     OK(subsurf_gpu_memory(gpu, &memory));
     return memory.materials_bytes + memory.meshes_bytes + memory.light_views_bytes + memory.frames_bytes + memory.others_bytes;
 }
 
-static long resident_pages(void) {
-    FILE *stream = fopen("/proc/self/statm", "r");
-    long pages = 0;
-    if (stream != NULL) {
-        EXPECT(fscanf(stream, "%*d %ld", &pages) == 1);
-        fclose(stream);
-    }
-    return pages;
+/* Bytes of the heap that are in use: those of all threads where MALLOC_ARENA_MAX is 1. Drivers keep pages for themselves. */
+static inline uint64_t heap_bytes(void) {
+#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
+    return mallinfo2().uordblks;
+#else
+    return 0;
+#endif
 }
 
-static long open_files(void) {
+static inline long open_files(void) {
     FILE *stream = fopen("/dev/null", "r");
     long next = stream == NULL ? 0 : (long)fileno(stream);
     if (stream != NULL) {

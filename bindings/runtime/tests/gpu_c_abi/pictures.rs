@@ -1,8 +1,8 @@
 //! What `check.c` has to draw, by the renderer itself.
 
+use glam::Vec3;
 use glam::camera::rh::proj::directx::perspective;
 use glam::camera::rh::view::look_at_mat4;
-use glam::Vec3;
 use subsurf_decoder::{Content, File};
 use subsurf_runtime::wgpu::{Color, LoadOp};
 use subsurf_runtime::{
@@ -39,7 +39,7 @@ pub(crate) fn of(bytes: &[u8], backend: Backend, splats: bool) -> Vec<[u8; 4]> {
     let renderer = Renderer::for_technique(&gpu, material.technique(), RuntimeOptions::default()).unwrap();
     let picture = PictureTarget::new(&gpu, SIZE, renderer.options()).unwrap();
     let mut frame = renderer.prepare(&gpu, &input, SIZE).unwrap();
-    let [r, g, b] = [0.1_f32, 0.2, 0.3].map(f64::from);
+    let [r, g, b] = [0.2_f32, 0.4, 0.6].map(f64::from);
     let target = Target { load: LoadOp::Clear(Color { r, g, b, a: 1.0 }), ..picture.target() };
     renderer.draw_now(&gpu, &mut frame, &input, &target).unwrap();
     picture.read(&gpu).unwrap()

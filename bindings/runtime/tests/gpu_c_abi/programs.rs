@@ -60,18 +60,11 @@ fn check() -> &'static Check {
     })
 }
 
-/// A program on one API: OpenGL ES 3.0, where it is that.
-fn on(program: impl AsRef<Path>) -> Command {
-    let mut command = Command::new(program.as_ref());
-    command.env("MESA_GL_VERSION_OVERRIDE", "3.0").env("MESA_GLES_VERSION_OVERRIDE", "3.0");
-    command
-}
-
 /// Runs `check.c` on both APIs.
 fn run_check(arguments: impl Fn(&mut Command, &str)) {
     let Some(program) = &check().program else { return };
     for (name, _) in BACKENDS {
-        let mut command = on(program);
+        let mut command = Command::new(program);
         arguments(&mut command, name);
         println!("{name}: {}", run(&mut command));
     }
@@ -84,7 +77,7 @@ fn pictures_are_those_of_the_renderer() {
     for (name, backend) in BACKENDS {
         for (file, technique) in [(&check.bssrdf, 0), (&check.bssrdf, 1), (&check.bssrdf, 2), (&check.btf, 3)] {
             let out = check.folder.path().join("picture");
-            run(on(program).arg("picture").arg(file).arg(name).arg(technique.to_string()).arg(&out));
+            run(Command::new(program).arg("picture").arg(file).arg(name).arg(technique.to_string()).arg(&out));
             let found = std::fs::read(&out).expect("a picture");
             let bytes = std::fs::read(file).expect("a file of our own");
             let expected = pictures::of(&bytes, backend, technique == 1);
@@ -103,7 +96,11 @@ fn programs_in_cpp_draw_too() {
     let folder = tempfile::tempdir().expect("temporary folders can be made");
     let source = bindings().join("runtime/tests/gpu_c_abi/check.c");
     let Some(program) = compiled(CPP, &source, folder.path()) else { return };
-    run(on(program).arg("picture").arg(&check.bssrdf).args(["vulkan", "0"]).arg(folder.path().join("picture")));
+    run(Command::new(program)
+        .arg("picture")
+        .arg(&check.bssrdf)
+        .args(["vulkan", "0"])
+        .arg(folder.path().join("picture")));
 }
 
 #[test]
@@ -121,11 +118,24 @@ fn a_lost_device_is_an_error_and_another_one_draws_the_same() {
     });
 }
 
+/// Opens devices, and as many materials and meshes on each, one after the other.
+fn cycles(devices: &str, loads: &str) {
+    run_check(|program, backend| {
+        // A handle that stays in every cycle is a hundred bytes and more.
+        program.arg("cycles").arg(&check().bssrdf).arg(backend).args([devices, loads, "65536"]);
+        program.env("MALLOC_ARENA_MAX", "1");
+    });
+}
+
 #[test]
 fn devices_and_materials_that_come_and_go_leave_nothing() {
-    run_check(|program, backend| {
-        program.arg("cycles").arg(&check().bssrdf).arg(backend).args(["5", "20", "2048"]);
-    });
+    cycles("4", "10");
+}
+
+#[test]
+#[ignore = "takes a minute: after a change of what handles hold"]
+fn a_thousand_cycles_leave_nothing() {
+    cycles("10", "100");
 }
 
 #[test]
@@ -135,8 +145,7 @@ fn windows_come_and_go() {
     let Some(program) = compiled(C, &source, check.folder.path()) else { return };
     for (name, _) in BACKENDS {
         let shown = under_display(program.to_str().expect("a path in UTF-8"), |test| {
-            test.arg(&check.bssrdf).args([name, "100"]);
-            test.env("MESA_GL_VERSION_OVERRIDE", "3.0").env("MESA_GLES_VERSION_OVERRIDE", "3.0");
+            test.arg(&check.bssrdf).args([name, "100"]).env("MALLOC_ARENA_MAX", "1");
         });
         let Some(shown) = shown else {
             println!("skipped: there is no xvfb-run; apt-get install xvfb");
@@ -155,7 +164,7 @@ fn the_example_in_c_draws_a_picture() {
     assert!(lines <= 40, "{lines} lines");
     let folder = tempfile::tempdir().expect("temporary folders can be made");
     let Some(program) = compiled(C, &source, folder.path()) else { return };
-    run(on(program).arg(&check.bssrdf).current_dir(folder.path()));
+    run(Command::new(program).arg(&check.bssrdf).current_dir(folder.path()));
     let picture = std::fs::read(folder.path().join("picture.ppm")).expect("a picture");
     assert!(picture.starts_with(b"P6 320 240 255\n") && picture.len() == 15 + 3 * 320 * 240, "a picture of that size");
 }
