@@ -66,11 +66,10 @@ val cargoNdk =
         val output = jniLibs
         val minSdk = libs.versions.minSdk.get()
         doFirst { environment("ANDROID_NDK_HOME", ndk.get().asFile.path) }
-        environment("RUSTFLAGS", "-C link-arg=-Wl,-z,max-page-size=16384")
         commandLine(
             listOf("cargo", "ndk") + abis.flatMap { listOf("--target", it) } +
                 listOf("--platform", minSdk, "--output-dir", output.get().asFile.path) +
-                listOf("build", "--locked", "--profile", "bindings", "--package", "subsurf-c-runtime"),
+                listOf("rustc", "--locked", "--profile", "bindings", "--package", "subsurf-c-runtime", "--crate-type", "cdylib"),
         )
         outputs.dir(output)
         outputs.upToDateWhen { false }

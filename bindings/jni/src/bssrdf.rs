@@ -72,8 +72,7 @@ unsafe extern "system" fn Java_dev_subsurf_Native_bssrdfPlane(
     let [kind, format, width, height, layers, row, gl_internal, gl_format, gl_type, vk] = small.map(jlong::from);
     let layer = long(plane.layer_bytes);
     let status_long = jlong::from(status as jint);
-    let numbers =
-        [kind, format, width, height, layers, row, gl_internal, gl_format, gl_type, vk, layer, status_long];
+    let numbers = [kind, format, width, height, layers, row, gl_internal, gl_format, gl_type, vk, layer, status_long];
     env.set_longs(longs, &numbers);
     if status == SubsurfStatus::Ok { env.buffer(plane.data.cast(), plane.bytes) } else { null_mut() }
 }

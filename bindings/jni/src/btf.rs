@@ -158,8 +158,7 @@ unsafe extern "system" fn Java_dev_subsurf_Native_btfSample(
     let (light_to, pdf_to) = (light.as_mut_ptr(), &raw mut pdf);
     let file = pointer::<SubsurfFile>(file);
     // SAFETY: an open handle, and numbers of this function's.
-    let status =
-        unsafe { subsurf_btf_sample(file, unsigned(texel), view.as_ptr(), random.as_ptr(), light_to, pdf_to) };
+    let status = unsafe { subsurf_btf_sample(file, unsigned(texel), view.as_ptr(), random.as_ptr(), light_to, pdf_to) };
     if status == SubsurfStatus::Ok {
         let [x, y, z] = light;
         // SAFETY: as the crate says.

@@ -4,8 +4,8 @@ use core::mem::MaybeUninit;
 
 use jni_sys::{JNIEnv, jbyteArray, jclass, jint, jlong, jlongArray, jobject};
 use subsurf_c::{
-    SubsurfFileInfo, SubsurfStatus, subsurf_abi_version, subsurf_file_close, subsurf_file_info,
-    subsurf_file_open_fd, subsurf_file_open_memory, subsurf_file_open_path, subsurf_last_error,
+    SubsurfFileInfo, SubsurfStatus, subsurf_abi_version, subsurf_file_close, subsurf_file_info, subsurf_file_open_fd,
+    subsurf_file_open_memory, subsurf_file_open_path, subsurf_last_error,
 };
 
 use crate::convert::{long, pointer, struct_size};

@@ -68,7 +68,9 @@ impl Frame {
     }
 }
 
-fn light(&[of, shadow, x, y, z, target_x, target_y, target_z, half_angle_rad, red, green, blue]: &[f32; LIGHT]) -> SubsurfLight {
+fn light(
+    &[of, shadow, x, y, z, target_x, target_y, target_z, half_angle_rad, red, green, blue]: &[f32; LIGHT],
+) -> SubsurfLight {
     SubsurfLight {
         kind: kind(of),
         has_shadow: kind(shadow),

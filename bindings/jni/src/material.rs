@@ -26,10 +26,8 @@ unsafe extern "system" fn Java_dev_subsurf_Native_materialLoad(
     report_out: jlongArray,
     material_out: jlongArray,
 ) -> jint {
-    let options = SubsurfMaterialOptions {
-        struct_size: struct_size::<SubsurfMaterialOptions>(),
-        technique: unsigned(technique),
-    };
+    let options =
+        SubsurfMaterialOptions { struct_size: struct_size::<SubsurfMaterialOptions>(), technique: unsigned(technique) };
     // SAFETY: as the crate says.
     let mut report = unsafe { to_fill::<SubsurfLoadReport>() };
     let report_to = &raw mut report;

@@ -3,9 +3,9 @@
 use jni_sys::{JNIEnv, jclass, jfloat, jfloatArray, jint, jlong, jlongArray, jobject};
 use subsurf_c::SubsurfStatus;
 use subsurf_c_draw::{
-    SubsurfFrame, SubsurfFrameReport, SubsurfRenderer, SubsurfRendererOptions, subsurf_picture_close,
-    subsurf_picture_create, subsurf_picture_read, subsurf_renderer_close, subsurf_renderer_create,
-    subsurf_renderer_draw_picture, subsurf_renderer_draw_surface, subsurf_renderer_trim, subsurf_frame_look_at,
+    SubsurfFrame, SubsurfFrameReport, SubsurfRenderer, SubsurfRendererOptions, subsurf_frame_look_at,
+    subsurf_picture_close, subsurf_picture_create, subsurf_picture_read, subsurf_renderer_close,
+    subsurf_renderer_create, subsurf_renderer_draw_picture, subsurf_renderer_draw_surface, subsurf_renderer_trim,
 };
 
 use crate::convert::{long, pointer, struct_size, unsigned};
@@ -155,9 +155,8 @@ unsafe extern "system" fn Java_dev_subsurf_Native_frameLookAt(
     // SAFETY: as the crate says.
     let mut frame = unsafe { to_fill::<SubsurfFrame>() };
     // SAFETY: numbers and a struct of this function's.
-    let status = unsafe {
-        subsurf_frame_look_at(&raw mut frame, eye.as_ptr(), target.as_ptr(), fov_y, aspect, near, far)
-    };
+    let status =
+        unsafe { subsurf_frame_look_at(&raw mut frame, eye.as_ptr(), target.as_ptr(), fov_y, aspect, near, far) };
     if status == SubsurfStatus::Ok {
         env.set_floats(matrices_out, [frame.view_from_world, frame.clip_from_view].as_flattened());
     }

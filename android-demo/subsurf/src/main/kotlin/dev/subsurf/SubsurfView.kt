@@ -64,8 +64,8 @@ public class SubsurfView
                 update()
             }
 
-        /** Rule by which the material lies on the mesh. */
-        public var mapping: Mapping = Mapping.BOX
+        /** Rule by which the material lies on the mesh; null stands for the usual one of its family. */
+        public var mapping: Mapping? = null
             set(value) {
                 field = value
                 update()

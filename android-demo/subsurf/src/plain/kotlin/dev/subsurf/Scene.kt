@@ -35,7 +35,7 @@ public class Scene
                 out.put(light.targetMm).put(light.halfAngleRad).put(light.irradiance)
             }
             for (shown in objects) {
-                out.put(*shown.worldFromMesh).put(shown.number.toFloat(), shown.mapping.ordinal.toFloat())
+                out.put(*shown.worldFromMesh).put(shown.number.toFloat(), shown.mappingOrUsual.ordinal.toFloat())
                 out.put(shown.copiesU, shown.copiesV).put(shown.roughness)
             }
             return out.numbers
@@ -81,7 +81,7 @@ public enum class Mapping {
  * @property material Material, open as long as it is drawn.
  * @property technique Way to draw it.
  * @property number Number of the material of a BTF, from 0.
- * @property mapping Rule by which the material lies on the mesh; meshes without texture coordinates take [Mapping.BOX].
+ * @property mapping Rule by which the material lies on the mesh; null stands for [Mapping.UV] of BTFs, [Mapping.BOX] of others.
  * @property copiesU Copies of the patch within the unit square of texture coordinates, in u.
  * @property copiesV Likewise in v.
  * @property roughness GGX roughness of the smooth coat over the material, 0 to 1.
@@ -95,7 +95,7 @@ public class SceneObject
         public val material: SubsurfMaterial,
         public val technique: Technique = Technique.AUTOMATIC,
         public val number: Int = 0,
-        public val mapping: Mapping = Mapping.BOX,
+        public val mapping: Mapping? = null,
         public val copiesU: Float = 4f,
         public val copiesV: Float = 4f,
         public val roughness: Float = 0.25f,
@@ -104,6 +104,9 @@ public class SceneObject
         init {
             require(worldFromMesh.size == MATRIX) { "worldFromMesh has ${worldFromMesh.size} numbers, expected are 16" }
         }
+
+        internal val mappingOrUsual: Mapping
+            get() = mapping ?: if (material.file.family == Family.BSSRDF) Mapping.BOX else Mapping.UV
 
         private companion object {
             const val MATRIX = 16

@@ -1,7 +1,6 @@
 package dev.subsurf.android
 
 import android.content.Intent
-import android.content.res.Configuration
 import android.widget.Button
 import android.widget.Spinner
 import dev.subsurf.Shape
@@ -47,11 +46,7 @@ class DemoTest {
     @Test
     fun rotationAndBackgroundDoNotHarm() {
         Robolectric.buildActivity(MainActivity::class.java).setup().use { controller ->
-            controller.configurationChange(
-                Configuration(controller.get().resources.configuration).apply {
-                    orientation = Configuration.ORIENTATION_LANDSCAPE
-                },
-            )
+            controller.recreate()
             controller.pause().stop().start().resume()
             assertNotNull(controller.get().requireViewById<SubsurfView>(R.id.view).material)
         }

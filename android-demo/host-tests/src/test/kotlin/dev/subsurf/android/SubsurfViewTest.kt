@@ -2,7 +2,6 @@ package dev.subsurf.android
 
 import android.app.Activity
 import android.content.ComponentCallbacks2
-import android.content.res.Configuration
 import android.graphics.SurfaceTexture
 import android.os.Bundle
 import android.os.Looper
@@ -141,9 +140,7 @@ class SubsurfViewTest {
         view.orbit = Orbit(1f, 0.5f, 3f)
         view.light = Vector3(0f, 0f, 1f)
         val before = view
-        controller.configurationChange(Configuration(controller.get().resources.configuration).apply {
-            orientation = Configuration.ORIENTATION_LANDSCAPE
-        })
+        controller.recreate()
         assertNotEquals("another view", before, view)
         assertEquals(Orbit(1f, 0.5f, 3f), view.orbit)
         assertEquals(Vector3(0f, 0f, 1f), view.light)
