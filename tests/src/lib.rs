@@ -2,6 +2,7 @@
 
 pub mod fits;
 pub mod frames;
+pub mod meshes;
 pub mod mutate;
 pub mod nested;
 pub mod program;

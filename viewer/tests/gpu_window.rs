@@ -2,13 +2,12 @@
 
 #![cfg(target_os = "linux")]
 
-use std::path::PathBuf;
-
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::synthetic::NestedShape;
 use subsurf_runtime::{Backend, BtfOptions, Gpu, RuntimeOptions};
-use subsurf_scene::{Environment, UpAxis};
+use subsurf_scene::{Environment, UpAxis, torus};
 use subsurf_tests::drawable;
+use subsurf_tests::meshes::write_obj;
 use subsurf_tests::program::under_display;
 use subsurf_viewer::{Config, Error, Event, Host, MappingChoice, Picture, Scattering, Viewer, options};
 use winit::event_loop::EventLoop;
@@ -53,10 +52,12 @@ fn draw(bytes: &[u8], backend: Backend) {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("material.subsurf");
     std::fs::write(&file, bytes).unwrap();
+    let mesh = folder.path().join("torus.obj");
+    write_obj(&mesh, &torus(9.0, 4.0, 12));
     let viewer = Viewer::open(Config {
         files: vec![file],
         material: None,
-        mesh: PathBuf::from("torus"),
+        mesh,
         extent_mm: 60.0,
         up: UpAxis::Y,
         mapping: MappingChoice::Auto,

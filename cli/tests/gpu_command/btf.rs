@@ -4,6 +4,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use subsurf_scene::sphere;
+use subsurf_tests::meshes::write_obj;
+
 use crate::common::{assert_refused, files, json, run, succeed};
 
 /// Pixels to a side of the images.
@@ -205,6 +208,7 @@ fn draws_btfs() {
     let folder = folder.path();
     std::fs::copy(&leather().0, folder.join("leather.subsurf")).unwrap();
     std::fs::copy(&both().0, folder.join("both.subsurf")).unwrap();
+    write_obj(&folder.join("sphere.obj"), &sphere(20.0, 16));
     let images = images().join("leather");
     let images = images.display();
     let halves = |name: &str| {
@@ -217,7 +221,7 @@ fn draws_btfs() {
         (half(6), half(92))
     };
     for backend in ["vulkan", "gl"] {
-        let args = "--mesh sphere --repeat 4,2 --samples 4 --size 80x60";
+        let args = "--mesh sphere.obj --repeat 4,2 --samples 4 --size 80x60";
         let args =
             format!("render leather.subsurf {args} --images {images} --backend {backend} -o {backend}.png --json");
         let report = json(folder, &args);

@@ -5,6 +5,8 @@ use std::path::Path;
 use crate::common::{SUBSURF, assert_refused, command, finish, run, under_display, without_display};
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::synthetic::{NestedShape, Shape};
+use subsurf_scene::torus;
+use subsurf_tests::meshes::write_obj;
 
 /// A translucent material and a BTF.
 fn materials(folder: &Path) {
@@ -38,11 +40,12 @@ fn a_window_draws() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     materials(folder);
+    write_obj(&folder.join("torus.obj"), &torus(9.0, 4.0, 12));
     for (file, backend) in ["a.subsurf", "b.subsurf"].into_iter().flat_map(|file| ["vulkan", "gl"].map(|on| (file, on)))
     {
         let picture = format!("{file}-{backend}.png");
         let run = under_display(SUBSURF.0, |view| {
-            view.current_dir(folder).args(["view", file, "--mesh", "torus"]);
+            view.current_dir(folder).args(["view", file, "--mesh", "torus.obj"]);
             // Small, for a processor may have to draw it.
             view.args(["--size", "560x240", "--budget", "12MB", "--backend", backend, "--screenshot", &picture]);
             if file == "b.subsurf" {
