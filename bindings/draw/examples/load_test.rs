@@ -2,7 +2,8 @@
 //! `subsurf-study bench load`, as CSV, times in microseconds.
 //!
 //! `load_test [--vulkan | --gl] [--repeats N] FILE..` runs each technique of each file once from a cold start (pipelines are compiled,
-//! and the file is dropped from the page cache where the system lets us), then N times warm (20). Without a device it reads and checks.
+//! and the file is dropped from the page cache where the system lets us), then N times warm (20). `open_us` is the device's opening,
+//! `drawable_us` all but pipelines until the material can be drawn. Without a device it reads and checks.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -106,10 +107,10 @@ fn measure(
 }
 
 /// Measures all techniques of a file.
-fn measure_all(path: &Path, gpu: Option<&Gpu>, repeats: usize) -> Result<(), Failed> {
-    let Some(gpu) = gpu else { return measure(path, "decoder", "\"none\",\"\"", None, repeats) };
+fn measure_all(path: &Path, gpu: Option<&Gpu>, open: Duration, repeats: usize) -> Result<(), Failed> {
+    let Some(gpu) = gpu else { return measure(path, "decoder", "\"none\",\"\",0", None, repeats) };
     let (bytes, info) = (std::fs::read(path)?, gpu.info());
-    let device = format!("\"{}\",\"{} {}\"", info.name, info.driver, info.driver_info);
+    let device = format!("\"{}\",\"{} {}\",{}", info.name, info.driver, info.driver_info, open.as_micros());
     for (technique, stored) in techniques(&File::parse(&bytes)?) {
         measure(path, technique, &device, Some(&LoadTimer::new(gpu, stored)?), repeats)?;
     }
@@ -131,13 +132,15 @@ fn main() -> Result<(), Failed> {
     if files.is_empty() || repeats == 0 {
         return Err("load_test [--vulkan | --gl] [--repeats N] FILE.., with N more than 0".into());
     }
+    let begin = Instant::now();
     let gpu = backends.into_iter().find_map(|backend| Gpu::open(backend).ok());
+    let open = begin.elapsed();
     println!(
-        "file,bytes,technique,device,driver,run,read_us,parse_us,upload_us,pipelines_us,recording_us,projection_us,first_frame_us,\
+        "file,bytes,technique,device,driver,open_us,run,read_us,parse_us,upload_us,pipelines_us,recording_us,projection_us,first_frame_us,\
          drawable_us,gpu_bytes"
     );
     for file in files {
-        measure_all(&file, gpu.as_ref(), repeats).map_err(|error| format!("{}: {error}", file.display()))?;
+        measure_all(&file, gpu.as_ref(), open, repeats).map_err(|error| format!("{}: {error}", file.display()))?;
     }
     Ok(())
 }

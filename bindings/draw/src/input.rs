@@ -86,6 +86,18 @@ pub(crate) unsafe fn array<T: Copy>(name: &'static str, pointer: *const T, count
     Ok(values)
 }
 
+/// Array of numbers that may be left out.
+///
+/// # Safety
+/// As [`array`].
+pub(crate) unsafe fn optional<T: Copy>(name: &'static str, pointer: *const T, count: usize) -> Result<Option<Vec<T>>> {
+    if pointer.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: the caller's word.
+    unsafe { array(name, pointer, count) }.map(Some)
+}
+
 /// Refuses numbers that are not finite.
 pub(crate) fn finite(what: &str, numbers: &[f32]) -> Result<()> {
     match numbers.iter().find(|number| !number.is_finite()) {

@@ -10,7 +10,7 @@ use subsurf_scene::{BoundingSphere, Mesh, bowl, drapery, knot, relief, sphere, t
 
 use crate::fault::{Fault, Result, call};
 use crate::gpu::{OpenGpu, SubsurfGpu, close};
-use crate::input::{array, one_of, take, within};
+use crate::input::{array, one_of, optional, take, within};
 
 /// Shape that needs no file.
 #[repr(u32)]
@@ -201,21 +201,14 @@ pub unsafe extern "C" fn subsurf_mesh_upload(
         }
         let (vertices, triangles) = (data.vertices as usize, data.triangles as usize);
         // SAFETY: as many numbers as the struct says.
-        let (positions, indices) = unsafe {
+        let (positions, normals, uvs, indices) = unsafe {
             (
                 array::<Vec3>("positions", data.positions.cast(), vertices)?,
+                optional::<Vec3>("normals", data.normals.cast(), vertices)?.unwrap_or_default(),
+                optional::<Vec2>("uvs", data.uvs.cast(), vertices)?,
                 array::<[u32; 3]>("indices", data.indices.cast(), triangles)?,
             )
         };
-        // SAFETY: as many numbers as the struct says.
-        let normals = if data.normals.is_null() {
-            Vec::new()
-        } else {
-            unsafe { array::<Vec3>("normals", data.normals.cast(), vertices) }?
-        };
-        // SAFETY: as many numbers as the struct says.
-        let uvs =
-            if data.uvs.is_null() { None } else { Some(unsafe { array::<Vec2>("uvs", data.uvs.cast(), vertices) }?) };
         let mm_per_unit = if data.mm_per_unit == 0.0 { 1.0 } else { data.mm_per_unit };
         let mesh = Mesh::new(positions, normals, uvs, indices, mm_per_unit);
         mesh.map_err(|error| Fault::of(&Error::Scene(error), None))
