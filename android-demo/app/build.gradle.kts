@@ -54,8 +54,8 @@ val encodeMaterials =
     tasks.register<Exec>("encodeMaterials") {
         workingDir = repository.asFile
         val output = materials
-        commandLine("android-demo/app/encode-materials", output.get().asFile.path)
-        inputs.file("encode-materials")
+        commandLine("android-demo/materials", output.get().asFile.path)
+        inputs.file("../materials")
         outputs.dir(output)
     }
 

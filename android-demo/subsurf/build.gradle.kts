@@ -7,7 +7,6 @@ plugins {
 val abis = listOf("arm64-v8a", "armeabi-v7a", "x86_64")
 val repository = rootProject.layout.projectDirectory.dir("..")
 val jniLibs = layout.buildDirectory.dir("rust/jniLibs")
-val headers = layout.buildDirectory.dir("rust/include")
 
 configure<LibraryExtension> {
     namespace = "dev.subsurf"
@@ -35,15 +34,7 @@ configure<LibraryExtension> {
         // Measurements that devices and host share.
         named("androidTest") {
             kotlin.directories += "src/sharedTest/kotlin"
-            assets.directories += "../../tests/vectors"
-        }
-    }
-
-    // The C API for apps with code of their own in C or C++: find_package(subsurf) in CMake.
-    buildFeatures { prefabPublishing = true }
-    prefab {
-        create("subsurf") {
-            headers = "build/rust/include"
+            assets.directories += "../app/build/materials"
         }
     }
 
@@ -75,13 +66,31 @@ val cargoNdk =
         outputs.upToDateWhen { false }
     }
 
-val copyHeader =
-    tasks.register<Copy>("copyHeader") {
-        from(repository.file("bindings/include/subsurf.h"))
-        into(headers)
+tasks.named("preBuild") { dependsOn(cargoNdk) }
+
+// The C API for apps with code of their own in C or C++: find_package(subsurf) in CMake, by Prefab. The plugin makes such packages of
+// its own builds of C alone.
+val prefab =
+    tasks.register<Sync>("prefab") {
+        dependsOn(cargoNdk)
+        into(layout.buildDirectory.dir("rust/prefab"))
+        from("src/prefab")
+        from(repository.dir("bindings/include")) { into("modules/subsurf/include") }
+        for (abi in abis) {
+            from(jniLibs.map { it.dir(abi) }) {
+                include("libsubsurf.so")
+                into("modules/subsurf/libs/android.$abi")
+            }
+        }
     }
 
-tasks.named("preBuild") { dependsOn(cargoNdk, copyHeader) }
+tasks.withType<Zip>().matching { it.name.startsWith("bundle") && it.name.endsWith("Aar") }.configureEach {
+    from(prefab) { into("prefab") }
+}
+
+tasks.matching { it.name.startsWith("merge") && it.name.endsWith("AndroidTestAssets") }.configureEach {
+    dependsOn(":app:encodeMaterials")
+}
 
 dependencies {
     api(libs.coroutines.core)
