@@ -28,7 +28,7 @@ static void picture(const char *path, uint32_t backend, uint32_t technique, cons
     OK(subsurf_renderer_draw_picture(stage.renderer, &stage.frame, stage.picture, &first));
     EXPECT(first.pipelines_ns > 0 && first.prepare_ns > 0 && first.done_ns >= first.pipelines_ns + first.prepare_ns);
     OK(subsurf_renderer_draw_picture(stage.renderer, &stage.frame, stage.picture, &second));
-    EXPECT(second.prepare_ns == 0 && second.recording_ns > 0 && second.done_ns < first.done_ns);
+    EXPECT(second.prepare_ns == 0 && second.recording_ns > 0 && second.done_ns >= second.recording_ns);
     OK(subsurf_picture_read(stage.picture, pixels, sizeof pixels, 0));
     OK(subsurf_picture_read(stage.picture, gapped, sizeof gapped, sizeof gapped[0]));
     for (int y = 0; y < HEIGHT; y++) {

@@ -138,7 +138,8 @@ int main(int argc, char **argv) {
         }
     }
     printf("%lu bytes of heap, then %lu\n", (unsigned long)heap, (unsigned long)heap_bytes());
-    EXPECT(heap_bytes() <= heap + 65536 && open_files() == files && bytes_on(stage.gpu) == bytes);
+    /* Mesa's OpenGL takes a quarter of a megabyte more now and then; surfaces that stay would be two megabytes. */
+    EXPECT(heap_bytes() <= heap + 524288 && open_files() == files && bytes_on(stage.gpu) == bytes);
     close_stage(&stage);
     close_display(display);
     return 0;
