@@ -89,28 +89,38 @@ impl Loaded {
     #[must_use]
     pub fn under(gpu: &Gpu, mode: RenderMode, file: &[u8], mesh: &Mesh, mapping: Mapping, scene: &Scene) -> Self {
         let material = Bssrdf::parse(file).unwrap();
-        let lit = || {
+        if mode != RenderMode::Gather {
             let shares = AmbientTransfer::of(mesh, &material).unwrap();
-            GpuMesh::upload(gpu, mesh, VertexData { ambient: Some(&shares), ..Default::default() }).unwrap()
-        };
-        let (mesh, material): (_, Material) = match mode {
-            RenderMode::Gather => {
-                // Fine enough that the sum is close to its integral.
-                let fine = mesh.clone().subdivided(0.8 * material.header().pitch_mm).unwrap();
-                let visibilities = visibility(&fine, &scene.lights);
-                let surface = SurfacePoints::new(&fine, mapping, material.header(), &visibilities);
-                let known = VertexData { points: Some(&surface.point_of), ..Default::default() };
-                let points = GpuPoints::upload(gpu, &surface).unwrap();
-                let planes = BssrdfPlanes::upload(gpu, &material).unwrap();
-                (GpuMesh::upload(gpu, &fine, known).unwrap(), GatherMaterial { planes, points }.into())
-            }
-            RenderMode::Splat => (lit(), Load::splat(gpu, &material).unwrap().finish().unwrap().into()),
+            return Self { mapping, ..Self::lit(gpu, mode, file, mesh, &shares) };
+        }
+        // Fine enough that the sum is close to its integral.
+        let fine = mesh.clone().subdivided(0.8 * material.header().pitch_mm).unwrap();
+        let visibilities = visibility(&fine, &scene.lights);
+        let surface = SurfacePoints::new(&fine, mapping, material.header(), &visibilities);
+        let known = VertexData { points: Some(&surface.point_of), ..Default::default() };
+        let points = GpuPoints::upload(gpu, &surface).unwrap();
+        let planes = BssrdfPlanes::upload(gpu, &material).unwrap();
+        let mesh = GpuMesh::upload(gpu, &fine, known).unwrap();
+        Self { mesh, material: GatherMaterial { planes, points }.into(), mapping }
+    }
+
+    /// By texture coordinates, with the light from all around that vertices have: for the paths that are no gather.
+    ///
+    /// # Panics
+    /// If the device takes none of it.
+    #[must_use]
+    pub fn lit(gpu: &Gpu, mode: RenderMode, file: &[u8], mesh: &Mesh, shares: &[AmbientTransfer]) -> Self {
+        let material = Bssrdf::parse(file).unwrap();
+        let material: Material = match mode {
+            RenderMode::Gather => panic!("a gather needs points"),
+            RenderMode::Splat => Load::splat(gpu, &material).unwrap().finish().unwrap().into(),
             RenderMode::Separable => {
                 let numbers = BasisNumbers::of(&material).expect("a file with a separable basis");
-                (lit(), Load::separable(gpu, &material, &numbers).unwrap().finish().unwrap().into())
+                Load::separable(gpu, &material, &numbers).unwrap().finish().unwrap().into()
             }
         };
-        Self { mesh, material, mapping }
+        let known = VertexData { ambient: Some(shares), ..Default::default() };
+        Self { mesh: GpuMesh::upload(gpu, mesh, known).unwrap(), material, mapping: Mapping::Uv([2.0, 1.0]) }
     }
 
     /// As a renderer takes it.

@@ -1,10 +1,11 @@
 //! Bytes on the device: within budgets, counted rightly, and given back.
 
+use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, add_basis};
 use subsurf_runtime::{Backend, Error, Frame, Gpu, PictureTarget, Purpose, RuntimeOptions};
-use subsurf_scene::{Light, Scene, Shadow, torus};
+use subsurf_scene::{AmbientTransfer, Light, Scene, Shadow, torus};
 use subsurf_tests::drawable;
 use subsurf_tests::frames::{Loaded, RenderMode, SIZE, device, scene};
 
@@ -53,13 +54,13 @@ fn a_thousand_loads_and_resizes_leave_nothing() {
     let scene = scene(&mesh);
     let options = RuntimeOptions { light_texels: 128, ..RuntimeOptions::default() };
     let allocated = || gpu.device().generate_allocator_report().map_or(0, |report| report.total_allocated_bytes);
+    let shares = AmbientTransfer::of(&mesh, &Bssrdf::parse(&file).unwrap()).unwrap();
     for mode in [RenderMode::Splat, RenderMode::Separable] {
-        let first = Loaded::new(&gpu, mode, &file, &mesh);
-        let renderer = first.renderer(&gpu, options).unwrap();
-        drop(first);
+        let load = || Loaded::lit(&gpu, mode, &file, &mesh, &shares);
+        let renderer = load().renderer(&gpu, options).unwrap();
         let mut after_some = (0, 0);
         for cycle in 0..1_000_u32 {
-            let loaded = Loaded::new(&gpu, mode, &file, &mesh);
+            let loaded = load();
             let size = [16 + cycle % 29, 16 + cycle % 31];
             let mut frame = loaded.prepare(&gpu, &renderer, &scene, size).unwrap();
             if cycle % 50 == 0 {

@@ -45,7 +45,7 @@ fn lights_close_by_and_boxes_come_close_to_the_gather() {
 /// A target that encodes by itself shows what the shader encodes for another; several samples change edges alone.
 #[test]
 fn targets_of_srgb_and_of_several_samples_show_the_same() {
-    let file = drawable([31, 31], 6, Addressing::Mirror);
+    let file = drawable([31, 31], 3, Addressing::Mirror);
     let mesh = torus(9.0, 4.0, 32);
     let scene = scene(&mesh);
     let usual = RuntimeOptions::default();
@@ -81,7 +81,7 @@ fn targets_of_srgb_and_of_several_samples_show_the_same() {
 /// Bits of half floats in integers give the pictures that half floats give; where they cannot, it is said.
 #[test]
 fn devices_without_half_floats_to_draw_to_draw_the_same() {
-    let file = drawable([31, 31], 6, Addressing::Mirror);
+    let file = drawable([31, 31], 3, Addressing::Mirror);
     let mesh = torus(9.0, 4.0, 32);
     let scene = scene(&mesh);
     for backend in Backend::ALL {
