@@ -61,6 +61,9 @@ pub enum Error {
     /// Mistake of the caller: things that do not belong together, or options out of range.
     #[error("{0}")]
     Usage(String),
+    /// Surface of a window that shows no pictures, or not those that it showed before.
+    #[error("the window's surface: {0}")]
+    Surface(String),
     /// Device or driver that failed.
     #[error("the device failed: {0}")]
     Device(String),

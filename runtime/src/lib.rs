@@ -15,10 +15,10 @@ pub use asset::{
 };
 pub use error::{Error, Result};
 pub use frame::{
-    BACKGROUND, BACKGROUND_COLOUR, Frame, Input, Object, PassTimes, PictureTarget, Plan, Renderer, RuntimeOptions,
-    ShadowMap, Target,
+    BACKGROUND, BACKGROUND_COLOUR, DepthTarget, Frame, Input, Object, PassTimes, PictureTarget, Plan, Renderer,
+    RuntimeOptions, ShadowMap, Target,
 };
-pub use gpu::{Backend, ColourTarget, Gpu, Ledger, OnScreen, Purpose, devices};
+pub use gpu::{Backend, ColourTarget, Gpu, Ledger, OffScreen, OnScreen, Purpose, Screen, devices};
 pub use load::{Load, LoadPhase, LoadTimer, LoadTimes, RawImages, Stored};
 pub use subsurf_shaders::uniform::BtfFiltering;
 pub use subsurf_shaders::{BtfLayout, MaterialLayout, TargetFormat};

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 ///
 /// # Safety
 /// `pointer` is null or leads to a `T` for reading.
-pub(crate) unsafe fn read<T: Copy>(name: &'static str, pointer: *const T) -> Result<T, Failure<'static>> {
+pub unsafe fn read<T: Copy>(name: &'static str, pointer: *const T) -> Result<T, Failure<'static>> {
     if pointer.is_null() {
         return Err(Failure::Null(name));
     }
@@ -18,18 +18,18 @@ pub(crate) unsafe fn read<T: Copy>(name: &'static str, pointer: *const T) -> Res
 ///
 /// # Safety
 /// `pointer` is null or leads to three `f32` for reading.
-pub(crate) unsafe fn read3(name: &'static str, pointer: *const f32) -> Result<[f32; 3], Failure<'static>> {
+pub unsafe fn read3(name: &'static str, pointer: *const f32) -> Result<[f32; 3], Failure<'static>> {
     // SAFETY: as the caller promises.
     unsafe { read(name, pointer.cast()) }
 }
 
 /// Refuses a null pointer before there is anything to write to it.
-pub(crate) fn not_null<T>(name: &'static str, pointer: *const T) -> Result<(), Failure<'static>> {
+pub fn not_null<T>(name: &'static str, pointer: *const T) -> Result<(), Failure<'static>> {
     if pointer.is_null() { Err(Failure::Null(name)) } else { Ok(()) }
 }
 
 /// Refuses more bytes than a slice has.
-pub(crate) fn in_memory(name: &'static str, length: usize) -> Result<(), Failure<'static>> {
+pub fn in_memory(name: &'static str, length: usize) -> Result<(), Failure<'static>> {
     let most = isize::MAX.unsigned_abs();
     let (value, len) = (length as u64, (most as u64).saturating_add(1));
     if length <= most { Ok(()) } else { Err(Failure::OutOfRange { what: name, value, len }) }
@@ -39,7 +39,7 @@ pub(crate) fn in_memory(name: &'static str, length: usize) -> Result<(), Failure
 ///
 /// # Safety
 /// `pointer` is null or leads to room for a `T`.
-pub(crate) unsafe fn write<T>(name: &'static str, pointer: *mut T, value: T) -> Result<(), Failure<'static>> {
+pub unsafe fn write<T>(name: &'static str, pointer: *mut T, value: T) -> Result<(), Failure<'static>> {
     not_null(name, pointer)?;
     // SAFETY: not null, and so room for a `T`, the caller promises.
     unsafe { pointer.write_unaligned(value) };
@@ -50,7 +50,7 @@ pub(crate) unsafe fn write<T>(name: &'static str, pointer: *mut T, value: T) -> 
 ///
 /// # Safety
 /// `Self` is `repr(C)` and begins with that field.
-pub(crate) unsafe trait Versioned: Copy {
+pub unsafe trait Versioned: Copy {
     /// Name in the header.
     const NAME: &'static str;
     /// Bytes in the first version that had it.
@@ -61,7 +61,7 @@ pub(crate) unsafe trait Versioned: Copy {
 ///
 /// # Safety
 /// `pointer` is null or leads to as many bytes as its first field, `struct_size`, says.
-pub(crate) unsafe fn fill<T: Versioned>(name: &'static str, pointer: *mut T, value: T) -> Result<(), Failure<'static>> {
+pub unsafe fn fill<T: Versioned>(name: &'static str, pointer: *mut T, value: T) -> Result<(), Failure<'static>> {
     // SAFETY: every such struct begins with its size.
     let found = unsafe { read(name, pointer.cast::<u32>().cast_const()) }? as usize;
     if found < T::FIRST_BYTES {

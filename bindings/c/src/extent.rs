@@ -4,7 +4,7 @@ use core::fmt;
 
 /// Why the bytes that were asked for are none that can be mapped.
 #[derive(Clone, Copy)]
-pub(crate) enum NoExtent {
+pub enum NoExtent {
     /// They are not in the file.
     Beyond {
         offset: u64,

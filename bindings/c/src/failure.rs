@@ -27,6 +27,22 @@ pub enum SubsurfStatus {
     OutOfMemory = 5,
     /// The file is a factored BTF: call `subsurf_btf_expand` first.
     NotExpanded = 6,
+    /// The budget of a renderer, or what is left of it, is too small for the picture; nothing was allocated.
+    OverBudget = 7,
+    /// The device cannot hold something of that size, or draw it; the text says which.
+    Unsupported = 8,
+    /// There is no such device.
+    NoDevice = 9,
+    /// The device or its driver failed: another backend may do better.
+    DeviceFailed = 10,
+    /// The device is lost, as by a reset of its driver: close what was made on it, open it again, load again.
+    DeviceLost = 11,
+    /// The mesh is broken or empty, or lacks what its material needs.
+    InvalidMesh = 12,
+    /// The window shows no pictures any more: close its surface, and open one of the window that is there now.
+    SurfaceLost = 13,
+    /// The window takes no picture at present, as when it is covered: try again later.
+    Skipped = 14,
 }
 
 /// Text of the last call of this thread that failed: one line in UTF-8 that says what is wrong and what is expected; empty
@@ -41,7 +57,8 @@ pub extern "C" fn subsurf_last_error() -> *const c_char {
 
 /// Reason why a call fails.
 #[derive(Clone, Copy)]
-pub(crate) enum Failure<'a> {
+#[allow(missing_docs, reason = "fields are named for the messages that they are in")]
+pub enum Failure<'a> {
     /// Pointer of this name is null.
     Null(&'static str),
     /// Not a handle of the kind that is expected.
@@ -80,6 +97,11 @@ pub(crate) enum Failure<'a> {
         need_bytes: u64,
     },
     NotExpanded,
+    /// What only other crates know of.
+    Other {
+        status: SubsurfStatus,
+        text: &'a dyn fmt::Display,
+    },
 }
 
 impl Failure<'_> {
@@ -95,6 +117,7 @@ impl Failure<'_> {
             Self::Family { .. } => SubsurfStatus::WrongFamily,
             Self::Memory { .. } => SubsurfStatus::OutOfMemory,
             Self::NotExpanded => SubsurfStatus::NotExpanded,
+            Self::Other { status, .. } => status,
         }
     }
 }
@@ -113,6 +136,7 @@ impl fmt::Display for Failure<'_> {
             Self::Read { path, error } => Named(path).fmt(f).and_then(|()| error.fmt(f)),
             Self::Family { found, expected } => write!(f, "the file is a {found}, expected is a {expected}"),
             Self::Memory { need_bytes } => write!(f, "there is no memory of {need_bytes} bytes"),
+            Self::Other { text, .. } => text.fmt(f),
             Self::NotExpanded => f.write_str("a factored BTF is evaluated once subsurf_btf_expand was called"),
         }
     }
@@ -135,7 +159,7 @@ impl fmt::Display for Named<'_> {
 }
 
 /// Status of a call, whose failure becomes the thread's text.
-pub(crate) fn status_of(result: Result<(), Failure<'_>>) -> SubsurfStatus {
+pub fn status_of(result: Result<(), Failure<'_>>) -> SubsurfStatus {
     match result {
         Ok(()) => SubsurfStatus::Ok,
         Err(failure) => {

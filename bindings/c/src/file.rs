@@ -25,7 +25,7 @@ pub struct SubsurfFile {
 }
 
 /// What is behind a handle.
-pub(crate) struct OpenFile {
+pub struct OpenFile {
     file: File<'static>,
     /// Texels of a BTF.
     texels: u32,
@@ -52,7 +52,8 @@ impl SubsurfFile {
     ///
     /// # Safety
     /// As [`Handle::of`] says.
-    pub(crate) unsafe fn of<'f>(file: *const Self) -> Result<&'f OpenFile, Failure<'static>> {
+    #[doc(hidden)]
+    pub unsafe fn of<'f>(file: *const Self) -> Result<&'f OpenFile, Failure<'static>> {
         // SAFETY: the caller's word; what is there is such a handle.
         unsafe { Handle::of("file", file.cast()) }
     }
@@ -73,7 +74,8 @@ impl OpenFile {
         self.file.content()
     }
 
-    pub(crate) fn file(&self) -> &File<'static> {
+    /// The file, as long as its handle is open.
+    pub fn file(&self) -> &File<'static> {
         &self.file
     }
 

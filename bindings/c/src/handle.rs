@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::memory::{allocate, release};
 
 /// What is behind a kind of handles.
-pub(crate) trait Kind {
+pub trait Kind {
     /// Name of the handle in the header.
     const NAME: &'static str;
     /// First word of a handle that is open.
@@ -16,14 +16,14 @@ pub(crate) trait Kind {
 
 /// Memory of a handle.
 #[repr(C)]
-pub(crate) struct Handle<T> {
+pub struct Handle<T> {
     word: u64,
     value: T,
 }
 
 impl<T: Kind> Handle<T> {
     /// Handle of a value.
-    pub(crate) fn create(value: T) -> Result<NonNull<Self>, Failure<'static>> {
+    pub fn create(value: T) -> Result<NonNull<Self>, Failure<'static>> {
         allocate(Self { word: T::WORD, value }).ok_or(Failure::Memory { need_bytes: size_of::<Self>() as u64 })
     }
 
@@ -42,7 +42,7 @@ impl<T: Kind> Handle<T> {
     ///
     /// # Safety
     /// `handle` is null, or one of this library that is open, of any kind, and stays open for `'h`.
-    pub(crate) unsafe fn of<'h>(name: &'static str, handle: *const Self) -> Result<&'h T, Failure<'static>> {
+    pub unsafe fn of<'h>(name: &'static str, handle: *const Self) -> Result<&'h T, Failure<'static>> {
         // SAFETY: the caller's word.
         unsafe { Self::check(name, handle) }?;
         // SAFETY: the word was that of this kind.
@@ -53,7 +53,7 @@ impl<T: Kind> Handle<T> {
     ///
     /// # Safety
     /// As [`Self::of`], and nothing else uses the value meanwhile.
-    pub(crate) unsafe fn of_mut<'h>(name: &'static str, handle: *mut Self) -> Result<&'h mut T, Failure<'static>> {
+    pub unsafe fn of_mut<'h>(name: &'static str, handle: *mut Self) -> Result<&'h mut T, Failure<'static>> {
         // SAFETY: the caller's word.
         unsafe { Self::check(name, handle) }?;
         // SAFETY: the word was that of this kind.
@@ -64,7 +64,7 @@ impl<T: Kind> Handle<T> {
     ///
     /// # Safety
     /// As [`Self::of_mut`], and the handle is not used again.
-    pub(crate) unsafe fn close(handle: *mut Self) {
+    pub unsafe fn close(handle: *mut Self) {
         // SAFETY: the caller's word.
         if unsafe { Self::check("handle", handle) }.is_err() {
             return;

@@ -32,6 +32,15 @@ mod plane;
 mod text;
 mod version;
 
+/// What the functions of other crates stand on: the border to C, handles, failures. For the crates of `bindings/` alone.
+#[doc(hidden)]
+pub mod shared {
+    pub use crate::border::{Versioned, fill, in_memory, not_null, read, read3, write};
+    pub use crate::failure::{Failure, status_of};
+    pub use crate::file::OpenFile;
+    pub use crate::handle::{Handle, Kind};
+}
+
 pub use bssrdf::{subsurf_bssrdf_albedo, subsurf_bssrdf_rd};
 pub use btf::{
     subsurf_btf_albedo, subsurf_btf_eval, subsurf_btf_expand, subsurf_btf_linear, subsurf_btf_pdf, subsurf_btf_sample,

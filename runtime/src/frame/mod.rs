@@ -12,7 +12,7 @@ mod timed;
 pub(crate) use draw::Placed;
 pub use input::{Input, Object, ShadowMap, Target};
 pub use options::{BACKGROUND, BACKGROUND_COLOUR, RuntimeOptions};
-pub use picture::PictureTarget;
+pub use picture::{DepthTarget, PictureTarget};
 pub use plan::Plan;
 pub use prepare::Frame;
 pub use renderer::Renderer;

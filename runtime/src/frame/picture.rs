@@ -8,19 +8,26 @@ use super::prepare::Frame;
 use super::renderer::Renderer;
 use crate::error::Result;
 use crate::gpu::{ColourTarget, Gpu, Purpose, Surface2d, TextureSpec};
+use crate::technique::DepthFormat;
+
+/// Depth of pictures, and their samples where pixels have several: what colour of the host's is drawn with.
+#[derive(Debug)]
+pub struct DepthTarget {
+    depth: Surface2d,
+    /// Target of pixels with several samples.
+    samples: Option<Surface2d>,
+    format: DepthFormat,
+}
 
 /// Picture on the device, with depth and samples of its own.
 #[derive(Debug)]
 pub struct PictureTarget {
     colour: ColourTarget,
-    depth: Surface2d,
-    /// Target of pixels with several samples.
-    samples: Option<Surface2d>,
-    options: RuntimeOptions,
+    depth: DepthTarget,
 }
 
-impl PictureTarget {
-    /// Creates a picture of `size` pixels, width and height, for renderers with the same options.
+impl DepthTarget {
+    /// Creates depth and samples for pictures of `size` pixels, width and height, of renderers with the same options.
     ///
     /// # Errors
     /// [`Error::Unsupported`](crate::Error::Unsupported) if `size` is more than the device takes.
@@ -30,11 +37,37 @@ impl PictureTarget {
             gpu.texture(&TextureSpec { purpose: Purpose::Other, samples: options.samples, ..plain })
         };
         Ok(Self {
-            colour: gpu.target(size, options.format)?,
             depth: attachment("depth", options.depth.format)?,
             samples: if options.samples > 1 { Some(attachment("samples", options.format)?) } else { None },
-            options: *options,
+            format: options.depth,
         })
+    }
+
+    /// Target with a colour of the same size, cleared to the usual background.
+    #[must_use]
+    pub fn with<'a>(&'a self, colour: &'a TextureView) -> Target<'a> {
+        let (colour, resolve) = match &self.samples {
+            Some(samples) => (&samples.view, Some(colour)),
+            None => (colour, None),
+        };
+        Target {
+            colour,
+            load: LoadOp::Clear(BACKGROUND_COLOUR),
+            resolve,
+            depth: &self.depth.view,
+            depth_ops: self.format.own(),
+            origin: [0; 2],
+        }
+    }
+}
+
+impl PictureTarget {
+    /// Creates a picture of `size` pixels, width and height, for renderers with the same options.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`](crate::Error::Unsupported) if `size` is more than the device takes.
+    pub fn new(gpu: &Gpu, size: [u32; 2], options: &RuntimeOptions) -> Result<Self> {
+        Ok(Self { colour: gpu.target(size, options.format)?, depth: DepthTarget::new(gpu, size, options)? })
     }
 
     /// View of the colour.
@@ -46,18 +79,7 @@ impl PictureTarget {
     /// The picture as a target, cleared to the usual background.
     #[must_use]
     pub fn target(&self) -> Target<'_> {
-        let (colour, resolve) = match &self.samples {
-            Some(samples) => (&samples.view, Some(self.view())),
-            None => (self.view(), None),
-        };
-        Target {
-            colour,
-            load: LoadOp::Clear(BACKGROUND_COLOUR),
-            resolve,
-            depth: &self.depth.view,
-            depth_ops: self.options.depth.own(),
-            origin: [0; 2],
-        }
+        self.depth.with(self.view())
     }
 
     /// Texels of the picture, row by row from the top, as they stand in it; the format must have four bytes.

@@ -14,6 +14,9 @@ use crate::error::{Error, Result};
 use crate::gpu::Gpu;
 use crate::technique::{Bindings, Common, MapArea, TranslucentShadowMaps, reflection_sampler, separable, splat};
 
+/// How much finer or coarser than a view needs maps may be before others serve it better.
+const FINENESS: f32 = 1.25;
+
 /// Bytes that uniform blocks of the passes of one material are sure not to exceed.
 const UNIFORMS: u64 = 48 << 10;
 
@@ -21,6 +24,8 @@ const UNIFORMS: u64 = 48 << 10;
 #[derive(Debug)]
 pub struct Frame {
     pub(super) plan: Plan,
+    /// Divisor of the maps that the view asked for, whatever the budget gave.
+    wanted_divisor: f32,
     pub(super) common: Common,
     pub(super) lights: TranslucentShadowMaps,
     pub(super) slots: Vec<Slot>,
@@ -121,7 +126,27 @@ impl Renderer {
             slots.push(Slot { material: material.clone(), scene, bindings, bounds: None });
         }
         let objects = self.options.objects as usize;
-        Ok(Frame { plan, common, lights, slots, placed: Vec::with_capacity(objects), blocks: Vec::new() })
+        Ok(Frame {
+            plan,
+            wanted_divisor: divisor,
+            common,
+            lights,
+            slots,
+            placed: Vec::with_capacity(objects),
+            blocks: Vec::new(),
+        })
+    }
+
+    /// Whether a frame that was prepared serves an input as well as another one would: its size, its materials and its shadows are
+    /// there, and its maps are about as fine as the view needs.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] if there are too many lights, or a shadow map is not what it has to be.
+    pub fn serves(&self, frame: &Frame, input: &Input<'_>, size: [u32; 2]) -> Result<bool> {
+        let is_known = |object: &Object<'_>| frame.slots.iter().any(|slot| slot.material.is(object.material));
+        let has_room = frame.plan.size == size && frame.plan.lights >= input.drawn_shadows(&self.options)?;
+        let ratio = self.divisor(input, size) / frame.wanted_divisor;
+        Ok(has_room && input.objects.iter().all(is_known) && (1.0 / FINENESS..=FINENESS).contains(&ratio))
     }
 
     /// Bytes of the maps of some materials.

@@ -5,10 +5,12 @@ use std::fmt;
 use half::f16;
 use subsurf_shaders::TargetFormat;
 use wgpu::rwh::HasDisplayHandle;
+use wgpu::wgt::WgpuHasDisplayHandle;
 use wgpu::{
     Adapter, AdapterInfo, Buffer, BufferDescriptor, BufferSize, BufferUsages, Color, Device, DeviceDescriptor,
-    ErrorFilter, ExperimentalFeatures, Extent3d, Features, Instance, Limits, MemoryHints, Queue, RequestAdapterOptions,
-    Surface, SurfaceTarget, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages, Trace,
+    ErrorFilter, ExperimentalFeatures, Extent3d, Features, Instance, InstanceDescriptor, Limits, MemoryHints, Queue,
+    RequestAdapterOptions, Surface, SurfaceTarget, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages,
+    Trace,
 };
 
 use super::backend::{Backend, adapters, instance, ready};
@@ -48,6 +50,18 @@ pub struct OnScreen<'w> {
     pub adapter: Adapter,
 }
 
+/// Device that was opened before there is a window, and what it takes to draw to windows that come and go, as they do on Android
+/// with every pause of an app.
+#[derive(Debug)]
+pub struct OffScreen {
+    /// Device.
+    pub gpu: Gpu,
+    /// Entry to the API, which makes surfaces of windows.
+    pub instance: Instance,
+    /// Adapter, which knows what surfaces it can draw to, and their formats.
+    pub adapter: Adapter,
+}
+
 /// Format of targets: half floats where they can be drawn to, which takes GL_EXT_color_buffer_half_float or GL_EXT_color_buffer_float.
 fn target_format_of(device: &Device) -> TargetFormat {
     let scope = device.push_error_scope(ErrorFilter::Validation);
@@ -71,9 +85,19 @@ impl Gpu {
     /// # Errors
     /// [`Error::NoDevice`] if the driver lists none, or refuses it.
     pub fn open(backend: Backend) -> Result<Self> {
-        let adapter = adapters(&Instance::new(instance(backend)), backend).into_iter().next();
+        Ok(Self::open_off_screen(backend, None)?.gpu)
+    }
+
+    /// Opens the best device of a backend, within the same limits, for windows that come later: those of a display, where the
+    /// window system has one; Android's needs none.
+    ///
+    /// # Errors
+    /// [`Error::NoDevice`] if the driver lists none, or refuses it.
+    pub fn open_off_screen(backend: Backend, display: Option<Box<dyn WgpuHasDisplayHandle>>) -> Result<OffScreen> {
+        let instance = Instance::new(InstanceDescriptor { display, ..instance(backend) });
         let none = || Error::NoDevice { backend, reason: "the driver lists none".to_owned() };
-        Self::of(&adapter.ok_or_else(none)?, backend)
+        let adapter = adapters(&instance, backend).into_iter().next().ok_or_else(none)?;
+        Ok(OffScreen { gpu: Self::of(&adapter, backend)?, instance, adapter })
     }
 
     /// Opens the best device of a backend that draws to a window, within the same limits.
@@ -224,7 +248,7 @@ impl Gpu {
     ///
     /// # Errors
     /// [`Error::Device`] if it is.
-    pub(crate) fn expect_alive(&self) -> Result<()> {
+    pub fn expect_alive(&self) -> Result<()> {
         self.write(&self.probe, &PROBE)
     }
 

@@ -80,9 +80,14 @@ impl<'a, M> Load<'a, M> {
         steps.into_iter().fold(self, |load, (_, together)| load.then(LoadPhase::Upload, write(together)))
     }
 
-    /// Load of what is made of the material.
-    pub(super) fn map<N>(self, make: impl FnOnce(M) -> N) -> Load<'a, N> {
+    /// Load of what `make` makes of the material.
+    pub fn map<N>(self, make: impl FnOnce(M) -> N) -> Load<'a, N> {
         Load { gpu: self.gpu, made: self.made.map(make), steps: self.steps, all: self.all }
+    }
+
+    /// Device that it loads onto.
+    pub(super) fn gpu(&self) -> &'a Gpu {
+        self.gpu
     }
 
     /// What the next step does; none if there is none.

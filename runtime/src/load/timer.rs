@@ -125,7 +125,7 @@ impl<'a> LoadTimer<'a> {
                     }
                     _ => timed(&mut times.upload, || Load::new(gpu, &file))?,
                 };
-                let material = in_phases(gpu, load, &mut times)?;
+                let material = load.finish_timed(&mut times)?;
                 times.gpu_bytes = material.gpu_bytes();
                 timed(&mut times.first_frame, || stage.draw(gpu, &material))?;
             }
@@ -134,26 +134,32 @@ impl<'a> LoadTimer<'a> {
     }
 }
 
-/// Does all steps of a load; the device has done those of a phase before the next begins.
-fn in_phases(gpu: &Gpu, mut load: Load<'_>, times: &mut LoadTimes) -> Result<Material> {
-    while let Some(phase) = load.phase() {
-        let begin = Instant::now();
-        load.step()?;
-        let worked = begin.elapsed();
-        if load.phase() != Some(phase) {
-            gpu.finish()?;
-        }
-        let done = begin.elapsed();
-        match phase {
-            LoadPhase::Upload => times.upload += done,
-            LoadPhase::Pipelines => times.pipelines += done,
-            LoadPhase::Projection => {
-                times.recording += worked;
-                times.projection += done;
+impl<M> Load<'_, M> {
+    /// Does what is left, and tells how long each phase took and what the device did of it; unlike [`Load::finish`] it waits for
+    /// the device after every phase.
+    ///
+    /// # Errors
+    /// As [`Load::finish`].
+    pub fn finish_timed(mut self, times: &mut LoadTimes) -> Result<M> {
+        while let Some(phase) = self.phase() {
+            let begin = Instant::now();
+            self.step()?;
+            let worked = begin.elapsed();
+            if self.phase() != Some(phase) {
+                self.gpu().finish()?;
+            }
+            let done = begin.elapsed();
+            match phase {
+                LoadPhase::Upload => times.upload += done,
+                LoadPhase::Pipelines => times.pipelines += done,
+                LoadPhase::Projection => {
+                    times.recording += worked;
+                    times.projection += done;
+                }
             }
         }
+        self.finish()
     }
-    load.finish()
 }
 
 /// What was made, once the device has everything.

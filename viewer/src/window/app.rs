@@ -299,7 +299,9 @@ impl ApplicationHandler<Event> for App<'_> {
             WindowEvent::RedrawRequested => return self.redraw(events),
             WindowEvent::CloseRequested => return events.exit(),
             WindowEvent::Resized(to) if to.width > 0 && to.height > 0 => {
-                stage.canvas.resize(&stage.gpu, [to.width, to.height]);
+                if let Err(error) = stage.canvas.resize(&stage.gpu, [to.width, to.height]) {
+                    self.session.fail(error);
+                }
                 self.session.changed();
             }
             WindowEvent::ModifiersChanged(modifiers) => self.pointer.is_shifted = modifiers.state().shift_key(),

@@ -23,7 +23,7 @@ unsafe impl Sync for Mapping {}
 
 /// Why a file could not be mapped.
 #[derive(Clone, Copy)]
-pub(crate) enum MapError {
+pub enum MapError {
     /// System call of this name failed with an `errno`.
     System { call: &'static str, errno: c_int },
     /// Not a file that has a length.

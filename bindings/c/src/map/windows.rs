@@ -18,7 +18,7 @@ pub(crate) struct Mapping(Mmap);
 
 /// Why a file could not be mapped.
 #[derive(Clone, Copy)]
-pub(crate) enum MapError {
+pub enum MapError {
     /// The system failed with this code.
     System { call: &'static str, code: i32 },
     /// The path is not UTF-8.

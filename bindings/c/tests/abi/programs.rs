@@ -6,8 +6,13 @@ use std::sync::OnceLock;
 
 use tempfile::TempDir;
 
-use crate::library::{Language, bindings, compile, run};
+use crate::compiler::{Language, bindings, run};
+use crate::library::decoder;
 use crate::{expected, files};
+
+/// Oldest standards that the header is for.
+const C: Language = Language::C("c99");
+const CPP: Language = Language::Cpp("c++11");
 
 /// Memory errors, undefined behaviour and leaks end the program.
 const SANITIZERS: [&str; 2] = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
@@ -27,7 +32,7 @@ fn check() -> &'static Check {
         let build = |name: &str, options: &[&str]| {
             let folder = folder.path().join(name);
             std::fs::create_dir(&folder).expect("a temporary folder can be written to");
-            Language::C.is_here(&folder, options).then(|| compile(Language::C, &source, options, &folder))
+            C.is_here(&folder, options).then(|| decoder().compile(C, &source, options, &folder))
         };
         let (sanitized, plain) = (build("sanitized", &SANITIZERS), build("plain", &[]));
         Check { folder, sanitized, plain }
@@ -97,12 +102,12 @@ fn example(language: Language, name: &str, file: &Path) -> Option<String> {
     let source = bindings().join("examples").join(name);
     let lines = std::fs::read_to_string(&source).expect("an example").lines().count();
     assert!(lines <= 40, "{name} has {lines} lines");
-    Some(run(Command::new(compile(language, &source, options, folder.path())).arg(file)))
+    Some(run(Command::new(decoder().compile(language, &source, options, folder.path())).arg(file)))
 }
 
 #[test]
 fn the_example_in_c_describes_a_patch() {
-    let Some(said) = example(Language::C, "describe.c", &files::bssrdf()) else { return };
+    let Some(said) = example(C, "describe.c", &files::bssrdf()) else { return };
     for words in
         ["216 bytes, family 1", "2 x 1 pixels of 0.5 mm, 48 bits", "plane 3: 2 x 1 x 1, GL format 0x8238, Vulkan 20"]
     {
@@ -114,7 +119,7 @@ fn the_example_in_c_describes_a_patch() {
 fn the_example_in_cpp_evaluates_btfs() {
     let folder = tempfile::tempdir().expect("temporary folders can be made");
     for file in files::btfs(folder.path()) {
-        let Some(said) = example(Language::Cpp, "evaluate.cpp", &file) else { return };
+        let Some(said) = example(CPP, "evaluate.cpp", &file) else { return };
         assert!(said.starts_with("linear RGB of texel 4: "), "{said}");
     }
 }

@@ -1,0 +1,172 @@
+package dev.subsurf
+
+import org.junit.After
+import org.junit.Assert.assertEquals
+import org.junit.Assert.assertTrue
+import org.junit.Test
+
+class RenderThreadTest {
+    private val source = FakeSource()
+    private val news = News()
+    private val thread = RenderThread(source, news)
+    private val scene = source.scene("a")
+
+    @After
+    fun close() = thread.close()
+
+    /** A window, in front, with a first frame. */
+    private fun begin() {
+        thread.setWindow("window", 30, 20)
+        thread.resume()
+        thread.show(scene)
+        news.awaitFrame()
+        source.calls.clear()
+        news.forget()
+    }
+
+    @Test
+    fun drawsOnceWindowFrontAndSceneAreThere() {
+        thread.show(scene)
+        thread.setWindow("window", 30, 20)
+        assertTrue("not in front", news.isQuiet())
+        assertEquals(emptyList<String>(), source.actions())
+        thread.resume()
+        news.awaitFrame()
+        assertEquals(listOf("open", "attach window 30x20 to 1", "draw a"), source.actions())
+        assertTrue("nothing changed", news.isQuiet())
+    }
+
+    @Test
+    fun pauseGivesTheSurfaceUpAndKeepsTheDevice() {
+        begin()
+        thread.pause()
+        assertEquals(listOf("detach from 1"), source.actions())
+        thread.show(source.scene("b"))
+        assertTrue("paused", news.isQuiet())
+        thread.resume()
+        news.awaitFrame()
+        assertEquals(listOf("detach from 1", "attach window 30x20 to 1", "draw b"), source.actions())
+    }
+
+    @Test
+    fun destroyedSurfaceIsNotTouchedAnyMore() {
+        begin()
+        thread.setContinuous(true)
+        news.awaitFrame()
+        thread.setWindow(null, 0, 0)
+        val after = source.calls.size
+        assertEquals("detach from 1", source.actions().last())
+        news.forget()
+        assertTrue("no window", news.isQuiet())
+        assertEquals(after, source.calls.size)
+        thread.setWindow("another", 30, 20)
+        news.awaitFrame()
+        assertTrue("attach another 30x20 to 1" in source.actions())
+    }
+
+    @Test
+    fun anotherWindowReplacesTheFirst() {
+        begin()
+        thread.setWindow("another", 30, 20)
+        news.awaitFrame()
+        assertEquals(listOf("detach from 1", "attach another 30x20 to 1", "draw a"), source.actions())
+    }
+
+    @Test
+    fun sizeIsFollowed() {
+        begin()
+        thread.setWindow("window", 20, 30)
+        news.awaitFrame()
+        assertEquals(listOf("resize 20x30", "draw a"), source.actions())
+    }
+
+    @Test
+    fun lostDeviceIsOpenedAgain() {
+        begin()
+        source.failures += "draw" to SubsurfException.DeviceLost(11, "lost")
+        thread.show(source.scene("b"))
+        news.awaitFrame()
+        assertEquals(listOf("draw b", "close 1", "open", "attach window 30x20 to 2", "draw b"), source.actions())
+    }
+
+    @Test
+    fun lostSurfaceIsMadeAgain() {
+        begin()
+        source.failures += "draw" to SubsurfException.SurfaceLost(13, "lost")
+        thread.show(source.scene("b"))
+        news.awaitFrame()
+        assertEquals(listOf("draw b", "detach from 1", "attach window 30x20 to 1", "draw b"), source.actions())
+    }
+
+    @Test
+    fun deviceThatIsLostAgainAndAgainIsAnError() {
+        begin()
+        repeat(4) { source.failures += "draw" to SubsurfException.DeviceLost(11, "lost") }
+        thread.show(scene)
+        assertTrue(news.awaitError() is SubsurfException.DeviceLost)
+        assertTrue("stopped", news.isQuiet())
+        thread.pause()
+        thread.resume()
+        news.awaitFrame()
+    }
+
+    @Test
+    fun errorsStopUntilSomethingChanges() {
+        begin()
+        thread.setContinuous(true)
+        source.failures += "draw" to SubsurfException.OverBudget(7, "too much")
+        assertEquals("too much", news.awaitError().message)
+        news.forget()
+        assertTrue("stopped", news.isQuiet())
+        assertTrue("the process is still there", "survived" in source.calls)
+        thread.show(scene)
+        news.awaitFrame()
+    }
+
+    @Test
+    fun deviceThatDoesNotOpenIsTriedAgainOnResume() {
+        source.failures += "open" to SubsurfException.NoDevice(9, "none")
+        thread.setWindow("window", 30, 20)
+        thread.show(scene)
+        thread.resume()
+        assertTrue(news.awaitError() is SubsurfException.NoDevice)
+        thread.pause()
+        thread.resume()
+        news.awaitFrame()
+    }
+
+    @Test
+    fun memoryIsGivenUpByLevels() {
+        begin()
+        thread.trim(RenderThread.Trim.UNUSED)
+        news.awaitFrame()
+        assertEquals(listOf("trim to a", "draw a"), source.actions())
+        thread.pause()
+        source.calls.clear()
+        thread.trim(RenderThread.Trim.COPIES)
+        thread.resume()
+        news.awaitFrame()
+        assertEquals(listOf("trim to null", "attach window 30x20 to 1", "draw a"), source.actions())
+        thread.pause()
+        source.calls.clear()
+        thread.trim(RenderThread.Trim.DEVICE)
+        thread.resume()
+        news.awaitFrame()
+        assertEquals(listOf("close 1", "open", "attach window 30x20 to 2", "draw a"), source.actions())
+    }
+
+    @Test
+    fun skippedFramesAreNone() {
+        begin()
+        source.isSkipping = true
+        thread.show(scene)
+        assertTrue("nothing to draw to", news.isQuiet())
+    }
+
+    @Test
+    fun closingGivesAllUp() {
+        begin()
+        thread.close()
+        assertEquals(listOf("detach from 1", "close 1"), source.actions())
+    }
+}

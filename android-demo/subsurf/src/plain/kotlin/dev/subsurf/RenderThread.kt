@@ -1,0 +1,258 @@
+package dev.subsurf
+
+import java.util.concurrent.locks.ReentrantLock
+import kotlin.concurrent.thread
+import kotlin.concurrent.withLock
+
+/**
+ * Thread that draws a scene to a window for as long as there is one: it opens a device when it first needs it, makes a surface when
+ * there is a window and the app is in front, gives it up when either ends, and opens all anew when the device is lost.
+ *
+ * Threads: any may call it. [setWindow] with null, [pause] and [close] return once the window is not touched any more.
+ */
+internal class RenderThread(
+    private val source: EngineSource,
+    private val listener: RenderListener,
+) : AutoCloseable {
+    private val lock = ReentrantLock()
+    private val changed = lock.newCondition()
+
+    // What is wanted.
+    private var window: Any? = null
+    private var width = 0
+    private var height = 0
+    private var isResumed = false
+    private var scene: Scene? = null
+    private var isDirty = false
+    private var isContinuous = false
+    private var trim = Trim.NOTHING
+    private var isClosed = false
+
+    // What is.
+    private var attached: Attached? = null
+
+    /** Whether an error has stopped it until something changes. */
+    private var isStopped = false
+
+    // Used by the thread alone.
+    private var engine: Engine? = null
+    private var losses = 0
+
+    /** What memory to give up, the more the later. */
+    enum class Trim {
+        /** None. */
+        NOTHING,
+
+        /** What the scene does not need. */
+        UNUSED,
+
+        /** All copies on the device. */
+        COPIES,
+
+        /** The device too, unless it is drawn to. */
+        DEVICE,
+    }
+
+    private data class Attached(val window: Any, val width: Int, val height: Int)
+
+    private val thread = thread(name = "subsurf-render") { run() }
+
+    /** Window to draw to, and its size; null once it is gone: returns when it is not used any more. */
+    fun setWindow(window: Any?, width: Int, height: Int) =
+        change {
+            this.window = window
+            this.width = width
+            this.height = height
+            isDirty = true
+            if (window == null) awaitDetached()
+        }
+
+    /** The app is in front. */
+    fun resume() =
+        change {
+            isResumed = true
+            isDirty = true
+        }
+
+    /** The app is not in front: returns when the window is not used any more. Device and copies stay. */
+    fun pause() =
+        change {
+            isResumed = false
+            awaitDetached()
+        }
+
+    /** What is drawn next. */
+    fun show(scene: Scene?) =
+        change {
+            this.scene = scene
+            isDirty = true
+        }
+
+    /** Whether frames follow each other without end, or are drawn when something changes. */
+    fun setContinuous(isContinuous: Boolean) = change { this.isContinuous = isContinuous }
+
+    /** Gives memory up. */
+    fun trim(level: Trim) =
+        change {
+            trim = maxOf(trim, level)
+            if (attached != null) isDirty = true
+        }
+
+    /** Ends the thread, and closes the device. */
+    override fun close() {
+        change { isClosed = true }
+        if (Thread.currentThread() !== thread) thread.join()
+    }
+
+    private inline fun change(work: () -> Unit) =
+        lock.withLock {
+            isStopped = false
+            changed.signalAll()
+            work()
+        }
+
+    private fun awaitDetached() {
+        if (Thread.currentThread() === thread) return
+        while (attached != null && thread.isAlive) changed.await()
+    }
+
+    private fun wanted(): Attached? =
+        window?.takeIf { isResumed && !isClosed && width > 0 && height > 0 }?.let { Attached(it, width, height) }
+
+    /** Work of the thread, one piece at a time, so that what changes in between is seen. */
+    private sealed class Work {
+        data object Detach : Work()
+
+        class Attach(val to: Attached) : Work()
+
+        class Resize(val to: Attached) : Work()
+
+        class GiveUp(val level: Trim, val kept: Scene?) : Work()
+
+        class Draw(val scene: Scene) : Work()
+
+        data object End : Work()
+    }
+
+    /** Next piece of work; waits until there is one. The lock is held. */
+    private fun next(): Work {
+        while (true) {
+            val (found, to) = attached to wanted()
+            val shown = scene
+            when {
+                found != null && found.window !== to?.window -> return Work.Detach
+                isClosed -> return Work.End
+                trim != Trim.NOTHING ->
+                    return Work.GiveUp(trim, shown?.takeIf { trim == Trim.UNUSED }).also { trim = Trim.NOTHING }
+                isStopped -> Unit
+                to != null && found == null -> return Work.Attach(to)
+                to != null && found != to -> return Work.Resize(to)
+                to != null && shown != null && (isDirty || isContinuous) -> {
+                    isDirty = false
+                    return Work.Draw(shown)
+                }
+            }
+            changed.await()
+        }
+    }
+
+    private fun run() {
+        while (true) {
+            val work = lock.withLock { next() }
+            if (work == Work.End) break
+            try {
+                perform(work)
+            } catch (_: SubsurfException.DeviceLost) {
+                lost()
+            } catch (_: SubsurfException.SurfaceLost) {
+                surfaceLost()
+            } catch (
+                @Suppress("TooGenericExceptionCaught") e: Exception,
+            ) {
+                source.survived()
+                stop(e)
+            }
+        }
+        engine?.close()
+        engine = null
+        lock.withLock { changed.signalAll() }
+    }
+
+    private fun perform(work: Work) {
+        when (work) {
+            Work.Detach -> detach()
+            is Work.Attach -> {
+                val opened = engine ?: source.open().also { engine = it }
+                opened.attach(work.to.window, work.to.width, work.to.height)
+                isNow(work.to)
+            }
+            is Work.Resize -> {
+                engine?.resize(work.to.width, work.to.height)
+                isNow(work.to)
+            }
+            is Work.GiveUp -> giveUp(work)
+            is Work.Draw -> draw(work.scene)
+            Work.End -> Unit
+        }
+    }
+
+    private fun draw(scene: Scene) {
+        val begin = System.nanoTime()
+        val isDrawn = engine?.draw(scene) ?: false
+        if (!isDrawn) return
+        losses = 0
+        source.survived()
+        listener.onFrame(System.nanoTime() - begin)
+    }
+
+    private fun giveUp(work: Work.GiveUp) {
+        val isDrawnTo = lock.withLock { attached != null }
+        if (work.level == Trim.DEVICE && !isDrawnTo) {
+            engine?.close()
+            engine = null
+        } else {
+            engine?.trim(work.kept)
+        }
+    }
+
+    private fun detach() {
+        try {
+            engine?.detach()
+        } finally {
+            source.survived()
+            isNow(null)
+        }
+    }
+
+    private fun isNow(state: Attached?) =
+        lock.withLock {
+            attached = state
+            if (state != null) isDirty = true
+            changed.signalAll()
+        }
+
+    /** Opens all anew, unless that was of no use several times. */
+    private fun lost() {
+        engine?.close()
+        engine = null
+        isNow(null)
+        if (isTooOften()) stop(SubsurfException.DeviceLost(Status.DEVICE_LOST, "the device is lost again and again"))
+    }
+
+    private fun surfaceLost() {
+        detach()
+        if (isTooOften()) stop(SubsurfException.SurfaceLost(Status.SURFACE_LOST, "the surface is lost again and again"))
+    }
+
+    private fun isTooOften(): Boolean = ++losses > MOST_LOSSES
+
+    private fun stop(error: Exception) {
+        losses = 0
+        lock.withLock { isStopped = true }
+        listener.onError(error)
+    }
+
+    private companion object {
+        const val MOST_LOSSES = 3
+    }
+}
