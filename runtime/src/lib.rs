@@ -24,6 +24,6 @@ pub use subsurf_shaders::uniform::BtfFiltering;
 pub use subsurf_shaders::{BtfLayout, MaterialLayout, TargetFormat};
 pub use technique::{
     BtfAnswer, BtfOptions, BtfQueries, BtfQuery, DepthFormat, Exitance, HomogeneousPatch, HomogeneousRenderer,
-    PatchLight, PatchRenderer, Region, SeparablePatch, SeparableRenderer, Technique,
+    PatchLight, PatchRenderer, Region, SeparablePatch, SeparableRenderer, SplatLevels, Technique,
 };
 pub use wgpu;

@@ -63,8 +63,9 @@ impl Application {
         let any = wgpu::InstanceDescriptor::new_without_display_handle();
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor { backends, ..any });
         let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))?;
-        let limits = wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits());
-        let wanted = wgpu::DeviceDescriptor { required_limits: limits, ..Default::default() };
+        // What every phone and every browser has.
+        let required_limits = wgpu::Limits::downlevel_webgl2_defaults();
+        let wanted = wgpu::DeviceDescriptor { required_limits, ..Default::default() };
         let (device, queue) = pollster::block_on(adapter.request_device(&wanted))?;
         let texture = |format| {
             device.create_texture(&wgpu::TextureDescriptor {

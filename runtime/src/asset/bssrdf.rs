@@ -4,10 +4,10 @@ use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{BaseMaterials, BssrdfHeader, BssrdfModel, Mixtures, Profiles};
 use subsurf_shaders::MaterialLayout;
 use subsurf_shaders::uniform::{self, BASE_ROWS, ROW};
-use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
+use wgpu::{BindingResource, Buffer, TextureFormat};
 
 use crate::error::{Error, Result};
-use crate::gpu::{Fill, Gpu, Purpose, Surface2d, TextureSpec, Tracked, layers_of};
+use crate::gpu::{Fill, Gpu, Purpose, Surface2d, TextureSpec, Tracked};
 
 /// Layout of a file on the device.
 #[must_use]
@@ -31,7 +31,6 @@ pub struct BssrdfPlanes {
     header: BssrdfHeader,
     uniform: Tracked<Buffer>,
     textures: Vec<Surface2d>,
-    views: Vec<TextureView>,
 }
 
 impl BssrdfPlanes {
@@ -54,7 +53,7 @@ impl BssrdfPlanes {
         let header = material.header();
         let size = [header.width, header.height];
         let layout = layout_of(material);
-        let mut planes = Planes { gpu, size, all: Vec::new(), fills: Vec::new() };
+        let mut planes = Planes { gpu, size, textures: Vec::new(), fills: Vec::new() };
         match material.model() {
             BssrdfModel::PerPixel(profiles) => {
                 let count = 3 * u32::from(header.samples);
@@ -65,8 +64,7 @@ impl BssrdfPlanes {
                 planes.mixtures(*mixtures)?;
             }
         }
-        let (textures, views) = planes.all.into_iter().unzip();
-        Ok((Self::new(gpu, layout, header, [ROW; 2], textures, views), planes.fills))
+        Ok((Self::new(gpu, layout, header, [ROW; 2], planes.textures), planes.fills))
     }
 
     /// Uploads an uncompressed capture, `[y][x][dy][dx][rgb]` of little-endian f32, for comparison: sizes, pitch and
@@ -87,8 +85,7 @@ impl BssrdfPlanes {
             // Copies wait in buffers of their own until they are submitted: do not let them all wait together.
             gpu.finish()?;
         }
-        let views = vec![layers_of(&texture)];
-        Ok(Self::new(gpu, MaterialLayout::Capture, header, [ROW, rows], vec![texture], views))
+        Ok(Self::new(gpu, MaterialLayout::Capture, header, [ROW, rows], vec![texture]))
     }
 
     fn new(
@@ -97,10 +94,9 @@ impl BssrdfPlanes {
         header: &BssrdfHeader,
         layer: [u32; 2],
         textures: Vec<Surface2d>,
-        views: Vec<TextureView>,
     ) -> Self {
         let block = uniform::Material::new(header, layer);
-        Self { layout, header: *header, uniform: gpu.uniform(Purpose::Material, "material", &block), textures, views }
+        Self { layout, header: *header, uniform: gpu.uniform(Purpose::Material, "material", &block), textures }
     }
 
     /// Layout of the material on the device.
@@ -124,7 +120,7 @@ impl BssrdfPlanes {
     /// Resources of the material's group, in the order of [`MaterialLayout::bindings`].
     pub(crate) fn resources(&self) -> Vec<BindingResource<'_>> {
         let uniform = std::iter::once(self.uniform.as_entire_binding());
-        uniform.chain(self.views.iter().map(BindingResource::TextureView)).collect()
+        uniform.chain(self.textures.iter().map(|surface| BindingResource::TextureView(&surface.view))).collect()
     }
 
     /// Refuses a material of another layout than a pass was built for.
@@ -136,12 +132,12 @@ impl BssrdfPlanes {
     }
 }
 
-/// Textures of a file, in the order of [`MaterialLayout::bindings`], each with the view that shaders take.
+/// Textures of a file, in the order of [`MaterialLayout::bindings`].
 struct Planes<'g, 'a> {
     gpu: &'g Gpu,
     /// Width and height of the patch in pixels.
     size: [u32; 2],
-    all: Vec<(Surface2d, TextureView)>,
+    textures: Vec<Surface2d>,
     fills: Vec<Fill<'a>>,
 }
 
@@ -150,8 +146,7 @@ impl<'a> Planes<'_, 'a> {
     fn texture(&mut self, spec: &TextureSpec, bytes: &'a [u8]) -> Result<()> {
         let surface = self.gpu.texture(spec)?;
         self.fills.extend(Fill::pieces(&surface.texture, 0, bytes));
-        let view = surface.view.clone();
-        self.all.push((surface, view));
+        self.textures.push(surface);
         Ok(())
     }
 
@@ -167,8 +162,7 @@ impl<'a> Planes<'_, 'a> {
         for (bytes, layer) in bytes.chunks(plane).zip(0..) {
             self.fills.extend(Fill::pieces(&surface.texture, layer, bytes));
         }
-        let view = layers_of(&surface);
-        self.all.push((surface, view));
+        self.textures.push(surface);
         Ok(())
     }
 
@@ -190,8 +184,7 @@ impl<'a> Planes<'_, 'a> {
             texels[(row * width as usize + column) * 4 * channel..][..3 * channel].copy_from_slice(node);
         }
         self.fills.push(Fill::whole(&surface.texture, texels));
-        let view = surface.view.clone();
-        self.all.push((surface, view));
+        self.textures.push(surface);
         Ok(())
     }
 

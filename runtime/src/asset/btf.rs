@@ -3,7 +3,7 @@
 use subsurf_decoder::NestedBtf;
 use subsurf_shaders::BtfLayout;
 use subsurf_shaders::uniform::{BtfCodebooks, BtfTexture};
-use wgpu::{BindingResource, Buffer, TextureFormat, TextureView};
+use wgpu::{BindingResource, Buffer, TextureFormat};
 
 use crate::error::{Error, Result};
 use crate::gpu::{Fill, Gpu, Purpose, Surface2d, TextureSpec, Tracked};
@@ -15,7 +15,6 @@ pub struct BtfMaterial {
     /// Mipmap levels of each material.
     textures: Vec<BtfTexture>,
     texture: Surface2d,
-    view: TextureView,
     block: Tracked<Buffer>,
 }
 
@@ -43,21 +42,17 @@ impl BtfMaterial {
         let textures = (0..materials).filter_map(|number| BtfTexture::of(btf, number)).collect();
         let words = gpu.texture(&TextureSpec::array("BTF", file.len().div_ceil(4), TextureFormat::R32Uint))?;
         let fills = Fill::pieces(&words.texture, 0, file).collect();
-        let view = words.view.clone();
-        Ok((
-            Self::new(BtfLayout::Nested, textures, words, view, gpu.uniform(Purpose::Material, "codebooks", &books)),
-            fills,
-        ))
+        let block = gpu.uniform(Purpose::Material, "codebooks", &books);
+        Ok((Self::new(BtfLayout::Nested, textures, words, block), fills))
     }
 
     pub(super) fn new(
         layout: BtfLayout,
         textures: Vec<BtfTexture>,
         texture: Surface2d,
-        view: TextureView,
         block: Tracked<Buffer>,
     ) -> Self {
-        Self { layout, textures, texture, view, block }
+        Self { layout, textures, texture, block }
     }
 
     /// Layout of the BTF on the device.
@@ -87,6 +82,6 @@ impl BtfMaterial {
 
     /// Resources of its group, in the order of [`BtfLayout::bindings`].
     pub(crate) fn resources(&self) -> [BindingResource<'_>; 2] {
-        [self.block.as_entire_binding(), BindingResource::TextureView(&self.view)]
+        [self.block.as_entire_binding(), BindingResource::TextureView(&self.texture.view)]
     }
 }

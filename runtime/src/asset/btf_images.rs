@@ -7,7 +7,7 @@ use wgpu::TextureFormat;
 
 use super::btf::BtfMaterial;
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Purpose, TextureSpec, layers_of};
+use crate::gpu::{Gpu, Purpose, TextureSpec};
 
 /// Size and directions of the images of one material, one for every pair of a light and a view.
 #[derive(Clone, Copy, Debug)]
@@ -142,9 +142,8 @@ impl BtfMaterial {
             cos_light_min: lowest,
             pad: 0,
         };
-        let all = layers_of(&texture);
         let textures = vec![BtfTexture::plain(images.size)];
-        Ok(Self::new(BtfLayout::Images, textures, texture, all, gpu.uniform(Purpose::Material, "images", &block)))
+        Ok(Self::new(BtfLayout::Images, textures, texture, gpu.uniform(Purpose::Material, "images", &block)))
     }
 }
 

@@ -3,11 +3,12 @@
 use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader};
 use subsurf_shaders::Rgb;
 use wgpu::{
-    AddressMode, FilterMode, MipmapFilterMode, Sampler, SamplerDescriptor, TextureFormat, TextureUsages, TextureView,
+    AddressMode, BindingResource, FilterMode, MipmapFilterMode, Sampler, SamplerDescriptor, TextureFormat,
+    TextureUsages,
 };
 
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Surface2d, TextureSpec, layers_of};
+use crate::gpu::{Gpu, Surface2d, TextureSpec};
 
 /// Array of filtered values over a patch, rgb, with mipmap levels, as half floats.
 ///
@@ -17,8 +18,6 @@ pub(crate) struct PatchLayers {
     pub(crate) surface: Surface2d,
     /// Number of layers that have a meaning.
     pub(crate) count: u32,
-    /// View of all layers and levels.
-    pub(crate) all: TextureView,
     /// Sampler that filters and wraps as the patch does.
     pub(crate) sampler: Sampler,
 }
@@ -35,7 +34,12 @@ impl PatchLayers {
         let spec = TextureSpec::layered("layers of the patch", size, count, TextureFormat::Rgba16Float);
         let usage = spec.usage | TextureUsages::COPY_SRC;
         let surface = gpu.texture(&TextureSpec { levels, usage, ..spec })?;
-        Ok(Self { all: layers_of(&surface), surface, count, sampler: sampler(gpu, header.addressing) })
+        Ok(Self { surface, count, sampler: sampler(gpu, header.addressing) })
+    }
+
+    /// All layers and levels, and the sampler.
+    pub(crate) fn resources(&self) -> [BindingResource<'_>; 2] {
+        [BindingResource::TextureView(&self.surface.view), BindingResource::Sampler(&self.sampler)]
     }
 
     /// Reads a mipmap level of a layer back: linear Rec. 709, row by row.

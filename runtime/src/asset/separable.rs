@@ -1,13 +1,14 @@
 //! Materials for separable blurs on the device.
 
 use subsurf_decoder::bssrdf::BssrdfHeader;
+use subsurf_shaders::Rgb;
 use subsurf_shaders::separable::BasisNumbers;
-use subsurf_shaders::{Rgb, uniform};
-use wgpu::Buffer;
+use subsurf_shaders::uniform::{BlurStage, PatchDomain, Transmission};
+use wgpu::{BindingResource, TextureView};
 
 use super::patch_layers::PatchLayers;
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, Purpose, Tracked};
+use crate::gpu::{Blocks, Gpu, Purpose, layers_of};
 
 /// Separable material on the device: coefficients c_l and albedo over the patch, and blocks of the cascade of Gaussians.
 #[derive(Debug)]
@@ -16,9 +17,8 @@ pub struct SeparableMaterial {
     terms: usize,
     /// Layers c_l, l < L, and the albedo under uniform light.
     pub(crate) layers: PatchLayers,
-    /// Blocks along rows and along columns, for each Gaussian a.
-    stages: Vec<[Tracked<Buffer>; 2]>,
-    transmission: Tracked<Buffer>,
+    /// Blocks of the flat patch, of the transmission, and of the stages: along rows and along columns for each Gaussian a.
+    blocks: Blocks,
     narrowest_pixels: f32,
 }
 
@@ -29,17 +29,16 @@ impl SeparableMaterial {
     /// [`Error::Unsupported`] if the device takes no texture of that size.
     pub(crate) fn new(gpu: &Gpu, basis: &BasisNumbers) -> Result<Self> {
         let terms = basis.size().terms;
-        let stages = uniform::BlurStage::cascade(basis);
+        let (domain, transmission) = (PatchDomain::new(basis.header()), Transmission::new(basis));
+        let stages = BlurStage::cascade(basis);
+        let blocks = [bytemuck::bytes_of(&domain), bytemuck::bytes_of(&transmission)];
+        let blocks = blocks.into_iter().chain(stages.iter().flatten().map(bytemuck::bytes_of));
         Ok(Self {
             header: *basis.header(),
             terms,
             layers: PatchLayers::new(gpu, basis.header(), terms + 1)?,
-            transmission: gpu.uniform(Purpose::Material, "transmission", &uniform::Transmission::new(basis)),
+            blocks: Blocks::new(gpu, Purpose::Material, "blocks of a basis", blocks),
             narrowest_pixels: basis.sigmas().first().copied().unwrap_or(1.0),
-            stages: stages
-                .iter()
-                .map(|axes| axes.map(|block| gpu.uniform(Purpose::Material, "stage", &block)))
-                .collect(),
         })
     }
 
@@ -75,12 +74,22 @@ impl SeparableMaterial {
     /// Bytes of layers and blocks on the device.
     #[must_use]
     pub fn gpu_bytes(&self) -> u64 {
-        self.layers.bytes() + self.stages.iter().flatten().chain([&self.transmission]).map(Tracked::bytes).sum::<u64>()
+        self.layers.bytes() + self.blocks.bytes()
+    }
+
+    /// View of the coefficients alone, at full size: what else there is may not be drawn yet.
+    pub(crate) fn coefficients(&self) -> TextureView {
+        layers_of(&self.layers.surface, self.layers.count - 1, 0)
     }
 
     /// Block of the weights of all Gaussians, for light that passes through thin parts.
-    pub(crate) fn transmission(&self) -> &Buffer {
-        &self.transmission
+    pub(crate) fn transmission(&self) -> BindingResource<'_> {
+        self.blocks.block(1)
+    }
+
+    /// Block of the flat patch.
+    pub(crate) fn domain(&self) -> BindingResource<'_> {
+        self.blocks.block(0)
     }
 
     /// Standard deviation of the narrowest Gaussian, in pixels of the patch.
@@ -88,8 +97,13 @@ impl SeparableMaterial {
         self.narrowest_pixels
     }
 
-    /// Blocks along rows and along columns, for each Gaussian.
-    pub(crate) fn stages(&self) -> &[[Tracked<Buffer>; 2]] {
-        &self.stages
+    /// Number of Gaussians A, each of which is a stage of the cascade.
+    pub(crate) fn gaussians(&self) -> usize {
+        self.blocks.len() / 2 - 1
+    }
+
+    /// Blocks of stage a, along rows and along columns.
+    pub(crate) fn stage(&self, a: usize) -> [BindingResource<'_>; 2] {
+        [0, 1].map(|axis| self.blocks.block(2 + 2 * a + axis))
     }
 }

@@ -10,8 +10,8 @@ use super::prepare::Frame;
 use super::renderer::Renderer;
 use crate::asset::Material;
 use crate::error::{Error, Result};
-use crate::gpu::{Gpu, attachment};
-use crate::technique::{Attachments, Group, Lap, OBJECT_STRIDE, Viewport, group_number};
+use crate::gpu::{BLOCK_STRIDE, Gpu, attachment};
+use crate::technique::{Attachments, Group, Lap, Viewport, group_number};
 
 /// Object of the input in a frame.
 #[derive(Clone, Copy, Debug)]
@@ -136,7 +136,7 @@ impl Renderer {
 impl Frame {
     /// Finds the materials and the blocks of all objects, and uploads the blocks; `None` if nothing is seen.
     fn place(&mut self, gpu: &Gpu, input: &Input<'_>, options: &RuntimeOptions) -> Result<Option<Seen>> {
-        let room = self.common.objects.size() / u64::from(OBJECT_STRIDE);
+        let room = self.common.objects.size() / u64::from(BLOCK_STRIDE);
         if input.objects.len() as u64 > room {
             return Err(Error::Usage(format!("{} objects; the renderer has room for {room}", input.objects.len())));
         }
@@ -166,7 +166,7 @@ impl Frame {
                 let of_slot = &mut self.slots[slot].bounds;
                 *of_slot = Some(with_this(of_slot));
             }
-            self.placed.push(Placed { slot, offset: number * OBJECT_STRIDE, is_visible });
+            self.placed.push(Placed { slot, offset: number * BLOCK_STRIDE, is_visible });
         }
         let is_seen = self.slots.iter().any(|slot| slot.bounds.is_some());
         let Some(bounds) = all.filter(|_| is_seen) else {
@@ -174,6 +174,7 @@ impl Frame {
         };
         let lighting = &input.lighting;
         let mut block = uniform::Scene::new(&input.view, input.exposure, lighting, &bounds, self.plan.light_texels);
+        block.light_columns = self.plan.light_columns;
         input.project_maps(&mut block);
         self.common.host_shadows.show(gpu, input.shadow_maps)?;
         self.lights.update(gpu, block.drawn_shadows());
@@ -190,7 +191,7 @@ impl Frame {
                 ..uniform::Object::new(&placement, &object.world_from_mesh, object.roughness)
             };
             self.blocks.extend_from_slice(bytemuck::bytes_of(&block));
-            self.blocks.resize(placed.offset as usize + OBJECT_STRIDE as usize, 0);
+            self.blocks.resize(placed.offset as usize + BLOCK_STRIDE as usize, 0);
         }
         gpu.queue.write_buffer(&self.common.objects, 0, &self.blocks);
         Ok(Some(Seen { block, bounds }))

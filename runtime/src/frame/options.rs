@@ -21,7 +21,8 @@ pub struct RuntimeOptions {
     pub tone_mapping: bool,
     /// Whether lights may have shadow maps of the host's own: passes that look them up are larger.
     pub host_shadow_maps: bool,
-    /// Texels to a side of what each light sees: a power of two, at least 128.
+    /// Texels to a side of what each light sees: a power of two, at least 128. Fewer where the textures of a device have no room for
+    /// as many beside and below each other: those of 2,048 texels to a side hold eight views of 512.
     pub light_texels: u32,
     /// Most bytes of the maps of separable blurs for each pixel of the picture, more than 0: maps become coarser until they keep to them.
     pub map_bytes_per_pixel: f32,

@@ -11,6 +11,8 @@ pub struct Plan {
     pub light_texels: u32,
     /// Number of lights with a view: those whose shadows are drawn.
     pub lights: u32,
+    /// Lights' views in a row of their textures, at least 1: all of them where textures may be as wide.
+    pub light_columns: u32,
     /// Pixels of the picture to a side of a texel of the maps that scatter light, at least 1.
     pub divisor: f32,
     /// Width and height of the maps of separable blurs in texels: they lie over what objects cover, and are coarser than
@@ -39,12 +41,31 @@ impl Plan {
         if self.has_light_levels && self.lights > 0 { self.light_texels.ilog2() } else { 1 }
     }
 
-    /// Size of the textures of lights' views: a square tile for each light in one row. Where there is none, a texel is bound.
-    pub(crate) fn light_size(&self) -> [u32; 2] {
+    /// Width and height of the textures of lights' views in texels: a square tile for each light, row by row. Where there is none, a
+    /// texel is bound.
+    #[must_use]
+    pub fn light_size(&self) -> [u32; 2] {
         if self.lights == 0 {
             return [1; 2];
         }
-        [self.light_texels * self.lights, self.light_texels]
+        [self.light_columns, self.lights.div_ceil(self.light_columns)].map(|tiles| self.light_texels * tiles)
+    }
+
+    /// Column and row of the first texel of the tile of a light.
+    pub(crate) fn tile(&self, number: u32) -> [u32; 2] {
+        [number % self.light_columns, number / self.light_columns].map(|tiles| self.light_texels * tiles)
+    }
+
+    /// Texels to a side of each light's view, `wanted` or fewer, and views in a row, where textures have at most `most` texels to a
+    /// side.
+    pub(crate) fn tiles(lights: u32, wanted: u32, most: u32) -> [u32; 2] {
+        let lights = lights.max(1);
+        let mut texels = wanted.min(1 << most.max(1).ilog2());
+        // In as few rows as there can be, and not too many of them.
+        while (most / texels).pow(2) < lights {
+            texels /= 2;
+        }
+        [texels, lights.div_ceil(lights.div_ceil(most / texels))]
     }
 
     /// Next cheaper plan, if there is one.
@@ -86,11 +107,29 @@ mod tests {
     use super::*;
 
     #[test]
+    fn tiles_lie_in_as_few_rows_as_textures_are_wide() {
+        for ((lights, wanted, most), expected) in [
+            ((0, 512, 2_048), [512, 1]),
+            ((1, 512, 2_048), [512, 1]),
+            ((4, 512, 2_048), [512, 4]),
+            // Two rows of three, in which one is left.
+            ((5, 512, 2_048), [512, 3]),
+            ((8, 512, 2_048), [512, 4]),
+            ((8, 512, 16_384), [512, 8]),
+            ((8, 1_024, 2_048), [512, 4]),
+            ((2, 2_048, 2_048), [1_024, 2]),
+        ] {
+            assert_eq!(Plan::tiles(lights, wanted, most), expected, "{lights} of {wanted}, {most}");
+        }
+    }
+
+    #[test]
     fn plans_shrink_until_they_fit_or_nothing_is_left() {
         let plan = Plan {
             size: [1280, 720],
             light_texels: 512,
             lights: 1,
+            light_columns: 1,
             divisor: 1.0,
             blur_size: [1280, 720],
             has_light_levels: false,

@@ -93,10 +93,13 @@ impl Renderer {
         expect_groups(materials.len())?;
         let lights = input.drawn_shadows(&self.options)?;
         let divisor = self.divisor(input, size);
+        let most = gpu.device.limits().max_texture_dimension_2d;
+        let [light_texels, light_columns] = Plan::tiles(lights, self.options.light_texels, most);
         let plan = Plan {
             size,
-            light_texels: self.options.light_texels.min(largest_tile(gpu, lights)),
+            light_texels,
             lights,
+            light_columns,
             divisor,
             blur_size: self.blur_size(input, &materials, divisor, size),
             has_light_levels: materials.iter().any(|material| matches!(material, Material::Splat(_))),
@@ -254,12 +257,6 @@ fn expect_groups(materials: usize) -> Result<()> {
         return Err(Error::Usage(format!("{materials} materials; a frame has at most {MOST_GROUPS}")));
     }
     Ok(())
-}
-
-/// Most texels to a side of so many tiles in one row.
-fn largest_tile(gpu: &Gpu, lights: u32) -> u32 {
-    let most = (gpu.device.limits().max_texture_dimension_2d / lights.max(1)).max(1);
-    1 << most.ilog2()
 }
 
 impl Frame {

@@ -8,8 +8,8 @@ use subsurf_shaders::{BtfLayout, MaterialLayout};
 use super::options::RuntimeOptions;
 use super::plan::LEAST_LIGHT_TEXELS;
 use crate::error::{Error, Result};
-use crate::gpu::Gpu;
-use crate::technique::{OBJECT_STRIDE, Technique, TsmPasses, btf, gather, separable, splat};
+use crate::gpu::{BLOCK_STRIDE, Gpu};
+use crate::technique::{Technique, TsmPasses, btf, gather, separable, splat};
 
 /// Pipelines of the techniques that a host wants; made at load, never in a frame.
 #[derive(Debug)]
@@ -70,7 +70,7 @@ impl Renderer {
         if !depth.format.has_depth_aspect() {
             return Err(Error::Usage(format!("the depth is of format {:?}, which holds none", depth.format)));
         }
-        let (need, have) = (u64::from(objects) * u64::from(OBJECT_STRIDE), limits.max_buffer_size.min(1 << 31));
+        let (need, have) = (u64::from(objects) * u64::from(BLOCK_STRIDE), limits.max_buffer_size.min(1 << 31));
         if need > have {
             return Err(Error::Unsupported { what: "bytes of objects", need, have });
         }

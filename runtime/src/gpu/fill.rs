@@ -12,7 +12,7 @@ use super::resource::extent;
 use crate::error::Result;
 
 /// Most bytes of a piece, unless one row has more: a step of a load takes no longer than a part of a frame.
-const PIECE_BYTES: usize = 1 << 20;
+pub(crate) const PIECE_BYTES: usize = 1 << 20;
 
 /// Rows of one layer of a texture whose bytes wait to be written.
 #[derive(Debug)]
@@ -45,6 +45,11 @@ impl<'a> Fill<'a> {
     /// All of the finest level of the first layer, in one piece.
     pub(crate) fn whole(texture: &Texture, bytes: Vec<u8>) -> Self {
         Self { texture: texture.clone(), layer: 0, first_row: 0, bytes: bytes.into() }
+    }
+
+    /// Number of bytes.
+    pub(crate) fn bytes(&self) -> usize {
+        self.bytes.len()
     }
 
     /// Hands the bytes to the queue.
@@ -98,34 +103,36 @@ impl Gpu {
         }
     }
 
-    /// Copies the first `size` texels of a layer of an intermediate target to a level of a layer of half floats.
+    /// Copies the first `size` texels of the first `layers` layers of an intermediate target to a level of half floats, from a layer
+    /// on.
     ///
     /// Bits of half floats in integers become half floats by way of a buffer.
     pub(crate) fn copy_target(
         &self,
         encoder: &mut CommandEncoder,
-        (from, from_layer): (&Texture, u32),
+        from: &Texture,
         (to, layer, mip_level): (&Texture, u32, u32),
         size: [u32; 2],
+        layers: u32,
     ) {
-        let from_origin = Origin3d { x: 0, y: 0, z: from_layer };
-        let from = TexelCopyTextureInfo { origin: from_origin, ..from.as_image_copy() };
+        let from = from.as_image_copy();
         let to = TexelCopyTextureInfo { origin: Origin3d { x: 0, y: 0, z: layer }, mip_level, ..to.as_image_copy() };
         match self.target_format() {
-            TargetFormat::Half => encoder.copy_texture_to_texture(from, to, extent(size, 1)),
+            TargetFormat::Half => encoder.copy_texture_to_texture(from, to, extent(size, layers)),
             TargetFormat::Packed => {
                 let texel = to.texture.format().block_copy_size(None).unwrap_or(8);
                 let row = (size[0] * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
                 let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
                     label: Some("bits of half floats"),
-                    size: u64::from(row) * u64::from(size[1]),
+                    size: u64::from(row) * u64::from(size[1]) * u64::from(layers),
                     usage: BufferUsages::COPY_SRC | BufferUsages::COPY_DST,
                     mapped_at_creation: false,
                 });
-                let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
+                let rows_per_image = Some(size[1]);
+                let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image };
                 let through = TexelCopyBufferInfo { buffer: &buffer, layout };
-                encoder.copy_texture_to_buffer(from, through, extent(size, 1));
-                encoder.copy_buffer_to_texture(through, to, extent(size, 1));
+                encoder.copy_texture_to_buffer(from, through, extent(size, layers));
+                encoder.copy_buffer_to_texture(through, to, extent(size, layers));
             }
         }
     }

@@ -1,6 +1,7 @@
 //! The device: what lives on it, how passes are compiled and begun.
 
 mod backend;
+mod blocks;
 mod cache;
 mod device;
 mod fill;
@@ -13,10 +14,11 @@ mod resource;
 mod screen;
 
 pub use backend::{Backend, devices};
+pub(crate) use blocks::{BLOCK_STRIDE, Blocks};
 pub(crate) use cache::Pipeline;
 pub(crate) use device::TIMESTAMPS;
 pub use device::{Gpu, OffScreen, OnScreen};
-pub(crate) use fill::Fill;
+pub(crate) use fill::{Fill, PIECE_BYTES};
 pub(crate) use ledger::Tracked;
 pub use ledger::{Ledger, Purpose};
 pub(crate) use pass::{FullscreenPass, QuadPass, Rows};

@@ -60,7 +60,7 @@ impl TextureSpec {
         Self { usage: TextureUsages::RENDER_ATTACHMENT, ..Self::target(label, size, format) }
     }
 
-    /// Table of layers, at least as many as asked for.
+    /// Table of layers, at least as many as asked for, two at least: its view is of an array.
     ///
     /// The GL backend makes a plain texture of one layer and a cube of six square ones (or a multiple of six), whatever
     /// the shader wants to see: such numbers get a layer more, which stays empty.
@@ -70,7 +70,7 @@ impl TextureSpec {
         Self { layers, ..Self::table(label, size, format) }
     }
 
-    /// Table for a plain array of `len` entries, [`ROW`] to a row.
+    /// Table for a plain array of `len` entries, [`ROW`] to a row, or all of them where they are fewer.
     pub(crate) fn array(label: &'static str, len: usize, format: TextureFormat) -> Self {
         Self::table(label, array_size(len), format)
     }
@@ -90,7 +90,7 @@ impl TextureSpec {
 /// Width and height of a texture for a plain array of `len` entries.
 pub(crate) fn array_size(len: usize) -> [u32; 2] {
     let len = u32::try_from(len).unwrap_or(u32::MAX);
-    [ROW, len.div_ceil(ROW).max(1)]
+    [len.clamp(1, ROW), len.div_ceil(ROW).max(1)]
 }
 
 /// Texture, and the view of all of it.
@@ -117,11 +117,15 @@ pub(crate) fn level_of(surface: &Surface2d, layer: u32, level: u32) -> TextureVi
     })
 }
 
-/// View of all layers and levels, to read.
-pub(crate) fn layers_of(surface: &Surface2d) -> TextureView {
-    surface
-        .texture
-        .create_view(&TextureViewDescriptor { dimension: Some(TextureViewDimension::D2Array), ..Default::default() })
+/// View of the first layers of one level as an array, to read.
+pub(crate) fn layers_of(surface: &Surface2d, layers: u32, level: u32) -> TextureView {
+    surface.texture.create_view(&TextureViewDescriptor {
+        dimension: Some(TextureViewDimension::D2Array),
+        array_layer_count: Some(layers),
+        base_mip_level: level,
+        mip_level_count: Some(1),
+        ..Default::default()
+    })
 }
 
 impl Gpu {

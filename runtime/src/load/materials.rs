@@ -11,7 +11,7 @@ use super::steps::{Load, LoadPhase};
 use crate::asset::{BssrdfPlanes, BtfMaterial, Material, SeparableMaterial, SplatMaterial};
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
-use crate::technique::SeparableRenderer;
+use crate::technique::PatchCascade;
 
 impl<'a> Load<'a> {
     /// Begins to load a file for the fastest technique that it offers: separable blurs where it has a basis for them, else splats;
@@ -48,13 +48,12 @@ impl<'a> Load<'a, Arc<SeparableMaterial>> {
         let (table, fill) = table(gpu, numbers.sums())?;
         let made = Arc::new(SeparableMaterial::new(gpu, numbers)?);
         let (terms, to) = (made.terms(), made.clone());
-        let load = Load::of(gpu, made).filled(fills).filled([fill]);
+        let load = Load::of(gpu, made).filled(fills.into_iter().chain([fill]));
         let load = load.sums_compiled(planes.layout(), terms).albedo_compiled(terms).levels_compiled(terms + 1);
         Ok(load.then(LoadPhase::Projection, move |gpu| {
-            let mut projection = Projection::new(gpu, &to.layers)?;
-            projection.sums(&planes, &table, terms)?;
-            projection.albedo(&to, to.layers.count - 1)?;
-            projection.levels()?;
+            let mut projection = Projection::new(gpu);
+            projection.basis((&planes, &table), &to, (&to.layers, to.layers.count - 1))?;
+            projection.levels(&to.layers)?;
             projection.submit()
         }))
     }
@@ -71,28 +70,29 @@ impl<'a> Load<'a, Arc<SplatMaterial>> {
         let layout = planes.layout();
         let made = Arc::new(SplatMaterial::new(gpu, material, planes)?);
         let to = made.clone();
-        let load = Load::of(gpu, made).filled(fills);
+        let load = Load::of(gpu, made);
         let Some(numbers) = BasisNumbers::of(material) else {
             let (table, fill) = table(gpu, &ProfileSums::albedo(material))?;
-            let load = load.filled([fill]).sums_compiled(layout, 1).levels_compiled(1);
+            let load = load.filled(fills.into_iter().chain([fill])).sums_compiled(layout, 1).levels_compiled(1);
             return Ok(load.then(LoadPhase::Projection, move |gpu| {
-                let mut projection = Projection::new(gpu, &to.albedo)?;
-                projection.sums(&to.planes, &table, 1)?;
-                projection.levels()?;
+                let mut projection = Projection::new(gpu);
+                projection.layers((&to.planes, &table), &to.albedo)?;
+                projection.levels(&to.albedo)?;
                 projection.submit()
             }));
         };
         let (table, fill) = table(gpu, numbers.sums())?;
         let basis = SeparableMaterial::new(gpu, &numbers)?;
         let terms = basis.terms();
-        let load = load.filled([fill]).sums_compiled(layout, terms).albedo_compiled(terms).levels_compiled(1);
+        let load = load
+            .filled(fills.into_iter().chain([fill]))
+            .sums_compiled(layout, terms)
+            .albedo_compiled(terms)
+            .levels_compiled(1);
         Ok(load.then(LoadPhase::Projection, move |gpu| {
-            let mut coefficients = Projection::new(gpu, &basis.layers)?;
-            coefficients.sums(&to.planes, &table, terms)?;
-            coefficients.submit()?;
-            let mut projection = Projection::new(gpu, &to.albedo)?;
-            projection.albedo(&basis, 0)?;
-            projection.levels()?;
+            let mut projection = Projection::new(gpu);
+            projection.basis((&to.planes, &table), &basis, (&to.albedo, 0))?;
+            projection.levels(&to.albedo)?;
             projection.submit()
         }))
     }
@@ -106,7 +106,7 @@ impl<M> Load<'_, M> {
 
     /// Compiles the passes of an albedo by a basis of so many terms.
     fn albedo_compiled(self, terms: usize) -> Self {
-        self.then(LoadPhase::Pipelines, move |gpu| SeparableRenderer::new(gpu, terms).map(|_| ()))
+        self.then(LoadPhase::Pipelines, move |gpu| PatchCascade::new(gpu, terms).map(|_| ()))
     }
 
     /// Compiles the pass of mipmap levels of so many layers.

@@ -1,32 +1,30 @@
 //! Projection: layers over a patch, drawn from the planes of a file that are on the device anyway.
 
+use std::sync::Arc;
+
 use subsurf_shaders::MaterialLayout;
 use subsurf_shaders::passes::{Choice, table as passes};
 use subsurf_shaders::separable::ProfileSums;
-use wgpu::{
-    BindingResource, CommandEncoder, CommandEncoderDescriptor, TextureFormat, TextureView, TextureViewDescriptor,
-    TextureViewDimension,
-};
+use wgpu::{BindingResource, CommandEncoder, CommandEncoderDescriptor, TextureFormat, TextureView};
 
 use crate::asset::{BssrdfPlanes, PatchLayers, SeparableMaterial};
 use crate::error::Result;
-use crate::gpu::{Fill, FullscreenPass, Gpu, Rows, Surface2d, TextureSpec, layer_of};
-use crate::technique::{PatchLight, SeparableRenderer};
+use crate::gpu::{Fill, FullscreenPass, Gpu, Rows, Surface2d, TextureSpec, layers_of};
+use crate::technique::{CascadeMaps, Maps, PatchCascade};
 
-/// Layers that are being drawn: every pass draws to targets of its own, which are copied into the layers.
+/// Passes over a patch, being recorded. They draw to targets of their own, which are copied into the layers.
 pub(super) struct Projection<'a> {
     gpu: &'a Gpu,
     encoder: CommandEncoder,
-    to: &'a PatchLayers,
-    /// As many layers as `to`, without mipmap levels.
-    drawn: Surface2d,
-    targets: Vec<TextureView>,
 }
 
 /// Table of sums over profiles, and what it has to be filled with.
 pub(super) fn table(gpu: &Gpu, sums: &ProfileSums) -> Result<(Surface2d, Fill<'static>)> {
-    let texels = sums.texels();
-    let table = gpu.texture(&TextureSpec::array("sums over profiles", texels.len(), TextureFormat::Rgba32Float))?;
+    let mut texels = sums.texels();
+    // Whole rows: the device would clear a texture that is filled in parts.
+    let spec = TextureSpec::array("sums over profiles", texels.len(), TextureFormat::Rgba32Float);
+    texels.resize(spec.size.map(|side| side as usize).iter().product(), [0.0; 4]);
+    let table = gpu.texture(&spec)?;
     let fill = Fill::whole(&table.texture, bytemuck::cast_slice(&texels).to_vec());
     Ok((table, fill))
 }
@@ -43,58 +41,54 @@ pub(super) fn levels_pass(gpu: &Gpu, layers: usize) -> Result<FullscreenPass> {
 }
 
 impl<'a> Projection<'a> {
-    /// Makes targets for layers.
-    ///
-    /// # Errors
-    /// [`crate::Error::Device`] if the device has no room for them.
-    pub(super) fn new(gpu: &'a Gpu, to: &'a PatchLayers) -> Result<Self> {
-        let size = [to.surface.texture.width(), to.surface.texture.height()];
-        let target = TextureSpec::target("projected layers", size, gpu.target_texture_format());
-        let layered = TextureSpec::layered(target.label, size, to.count, target.format);
-        let drawn = gpu.texture(&TextureSpec { usage: target.usage, ..layered })?;
-        let targets = (0..to.count).map(|layer| layer_of(&drawn, layer)).collect();
+    /// Projection without a pass.
+    pub(super) fn new(gpu: &'a Gpu) -> Self {
         let encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-        Ok(Self { gpu, encoder, to, drawn, targets })
+        Self { gpu, encoder }
     }
 
-    /// Draws one or two sums over profiles into the first layers.
-    pub(super) fn sums(&mut self, planes: &BssrdfPlanes, table: &Surface2d, count: usize) -> Result<()> {
-        let pass = sums_pass(self.gpu, planes.layout(), count)?;
-        let of_planes = pass.bind(self.gpu, 0, &planes.resources())?;
-        let of_sums = pass.bind(self.gpu, 1, &[BindingResource::TextureView(&table.view)])?;
-        let targets: Vec<&TextureView> = self.targets.iter().take(count).collect();
-        let rows = Rows::all(self.size(0));
-        pass.record(&mut self.encoder, &targets, &[&of_planes, &of_sums], rows);
-        (0..self.to.count).take(count).for_each(|layer| self.copy(layer, 0));
+    /// Draws the coefficients of a basis into its layers, and their exitance under an irradiance of 1 into a layer that may be of
+    /// another material.
+    pub(super) fn basis(
+        &mut self,
+        (planes, table): (&BssrdfPlanes, &Surface2d),
+        basis: &SeparableMaterial,
+        (albedo, layer): (&PatchLayers, u32),
+    ) -> Result<()> {
+        let (gpu, size) = (self.gpu, [planes.header().width, planes.header().height]);
+        let passes = PatchCascade::new(gpu, basis.terms())?;
+        let maps = Arc::new(CascadeMaps::new(gpu, size, basis.terms())?);
+        let cascade = passes.bind(gpu, None, basis, &maps)?;
+        // c_l, which are the maps c_l E as well.
+        self.sums((planes, table), &maps.irradiance().layers)?;
+        self.copy(maps.irradiance(), (&basis.layers, 0, 0), size);
+        let exitance = &maps.sums().layers[0];
+        passes.record(&mut self.encoder, size, None, &cascade, exitance);
+        self.gpu.copy_target(&mut self.encoder, exitance.texture(), (&albedo.surface.texture, layer, 0), size, 1);
         Ok(())
     }
 
-    /// Draws the exitance by a basis under an irradiance of 1 into a layer.
-    pub(super) fn albedo(&mut self, basis: &SeparableMaterial, layer: u32) -> Result<()> {
-        let renderer = SeparableRenderer::new(self.gpu, basis.terms())?;
-        let light = PatchLight::uniform(self.gpu)?;
-        let patch = renderer.bind(self.gpu, basis, &light)?;
-        let size = self.size(0);
-        let exitance = renderer.record(&mut self.encoder, &patch);
-        self.gpu.copy_target(&mut self.encoder, (exitance.texture(), 0), (&self.to.surface.texture, layer, 0), size);
+    /// Draws sums over profiles into the layers.
+    pub(super) fn layers(&mut self, of: (&BssrdfPlanes, &Surface2d), to: &PatchLayers) -> Result<()> {
+        let size = [of.0.header().width, of.0.header().height];
+        let drawn = Maps::new(self.gpu, "projected layers", size, to.count as usize)?;
+        self.sums(of, &drawn.layers)?;
+        self.copy(&drawn, (to, 0, 0), size);
         Ok(())
     }
 
-    /// Draws all mipmap levels but the finest, each from the one before.
-    pub(super) fn levels(&mut self) -> Result<()> {
-        let pass = levels_pass(self.gpu, self.targets.len())?;
-        for level in 1..self.to.surface.texture.mip_level_count() {
-            let finer = self.to.surface.texture.create_view(&TextureViewDescriptor {
-                dimension: Some(TextureViewDimension::D2Array),
-                base_mip_level: level - 1,
-                mip_level_count: Some(1),
-                ..Default::default()
-            });
+    /// Draws all mipmap levels of layers but the finest, each from the one before.
+    pub(super) fn levels(&mut self, of: &PatchLayers) -> Result<()> {
+        let texture = &of.surface.texture;
+        let size = |level: u32| [texture.width(), texture.height()].map(|side| (side >> level).max(1));
+        let pass = levels_pass(self.gpu, of.count as usize)?;
+        let drawn = Maps::new(self.gpu, "levels of layers", size(1), of.count as usize)?;
+        for level in 1..texture.mip_level_count() {
+            let finer = layers_of(&of.surface, of.count, level - 1);
             let group = pass.bind(self.gpu, 0, &[BindingResource::TextureView(&finer)])?;
-            let targets: Vec<&TextureView> = self.targets.iter().collect();
-            let rows = Rows::all(self.size(level));
-            pass.record(&mut self.encoder, &targets, &[&group], rows);
-            (0..self.to.count).for_each(|layer| self.copy(layer, level));
+            let targets: Vec<&TextureView> = drawn.layers.iter().collect();
+            pass.record(&mut self.encoder, &targets, &[&group], Rows::all(size(level)));
+            self.copy(&drawn, (of, 0, level), size(level));
         }
         Ok(())
     }
@@ -106,15 +100,20 @@ impl<'a> Projection<'a> {
         })
     }
 
-    /// Width and height of a level.
-    fn size(&self, level: u32) -> [u32; 2] {
-        [self.drawn.texture.width(), self.drawn.texture.height()].map(|side| (side >> level).max(1))
+    /// Draws one or two sums over profiles to targets over the patch.
+    fn sums(&mut self, (planes, table): (&BssrdfPlanes, &Surface2d), targets: &[TextureView]) -> Result<()> {
+        let pass = sums_pass(self.gpu, planes.layout(), targets.len())?;
+        let of_planes = pass.bind(self.gpu, 0, &planes.resources())?;
+        let of_sums = pass.bind(self.gpu, 1, &[BindingResource::TextureView(&table.view)])?;
+        let rows = Rows::all([planes.header().width, planes.header().height]);
+        let targets: Vec<&TextureView> = targets.iter().collect();
+        pass.record(&mut self.encoder, &targets, &[&of_planes, &of_sums], rows);
+        Ok(())
     }
 
-    /// Copies what was drawn for a layer to a level of it.
-    fn copy(&mut self, layer: u32, level: u32) {
-        let size = self.size(level);
-        let to = (&*self.to.surface.texture, layer, level);
-        self.gpu.copy_target(&mut self.encoder, (&self.drawn.texture, layer), to, size);
+    /// Copies the first `size` texels of maps to a level, from a layer on.
+    fn copy(&mut self, from: &Maps, (to, layer, level): (&PatchLayers, u32, u32), size: [u32; 2]) {
+        let (from, layers) = (&from.surface.texture, from.surface.texture.depth_or_array_layers());
+        self.gpu.copy_target(&mut self.encoder, from, (&to.surface.texture, layer, level), size, layers);
     }
 }

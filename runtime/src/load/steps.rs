@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use crate::asset::Material;
 use crate::error::{Error, Result};
-use crate::gpu::{Fill, Gpu};
+use crate::gpu::{Fill, Gpu, PIECE_BYTES};
 
 /// Load of a material in steps, each of which takes about as long as a part of a frame and never waits for the device; on any
 /// thread.
@@ -64,9 +64,20 @@ impl<'a, M> Load<'a, M> {
         self
     }
 
-    /// Adds pieces to upload.
+    /// Adds pieces to upload; small ones go together.
     pub(super) fn filled(self, fills: impl IntoIterator<Item = Fill<'a>>) -> Self {
-        fills.into_iter().fold(self, |load, fill| load.then(LoadPhase::Upload, move |gpu| fill.write(gpu)))
+        let mut steps: Vec<(usize, Vec<Fill<'a>>)> = Vec::new();
+        for fill in fills {
+            match steps.last_mut() {
+                Some((bytes, together)) if *bytes + fill.bytes() <= PIECE_BYTES => {
+                    *bytes += fill.bytes();
+                    together.push(fill);
+                }
+                _ => steps.push((fill.bytes(), vec![fill])),
+            }
+        }
+        let write = |together: Vec<Fill<'a>>| move |gpu: &Gpu| together.iter().try_for_each(|fill| fill.write(gpu));
+        steps.into_iter().fold(self, |load, (_, together)| load.then(LoadPhase::Upload, write(together)))
     }
 
     /// Load of what `make` makes of the material.

@@ -41,11 +41,13 @@ pub struct LoadTimer<'a> {
     compiled: Duration,
 }
 
-/// Pipelines and what is loaded for them.
+/// Pipelines of the first frame, and what is loaded for them.
 enum Ready {
-    Planes(PatchRenderer),
-    Capture(PatchRenderer, BssrdfHeader),
+    /// Flat patch: planes of a file, or a capture if there is a header for it.
+    Patch(PatchRenderer, Option<BssrdfHeader>),
+    /// Mesh: a file for a technique.
     File(Stage, Technique),
+    /// Mesh: images of a BTF.
     Images(Stage, RawImages),
 }
 
@@ -71,8 +73,8 @@ impl<'a> LoadTimer<'a> {
     pub fn new(gpu: &'a Gpu, stored: Stored) -> Result<Self> {
         let begin = Instant::now();
         let ready = match stored {
-            Stored::Planes(layout) => Ready::Planes(PatchRenderer::new(gpu, layout)?),
-            Stored::Capture(header) => Ready::Capture(PatchRenderer::new(gpu, MaterialLayout::Capture)?, header),
+            Stored::Planes(layout) => Ready::Patch(PatchRenderer::new(gpu, layout)?, None),
+            Stored::Capture(header) => Ready::Patch(PatchRenderer::new(gpu, MaterialLayout::Capture)?, Some(header)),
             Stored::File(technique) => Ready::File(Stage::new(gpu, technique)?, technique),
             Stored::Images(images) => Ready::Images(Stage::new(gpu, Technique::Btf(BtfLayout::Images))?, images),
         };
@@ -92,34 +94,31 @@ impl<'a> LoadTimer<'a> {
     pub fn load(&self, bytes: &[u8]) -> Result<LoadTimes> {
         let gpu = self.gpu;
         let mut times = LoadTimes::default();
-        let begin = Instant::now();
         match &self.ready {
-            Ready::Planes(renderer) => {
-                let file = Bssrdf::parse(bytes)?;
-                times.parse = begin.elapsed();
-                let planes = timed(&mut times.upload, || uploaded(gpu, BssrdfPlanes::upload(gpu, &file)))?;
-                times.gpu_bytes = planes.gpu_bytes();
-                timed(&mut times.first_frame, || gathered(gpu, renderer, &planes))?;
-            }
-            Ready::Capture(renderer, header) => {
-                // There is nothing to check in an array but its length.
-                expect_length(bytes, capture_bytes(header))?;
-                times.parse = begin.elapsed();
-                let upload = || uploaded(gpu, BssrdfPlanes::upload_capture(gpu, header, bytes));
-                let planes = timed(&mut times.upload, upload)?;
+            Ready::Patch(renderer, capture) => {
+                let planes = match capture {
+                    None => {
+                        let file = timed(&mut times.parse, || Ok(Bssrdf::parse(bytes)?))?;
+                        timed(&mut times.upload, || uploaded(gpu, BssrdfPlanes::upload(gpu, &file)))?
+                    }
+                    Some(header) => {
+                        // There is nothing to check in an array but its length.
+                        timed(&mut times.parse, || expect_length(bytes, capture_bytes(header)))?;
+                        let upload = || uploaded(gpu, BssrdfPlanes::upload_capture(gpu, header, bytes));
+                        timed(&mut times.upload, upload)?
+                    }
+                };
                 times.gpu_bytes = planes.gpu_bytes();
                 timed(&mut times.first_frame, || gathered(gpu, renderer, &planes))?;
             }
             Ready::Images(stage, images) => {
-                expect_length(bytes, images.bytes())?;
-                times.parse = begin.elapsed();
+                timed(&mut times.parse, || expect_length(bytes, images.bytes()))?;
                 let material = timed(&mut times.upload, || uploaded(gpu, images.upload(gpu, bytes)))?;
                 times.gpu_bytes = material.gpu_bytes();
                 timed(&mut times.first_frame, || stage.draw(gpu, &material))?;
             }
             Ready::File(stage, technique) => {
-                let file = File::parse(bytes)?;
-                times.parse = begin.elapsed();
+                let file = timed(&mut times.parse, || Ok(File::parse(bytes)?))?;
                 let load = match (technique, file.content()) {
                     (Technique::Splat(_), Content::Bssrdf(material)) => {
                         timed(&mut times.upload, || Load::splat(gpu, &material))?.map(Material::Splat)

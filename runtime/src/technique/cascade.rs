@@ -8,25 +8,27 @@ use wgpu::{BindGroup, BindingResource, CommandEncoder, TextureView};
 use super::bindings::Lap;
 use crate::asset::SeparableMaterial;
 use crate::error::Result;
-use crate::gpu::{FullscreenPass, Gpu, HALF, Rows, Surface2d, TextureSpec, layer_of, layers_of};
+use crate::gpu::{FullscreenPass, Gpu, HALF, Rows, Surface2d, TextureSpec, layer_of};
 
 /// L maps in one texture: layers of an array, a plain one if L = 1.
 #[derive(Debug)]
 pub(crate) struct Maps {
-    surface: Surface2d,
-    /// View of all maps, to read.
-    pub(crate) all: TextureView,
+    pub(crate) surface: Surface2d,
     /// View of each map, to draw to.
     pub(crate) layers: Vec<TextureView>,
 }
 
 impl Maps {
-    fn new(gpu: &Gpu, label: &'static str, size: [u32; 2], terms: usize) -> Result<Self> {
+    pub(crate) fn new(gpu: &Gpu, label: &'static str, size: [u32; 2], terms: usize) -> Result<Self> {
         let spec = Self::spec(label, size, terms, gpu.target_texture_format());
         let surface = gpu.texture(&spec)?;
         let layers = (0..spec.layers).map(|layer| layer_of(&surface, layer)).collect();
-        let all = if spec.layers == 1 { surface.view.clone() } else { layers_of(&surface) };
-        Ok(Self { all, layers, surface })
+        Ok(Self { layers, surface })
+    }
+
+    /// All maps, to read.
+    pub(crate) fn all(&self) -> BindingResource<'_> {
+        BindingResource::TextureView(&self.surface.view)
     }
 
     fn spec(label: &'static str, size: [u32; 2], terms: usize, format: wgpu::TextureFormat) -> TextureSpec {
@@ -110,46 +112,56 @@ impl CascadeMaps {
 pub(crate) struct Cascade {
     pub(crate) maps: Arc<CascadeMaps>,
     stages: Vec<Stage>,
-    last: BindGroup,
 }
 
 /// Bind groups of a stage.
 #[derive(Debug)]
 struct Stage {
     rows: BindGroup,
-    columns: BindGroup,
-    sum: BindGroup,
+    end: End,
+}
+
+/// Bind groups of what follows the blur along rows.
+#[derive(Debug)]
+enum End {
+    /// Blur along columns, and the sum.
+    Between(BindGroup, BindGroup),
+    /// The pass that does both in the end.
+    Last(BindGroup),
 }
 
 impl Cascade {
-    /// Binds a material to maps. `domain` is the block of the screen, or a sampler that wraps as the patch does; `last` blurs along
-    /// columns and adds up, and is bound to `more` besides.
+    /// Binds a material to maps. `domain` is the block of the screen, or of the patch; `first` takes the place of the first bind
+    /// group along rows; `last` blurs along columns and adds up, and is bound to `more` besides.
     pub(crate) fn new(
         gpu: &Gpu,
         passes: &BlurPasses,
+        first: Option<BindGroup>,
         (last, more): (&FullscreenPass, Option<BindingResource<'_>>),
         material: &SeparableMaterial,
         domain: &BindingResource<'_>,
         maps: &Arc<CascadeMaps>,
     ) -> Result<Self> {
-        let texture = BindingResource::TextureView;
-        let blurred = texture(&maps.blurred.all);
-        let stages = material.stages().iter().enumerate().map(|(a, [rows, columns])| {
-            let (between, before) = (texture(&maps.between(a).all), texture(&maps.sums_before(a).all));
-            let [rows, columns] = [rows, columns].map(|block| block.as_entire_binding());
-            Ok(Stage {
-                rows: passes.blur.bind(gpu, 0, &[rows, domain.clone(), blurred.clone()])?,
-                columns: passes.blur.bind(gpu, 0, &[columns.clone(), domain.clone(), between])?,
-                sum: passes.sum.bind(gpu, 0, &[columns, domain.clone(), blurred.clone(), before])?,
-            })
+        let (blurred, count) = (maps.blurred.all(), material.gaussians());
+        let mut first = first;
+        let stages = (0..count).map(|a| {
+            let [rows, columns] = material.stage(a);
+            let (between, before) = (maps.between(a).all(), maps.sums_before(a).all());
+            let rows = match first.take() {
+                Some(group) => group,
+                None => passes.blur.bind(gpu, 0, &[rows, domain.clone(), blurred.clone()])?,
+            };
+            let end = if a + 1 == count {
+                let of_last = [columns, domain.clone(), between, before];
+                let of_last: Vec<_> = of_last.into_iter().chain(more.clone()).collect();
+                End::Last(last.bind(gpu, 0, &of_last)?)
+            } else {
+                let of_columns = passes.blur.bind(gpu, 0, &[columns.clone(), domain.clone(), between])?;
+                End::Between(of_columns, passes.sum.bind(gpu, 0, &[columns, domain.clone(), blurred.clone(), before])?)
+            };
+            Ok(Stage { rows, end })
         });
-        let stages: Vec<Stage> = stages.collect::<Result<_>>()?;
-        let a = stages.len() - 1;
-        let [_, columns] = &material.stages()[a];
-        let (between, before) = (texture(&maps.between(a).all), texture(&maps.sums_before(a).all));
-        let of_last = [columns.as_entire_binding(), domain.clone(), between, before];
-        let of_last: Vec<_> = of_last.into_iter().chain(more).collect();
-        Ok(Self { maps: maps.clone(), last: last.bind(gpu, 0, &of_last)?, stages })
+        Ok(Self { stages: stages.collect::<Result<_>>()?, maps: maps.clone() })
     }
 
     /// Bytes of the maps on the device.
@@ -158,13 +170,14 @@ impl Cascade {
         maps.iter().map(|maps| maps.surface.texture.bytes()).sum()
     }
 
-    /// Records all stages over `size` texels of the maps: `last` draws to `targets` in the end. With `first`, another pass takes the place of the first along rows.
+    /// Records all stages over `size` texels of the maps: `last` draws to `targets` in the end. With `first`, another pass takes
+    /// the place of the first along rows, to which its bind group was given.
     pub(crate) fn record(
         &self,
         encoder: &mut CommandEncoder,
         size: [u32; 2],
         passes: &BlurPasses,
-        first: Option<(&FullscreenPass, &BindGroup)>,
+        first: Option<&FullscreenPass>,
         (last, targets): (&FullscreenPass, &[&TextureView]),
         lap: Lap<'_>,
     ) {
@@ -173,19 +186,18 @@ impl Cascade {
             pass.record(encoder, targets, &[group], all);
             lap(pass.name(), encoder);
         };
+        let mut first = first;
         for (a, stage) in self.stages.iter().enumerate() {
             let [blurred, between] =
                 [&self.maps.blurred, self.maps.between(a)].map(|maps| maps.layers.iter().collect());
             let (blurred, between): (Vec<_>, Vec<_>) = (blurred, between);
-            match first {
-                Some((pass, group)) if a == 0 => draw(pass, group, &between),
-                _ => draw(&passes.blur, &stage.rows, &between),
-            }
-            if a + 1 == self.stages.len() {
-                draw(last, &self.last, targets);
-            } else {
-                draw(&passes.blur, &stage.columns, &blurred);
-                draw(&passes.sum, &stage.sum, &between);
+            draw(first.take().unwrap_or(&passes.blur), &stage.rows, &between);
+            match &stage.end {
+                End::Between(columns, sum) => {
+                    draw(&passes.blur, columns, &blurred);
+                    draw(&passes.sum, sum, &between);
+                }
+                End::Last(group) => draw(last, group, targets),
             }
         }
     }

@@ -11,10 +11,7 @@ use wgpu::{
 use super::host_shadow::HostShadows;
 use super::mesh_pass::{MeshPass, SharedGroups};
 use crate::error::Result;
-use crate::gpu::{Gpu, Purpose, Surface2d, TextureSpec, Tracked};
-
-/// Distance of blocks of objects in their buffer, in bytes: what every device takes.
-pub(crate) const OBJECT_STRIDE: u32 = 256;
+use crate::gpu::{BLOCK_STRIDE, Gpu, Purpose, Surface2d, TextureSpec, Tracked};
 
 /// Blocks and reflections of a frame on the device.
 #[derive(Debug)]
@@ -34,7 +31,7 @@ impl Common {
     pub(crate) fn bytes_of(objects: u32) -> u64 {
         let texels = |level: u32| u64::from(REFLECTION_SIZE[0] >> level) * u64::from(REFLECTION_SIZE[1] >> level);
         let reflections = 8 * (0..REFLECTION_LEVELS).map(texels).sum::<u64>();
-        size_of::<uniform::Scene>() as u64 + u64::from(objects) * u64::from(OBJECT_STRIDE) + reflections
+        size_of::<uniform::Scene>() as u64 + u64::from(objects) * u64::from(BLOCK_STRIDE) + reflections
     }
 
     /// Makes room for so many objects; `pass` is any over meshes.
@@ -43,7 +40,7 @@ impl Common {
             purpose: Purpose::Frame,
             ..TextureSpec::table("reflections", REFLECTION_SIZE, TextureFormat::Rgba16Float)
         };
-        let blocks = vec![0; objects as usize * OBJECT_STRIDE as usize];
+        let blocks = vec![0; objects as usize * BLOCK_STRIDE as usize];
         let objects = gpu.buffer(Purpose::Frame, "objects", &blocks, BufferUsages::UNIFORM);
         let one = BindingResource::Buffer(BufferBinding {
             buffer: &objects,

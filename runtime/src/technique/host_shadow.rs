@@ -4,7 +4,7 @@ use subsurf_scene::MAX_LIGHTS;
 use subsurf_shaders::passes::table::HOST_SHADOW_MAPS;
 use wgpu::{BindGroup, BindGroupLayout, BindingResource, Sampler, SamplerDescriptor, TextureFormat, TextureView};
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::frame::ShadowMap;
 use crate::gpu::{Gpu, Purpose, Surface2d, TextureSpec, bind, bind_group_layout};
 
@@ -35,14 +35,30 @@ impl HostShadows {
     }
 
     /// Binds the maps of a frame, unless they are bound already.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for a view of several layers or of stencil: a view does not say what it shows, only the device does when it
+    /// is bound.
     pub(crate) fn show(&mut self, gpu: &Gpu, maps: &[ShadowMap<'_>]) -> Result<()> {
         if self.bound.iter().eq(maps.iter().map(|map| map.depth)) {
             return Ok(());
         }
         let bound: Vec<TextureView> = maps.iter().map(|map| map.depth.clone()).collect();
-        self.group = group_of(gpu, &self.layout, &bound, &self.none, &self.sampler)?;
+        let group = group_of(gpu, &self.layout, &bound, &self.none, &self.sampler);
+        self.group = group.map_err(|error| self.blame(gpu, &bound).unwrap_or(error))?;
         self.bound = bound;
         Ok(())
+    }
+
+    /// Names the first map that is refused by itself, if there is one.
+    fn blame(&self, gpu: &Gpu, maps: &[TextureView]) -> Option<Error> {
+        let is_refused =
+            |map| group_of(gpu, &self.layout, std::slice::from_ref(map), &self.none, &self.sampler).is_err();
+        let number = maps.iter().position(is_refused)?;
+        Some(Error::Usage(format!(
+            "shadow map {number} is a view of several layers, or of stencil; expected one layer, and of depth with stencil \
+             TextureAspect::DepthOnly"
+        )))
     }
 
     /// Bind group 3.

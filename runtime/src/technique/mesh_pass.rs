@@ -71,7 +71,7 @@ pub(crate) struct Attachments<'a> {
 }
 
 /// Part of targets that a picture is drawn to.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Viewport {
     /// Texel of the target where the picture begins; it may lie to the left of it or above.
     pub(crate) origin: [i64; 2],

@@ -21,12 +21,15 @@ pub(crate) use area::MapArea;
 pub(crate) use bindings::{Bindings, Group, Lap, group_number};
 pub use btf::BtfOptions;
 pub use btf_query::{BtfAnswer, BtfQueries, BtfQuery};
-pub(crate) use common::{Common, OBJECT_STRIDE, reflection_sampler};
+pub(crate) use cascade::{CascadeMaps, Maps};
+pub(crate) use common::{Common, reflection_sampler};
 pub use kind::Technique;
 pub use mesh_pass::DepthFormat;
 pub(crate) use mesh_pass::{Attachments, Viewport};
+pub(crate) use patch::PatchCascade;
 pub use patch::{
     Exitance, HomogeneousPatch, HomogeneousRenderer, PatchLight, PatchRenderer, Region, SeparablePatch,
     SeparableRenderer,
 };
+pub use splat::SplatLevels;
 pub(crate) use tsm::{TranslucentShadowMaps, TsmPasses};

@@ -105,20 +105,19 @@ impl Passes {
     ) -> Result<Box<dyn Bindings>> {
         let domain = gpu.uniform(Purpose::Frame, "screen", &ScreenDomain::default());
         let last = (&self.last, None);
-        let cascade = Cascade::new(gpu, &self.blur, last, material, &domain.as_entire_binding(), &maps.cascade)?;
+        let cascade = Cascade::new(gpu, &self.blur, None, last, material, &domain.as_entire_binding(), &maps.cascade)?;
         let upsampling = gpu.uniform(Purpose::Frame, "upsampling", &Upsampling::default());
         let texture = BindingResource::TextureView;
-        let basis = [texture(&material.layers.all), BindingResource::Sampler(&material.layers.sampler)];
+        let basis = material.layers.resources();
         let of_gbuffer = [
             basis[0].clone(),
             basis[1].clone(),
-            material.transmission().as_entire_binding(),
+            material.transmission(),
             texture(lights.views()[1]),
             texture(lights.views()[2]),
         ];
         let of_scene = [common.scene.as_entire_binding(), texture(lights.views()[0])];
-        let sums = &maps.cascade.sums().all;
-        let of_shade = [basis[0].clone(), basis[1].clone(), upsampling.as_entire_binding(), texture(sums)];
+        let of_shade = [basis[0].clone(), basis[1].clone(), upsampling.as_entire_binding(), maps.cascade.sums().all()];
         Ok(Box::new(Bound {
             gbuffer: [self.gbuffer.bind(gpu, 0, &of_scene)?, self.gbuffer.bind(gpu, 1, &of_gbuffer)?],
             shade: self.shade.bind(gpu, 1, &of_shade)?,

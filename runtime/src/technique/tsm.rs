@@ -16,7 +16,7 @@ pub(crate) const FAR_MM: f64 = 60_000.0;
 /// Depth of what lights see, by which the nearest is kept: 16 bits. Of a light within the scene they are coarse far from it.
 const LIGHT_DEPTH: DepthFormat = DepthFormat { format: TextureFormat::Depth16Unorm, is_reversed: false };
 
-/// Depths and positions, fluxes and places that lights see, a square tile for each light in one row.
+/// Depths and positions, fluxes and places that lights see, a square tile for each light, row by row.
 #[derive(Debug)]
 pub(crate) struct TranslucentShadowMaps {
     surfaces: [Surface2d; 3],
@@ -27,7 +27,6 @@ pub(crate) struct TranslucentShadowMaps {
     scene: BindGroup,
     /// What depth is cleared to.
     far: Color,
-    side: u32,
 }
 
 /// Tile of a light.
@@ -35,6 +34,7 @@ pub(crate) struct TranslucentShadowMaps {
 struct Tile {
     block: Tracked<Buffer>,
     group: BindGroup,
+    viewport: Viewport,
 }
 
 /// Pipelines that draw the maps: those from which splats are drawn have positions and ranges of depth besides.
@@ -94,10 +94,10 @@ impl TranslucentShadowMaps {
     pub(crate) fn new(gpu: &Gpu, pass: &MeshPass, scene: &Buffer, plan: &Plan) -> Result<Self> {
         let [positions, fluxes, places, depth] = specs(gpu, plan);
         let surfaces = [gpu.texture(&positions)?, gpu.texture(&fluxes)?, gpu.texture(&places)?];
-        let tile = |_| {
+        let tile = |number| {
             let block: Tracked<Buffer> = gpu.uniform(Purpose::Frame, "tile of a light", &TsmLight::default());
             let group = pass.bind(gpu, 1, &[block.as_entire_binding()])?;
-            Ok(Tile { block, group })
+            Ok(Tile { block, group, viewport: Viewport::at(plan.tile(number), [plan.light_texels; 2]) })
         };
         Ok(Self {
             targets: surfaces.each_ref().map(|surface| level_of(surface, 0, 0)),
@@ -106,7 +106,6 @@ impl TranslucentShadowMaps {
             scene: pass.bind(gpu, 0, &[scene.as_entire_binding()])?,
             surfaces,
             far: gpu.clear_colour(Color { r: FAR_MM, g: 0.0, b: 0.0, a: 0.0 }),
-            side: plan.light_texels,
         })
     }
 
@@ -137,9 +136,7 @@ impl TranslucentShadowMaps {
             depth_ops: LIGHT_DEPTH.own(),
             viewport: None,
         };
-        let side = self.side;
-        let parts = self.tiles[..tiles].iter().zip(0..);
-        let parts = parts.map(|(tile, number)| (&tile.group, Viewport::at([number * side, 0], [side; 2])));
+        let parts = self.tiles[..tiles].iter().map(|tile| (&tile.group, tile.viewport));
         pass.record_parts(encoder, &attachments, &self.scene, parts, objects, draws);
     }
 

@@ -84,6 +84,12 @@ pub struct Scene {
     pub centre_mm: [f32; 3],
     /// Texels to a row of textures that hold plain arrays.
     pub row: u32,
+    /// Texels to a side of a tile of the translucent shadow maps.
+    pub light_texels: u32,
+    /// Tiles in a row of them, at least 1.
+    pub light_columns: u32,
+    #[doc(hidden)]
+    pub pad: [u32; 2],
     /// Irradiance of the environment on a normal (x, y, z): coefficients of 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y².
     pub sky: [[f32; 4]; 9],
     /// Lights, of which the first `lights` count.
@@ -100,8 +106,8 @@ impl PointGrid {
 }
 
 impl Scene {
-    /// Block of what lies within a sphere, when lights have views of `light_texels` to a side. Lights with shadows of our own
-    /// have the tiles in their order; of the host's maps only the number is known here.
+    /// Block of what lies within a sphere, when lights have views of `light_texels` to a side, all in one row. Lights with shadows of
+    /// our own have the tiles in their order; of the host's maps only the number is known here.
     #[must_use]
     pub fn new(
         view: &View,
@@ -121,6 +127,9 @@ impl Scene {
             lights: u32::try_from(lighting.lights.len().min(MAX_LIGHTS)).unwrap_or(0),
             centre_mm: bounds.centre_mm.into(),
             row: ROW,
+            light_texels,
+            light_columns: 1,
+            pad: [0; 2],
             sky: [[0.0; 4]; 9],
             light: [LightSource::default(); MAX_LIGHTS],
         };
@@ -137,6 +146,7 @@ impl Scene {
             };
             tiles += u32::from(light.shadow == Shadow::Drawn);
         }
+        block.light_columns = tiles.max(1);
         block
     }
 }

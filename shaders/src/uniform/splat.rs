@@ -47,8 +47,10 @@ pub struct Splat {
     pub pitch_mm: f32,
     /// Number of the group whose light is spread.
     pub group: f32,
+    /// Tiles in a row of the translucent shadow maps.
+    pub columns: u32,
     #[doc(hidden)]
-    pub pad: [u32; 3],
+    pub pad: [u32; 2],
 }
 
 /// Largest number of rings of `splat_resolve.wgsl`.

@@ -48,6 +48,11 @@ struct Scene {
     centre_mm: vec3<f32>,
     // Texels to a row of textures that hold plain arrays.
     row: u32,
+    // Texels to a side of a tile of the translucent shadow maps, and tiles in a row of them, at least 1.
+    light_texels: u32,
+    light_columns: u32,
+    pad_0: u32,
+    pad_1: u32,
     // Irradiance of the environment on a normal (x, y, z): coefficients of 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2.
     sky: array<vec4<f32>, 9>,
     light: array<LightSource, MAX_LIGHTS>,

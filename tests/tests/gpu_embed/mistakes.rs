@@ -62,9 +62,9 @@ fn lights_that_were_not_prepared_for_or_have_no_map() {
     assert_refused(drawn(&stage, &prepared, &with(&nine)), "9 lights; a frame has at most 8");
     assert_refused(stage.renderer.prepare(&stage.gpu, &with(&nine), SIZE), "9 lights");
 
-    let texture = |format, usage, sample_count| {
-        let size = wgpu::Extent3d { width: 4, height: 4, depth_or_array_layers: 1 };
-        let texture = stage.app.device.create_texture(&wgpu::TextureDescriptor {
+    let layered = |format, usage, sample_count, layers| {
+        let size = wgpu::Extent3d { width: 4, height: 4, depth_or_array_layers: layers };
+        stage.app.device.create_texture(&wgpu::TextureDescriptor {
             label: None,
             size,
             mip_level_count: 1,
@@ -73,9 +73,10 @@ fn lights_that_were_not_prepared_for_or_have_no_map() {
             format,
             usage,
             view_formats: &[],
-        });
-        texture.create_view(&wgpu::TextureViewDescriptor::default())
+        })
     };
+    let whole = |texture: wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let texture = |format, usage, sample_count| whole(layered(format, usage, sample_count, 1));
     let (bound, drawn_to) = (TextureUsages::TEXTURE_BINDING, TextureUsages::RENDER_ATTACHMENT);
     let depth = texture(TextureFormat::Depth16Unorm, bound | drawn_to, 1);
     let hosted = [Light { shadow: Shadow::Host(1), ..sun() }];
@@ -92,5 +93,16 @@ fn lights_that_were_not_prepared_for_or_have_no_map() {
     ] {
         let maps = [of(&view)];
         assert_refused(drawn(&stage, &prepared, &Input { shadow_maps: &maps, ..with(&one) }), words);
+    }
+    // What a view shows of its texture only the device knows.
+    let stencil = layered(TextureFormat::Depth24PlusStencil8, bound | drawn_to, 1, 1);
+    let only = wgpu::TextureViewDescriptor { aspect: wgpu::TextureAspect::DepthOnly, ..Default::default() };
+    let depth_alone = stencil.create_view(&only);
+    let maps = [of(&depth), of(&depth_alone)];
+    drawn(&stage, &prepared, &Input { shadow_maps: &maps, ..with(&hosted) }).unwrap();
+    for view in [whole(stencil), whole(layered(TextureFormat::Depth16Unorm, bound | drawn_to, 1, 2))] {
+        let maps = [of(&depth), of(&view)];
+        let refused = drawn(&stage, &prepared, &Input { shadow_maps: &maps, ..with(&hosted) });
+        assert_refused(refused, "shadow map 1 is a view of several layers, or of stencil; expected one layer");
     }
 }

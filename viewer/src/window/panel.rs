@@ -176,6 +176,7 @@ mod tests {
             size: [640, 480],
             light_texels: 512,
             lights: 1,
+            light_columns: 1,
             divisor: 1.0,
             blur_size: [640, 480],
             has_light_levels: false,

@@ -7,5 +7,6 @@ mod surface;
 
 pub use gather::PatchRenderer;
 pub use homogeneous::{HomogeneousPatch, HomogeneousRenderer};
+pub(crate) use separable::PatchCascade;
 pub use separable::{SeparablePatch, SeparableRenderer};
 pub use surface::{Exitance, PatchLight, Region};

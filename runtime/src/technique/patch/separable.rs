@@ -3,29 +3,70 @@
 use std::sync::Arc;
 
 use subsurf_shaders::passes::{Choice, table};
-use subsurf_shaders::uniform::PatchDomain;
-use wgpu::{BindGroup, BindingResource, CommandEncoder, CommandEncoderDescriptor};
+use wgpu::{BindGroup, BindingResource, CommandEncoder, CommandEncoderDescriptor, TextureView};
 
 use super::surface::{Exitance, PatchLight};
 use crate::asset::SeparableMaterial;
 use crate::error::Result;
-use crate::gpu::{FullscreenPass, Gpu, Purpose, TextureSpec};
+use crate::gpu::{FullscreenPass, Gpu, TextureSpec};
 use crate::technique::cascade::{BlurPasses, Cascade, CascadeMaps};
+
+/// Pipelines of the cascade on flat patches of L terms, from maps of weighted irradiance to exitance.
+#[derive(Debug)]
+pub(crate) struct PatchCascade {
+    blur: BlurPasses,
+    last: FullscreenPass,
+}
+
+impl PatchCascade {
+    /// Compiles the passes, unless they are.
+    pub(crate) fn new(gpu: &Gpu, terms: usize) -> Result<Self> {
+        let last = table::BLUR_PATCH_LAST.with(Choice::Terms(terms));
+        Ok(Self {
+            blur: BlurPasses::new(gpu, [&table::BLUR_PATCH, &table::SUM_PATCH], terms)?,
+            last: FullscreenPass::new(gpu, last, &[gpu.target_texture_format()])?,
+        })
+    }
+
+    /// Binds a material to maps of the size of its patch; `first` is bound to the pass in place of the first along rows.
+    pub(crate) fn bind(
+        &self,
+        gpu: &Gpu,
+        first: Option<BindGroup>,
+        material: &SeparableMaterial,
+        maps: &Arc<CascadeMaps>,
+    ) -> Result<Cascade> {
+        let coefficients = material.coefficients();
+        let last = (&self.last, Some(BindingResource::TextureView(&coefficients)));
+        Cascade::new(gpu, &self.blur, first, last, material, &material.domain(), maps)
+    }
+
+    /// Records all passes over a patch of `size` pixels, to exitance; another pass takes the place of the first along rows if there
+    /// is one.
+    pub(crate) fn record(
+        &self,
+        encoder: &mut CommandEncoder,
+        size: [u32; 2],
+        first: Option<&FullscreenPass>,
+        cascade: &Cascade,
+        exitance: &TextureView,
+    ) {
+        cascade.record(encoder, size, &self.blur, first, (&self.last, &[exitance]), &mut |_, _| {});
+    }
+}
 
 /// Pipelines of separable blurs on flat patches of L terms; made once.
 #[derive(Debug)]
 pub struct SeparableRenderer {
     terms: usize,
     first: FullscreenPass,
-    blur: BlurPasses,
-    last: FullscreenPass,
+    passes: PatchCascade,
 }
 
 /// Patch under a light, ready to be drawn any number of times.
 #[derive(Debug)]
 pub struct SeparablePatch {
     cascade: Cascade,
-    first: BindGroup,
     exitance: Exitance,
 }
 
@@ -35,14 +76,9 @@ impl SeparableRenderer {
     /// # Errors
     /// [`Error::Device`](crate::Error::Device) if the driver refuses them.
     pub fn new(gpu: &Gpu, terms: usize) -> Result<Self> {
-        let choice = Choice::Terms(terms);
-        let target = gpu.target_texture_format();
-        Ok(Self {
-            terms,
-            first: FullscreenPass::new(gpu, table::BLUR_PATCH_FIRST.with(choice), &vec![target; terms])?,
-            blur: BlurPasses::new(gpu, [&table::BLUR_PATCH, &table::SUM_PATCH], terms)?,
-            last: FullscreenPass::new(gpu, table::BLUR_PATCH_LAST.with(choice), &[target])?,
-        })
+        let targets = vec![gpu.target_texture_format(); terms];
+        let first = FullscreenPass::new(gpu, table::BLUR_PATCH_FIRST.with(Choice::Terms(terms)), &targets)?;
+        Ok(Self { terms, first, passes: PatchCascade::new(gpu, terms)? })
     }
 
     /// Makes room for the maps of a patch.
@@ -50,28 +86,17 @@ impl SeparableRenderer {
     /// # Errors
     /// [`Error::Usage`](crate::Error::Usage) if the material has another number of terms, [`Error::Unsupported`](crate::Error::Unsupported) if it is too large.
     pub fn prepare(&self, gpu: &Gpu, material: &SeparableMaterial, light: &PatchLight) -> Result<SeparablePatch> {
-        light.expect([material.header().width, material.header().height])?;
-        self.bind(gpu, material, light)
-    }
-
-    /// The same for light of one texel for each pixel, or of one for all.
-    pub(crate) fn bind(&self, gpu: &Gpu, material: &SeparableMaterial, light: &PatchLight) -> Result<SeparablePatch> {
+        let size = [material.header().width, material.header().height];
+        light.expect(size)?;
         material.expect(self.terms)?;
-        let header = material.header();
-        let size = [header.width, header.height];
-        let domain = gpu.uniform(Purpose::Frame, "patch", &PatchDomain::new(header));
-        let domain = domain.as_entire_binding();
         let maps = Arc::new(CascadeMaps::new(gpu, size, self.terms)?);
-        let texture = BindingResource::TextureView;
-        let basis = texture(&material.layers.all);
-        let last = (&self.last, Some(basis.clone()));
-        let cascade = Cascade::new(gpu, &self.blur, last, material, &domain, &maps)?;
-        let [rows, _] = &material.stages()[0];
-        let of_first = [rows.as_entire_binding(), domain, basis, texture(light.view())];
+        let coefficients = material.coefficients();
+        let [coefficients, irradiance] = [&coefficients, light.view()].map(BindingResource::TextureView);
+        let [rows, _] = material.stage(0);
+        let first = self.first.bind(gpu, 0, &[rows, material.domain(), coefficients, irradiance])?;
         let surface = gpu.texture(&TextureSpec::target("exitance", size, gpu.target_texture_format()))?;
         Ok(SeparablePatch {
-            first: self.first.bind(gpu, 0, &of_first)?,
-            cascade,
+            cascade: self.passes.bind(gpu, Some(first), material, &maps)?,
             exitance: Exitance::new(surface, size),
         })
     }
@@ -81,20 +106,13 @@ impl SeparableRenderer {
     /// # Errors
     /// [`Error::Device`](crate::Error::Device) if the device is lost.
     pub fn draw<'a>(&self, gpu: &Gpu, patch: &'a SeparablePatch) -> Result<&'a Exitance> {
+        let exitance = &patch.exitance;
         gpu.checked(|| {
             let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-            let exitance = self.record(&mut encoder, patch);
+            self.passes.record(&mut encoder, exitance.size, Some(&self.first), &patch.cascade, exitance.view());
             gpu.queue.submit([encoder.finish()]);
-            exitance
-        })
-    }
-
-    /// Records all passes, to the exitance of the whole patch.
-    pub(crate) fn record<'a>(&self, encoder: &mut CommandEncoder, patch: &'a SeparablePatch) -> &'a Exitance {
-        let first = Some((&self.first, &patch.first));
-        let last = (&self.last, &[patch.exitance.view()][..]);
-        patch.cascade.record(encoder, patch.exitance.size, &self.blur, first, last, &mut |_, _| {});
-        &patch.exitance
+        })?;
+        Ok(exitance)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Irradiance on flat patches, and exitance from them.
 
 use subsurf_decoder::bssrdf::Addressing;
-use wgpu::{AddressMode, Sampler, SamplerDescriptor, Texture, TextureFormat, TextureView};
+use wgpu::{AddressMode, Sampler, SamplerDescriptor, TextureFormat, TextureView};
 
 use crate::error::{Error, Result};
 use crate::gpu::{Gpu, Purpose, Surface2d, TextureSpec};
@@ -38,11 +38,6 @@ impl PatchLight {
         Ok(Self(gpu.filled(&spec, bytemuck::cast_slice(&texels))?))
     }
 
-    /// Irradiance of 1 in one texel, for what takes that for all pixels.
-    pub(crate) fn uniform(gpu: &Gpu) -> Result<Self> {
-        Self::upload(gpu, [1; 2], &[[1.0; 3]])
-    }
-
     /// View of the texture.
     pub(crate) fn view(&self) -> &TextureView {
         &self.0.view
@@ -67,11 +62,6 @@ impl Exitance {
     /// View of the texture.
     pub(crate) fn view(&self) -> &TextureView {
         &self.surface.view
-    }
-
-    /// Texture of the exitance.
-    pub(crate) fn texture(&self) -> &Texture {
-        &self.surface.texture
     }
 
     /// Reads the exitance back: linear Rec. 709, row by row.

@@ -7,7 +7,7 @@ use subsurf_decoder::bssrdf::BssrdfHeader;
 use subsurf_shaders::uniform::{self, LightSource, MAX_RINGS, Splat, SplatRings, TsmLight, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureView};
 
-use super::levels::{FADE, Levels, RING, ring_size};
+use super::levels::SplatLevels;
 use super::passes::Passes;
 use crate::asset::SplatMaterial;
 use crate::error::Result;
@@ -41,7 +41,7 @@ struct Bound {
     header: BssrdfHeader,
     softening_gain: [[f32; 4]; 8],
     /// Levels of the last frame.
-    levels: Levels,
+    levels: SplatLevels,
     gbuffer: [BindGroup; 2],
     reductions: Vec<Reduction>,
     planes: BindGroup,
@@ -74,7 +74,7 @@ struct Draw {
 }
 
 impl Draw {
-    fn level(&self, levels: &Levels) -> u32 {
+    fn level(&self, levels: &SplatLevels) -> u32 {
         levels.first + self.ring - u32::from(self.refines)
     }
 }
@@ -84,14 +84,14 @@ impl Maps {
     pub(crate) fn bytes_of(plan: &Plan, options: &RuntimeOptions) -> u64 {
         let size = plan.map_size();
         let half = |size| TextureSpec::target("", size, HALF).bytes();
-        let rings: u64 = (0..RINGS).map(|ring| half(ring_size(size, ring))).sum();
+        let rings: u64 = (0..RINGS).map(|ring| half(SplatLevels::ring_size(size, ring))).sum();
         4 * half(size) + TextureSpec::attachment("", size, options.depth.format).bytes() + rings
     }
 
     pub(crate) fn new(gpu: &Gpu, plan: &Plan, options: &RuntimeOptions) -> Result<Self> {
         let size = plan.map_size();
         let target = |label, size| gpu.texture(&TextureSpec::target(label, size, HALF));
-        let rings = (0..RINGS).map(|ring| target("ring", ring_size(size, ring)));
+        let rings = (0..RINGS).map(|ring| target("ring", SplatLevels::ring_size(size, ring)));
         Ok(Self {
             size,
             visible: [target("positions", size)?, target("places", size)?, target("albedos", size)?],
@@ -114,7 +114,7 @@ impl Passes {
         plan: &Plan,
     ) -> Result<Box<dyn Bindings>> {
         let texture = BindingResource::TextureView;
-        let of_albedo = [texture(&material.albedo.all), BindingResource::Sampler(&material.albedo.sampler)];
+        let of_albedo = material.albedo.resources();
         let rings_block = gpu.uniform(Purpose::Frame, "rings", &SplatRings::default());
         let mut of_resolve =
             vec![rings_block.as_entire_binding(), texture(&maps.visible[0].view), texture(&maps.visible[2].view)];
@@ -132,7 +132,7 @@ impl Passes {
             shade: self.shade.bind(gpu, 1, &of_shade)?,
             reductions: self.reductions(gpu, slot, lights, plan)?,
             draws: self.draws(gpu, lights, maps, plan)?,
-            levels: Levels { first: 1, rings: 1 },
+            levels: SplatLevels { first: 1, rings: 1 },
             softening_gain: material.softening_gain.map(|[r, g, b]| [r, g, b, 0.0]),
             header: *material.planes.header(),
             rings_block,
@@ -201,7 +201,7 @@ impl Bound {
 impl Bindings for Bound {
     /// Tells the passes where lights and eye are.
     fn update(&mut self, gpu: &Gpu, group: &Group<'_>) {
-        self.levels = Levels::new(&self.header, group.radius_mm, group.plan.light_texels);
+        self.levels = SplatLevels::new(&self.header, group.radius_mm, group.plan.light_texels);
         let upsampling = group.upsampling(&MapArea::whole(group.plan.map_size()));
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&upsampling));
         let rings = SplatRings { count: self.levels.rings, near_mm: upsampling.near_mm, pad: [0; 2] };
@@ -213,16 +213,15 @@ impl Bindings for Bound {
         for (draw, light) in self.drawn(block) {
             #[allow(clippy::cast_precision_loss, reason = "small")]
             let texel_at = |level: u32| light.texel_mm * (1_u32 << level) as f32;
-            // The ring ends where the next begins; distances are of samples of a directional light's first level.
-            let end = |ring: u32| RING * texel_at(self.levels.first + ring);
-            let fade = |ring: u32| [end(ring), FADE * end(ring)];
-            let beyond = [1e6, 2e6];
+            // Distances are of samples of a directional light's first level.
+            let in_mm = |edges: f32| edges * texel_at(self.levels.first);
+            let [fade_in, fade_out] = self.levels.fades(draw.ring).map(|fade| fade.map(in_mm));
             let level = draw.level(&self.levels);
             let splat = Splat {
                 softening_gain: self.softening_gain,
                 clip_from_centre: clip_from_centre.to_cols_array_2d(),
-                fade_in: if draw.ring == 0 { [0.0; 2] } else { fade(draw.ring - 1) },
-                fade_out: if draw.ring + 1 == self.levels.rings { beyond } else { fade(draw.ring) },
+                fade_in,
+                fade_out,
                 middle_mm: light.middle_mm,
                 texel_mm: texel_at(level),
                 tile: draw.tile,
@@ -232,7 +231,8 @@ impl Bindings for Bound {
                 stride: 1 << draw.ring,
                 pitch_mm: self.header.pitch_mm,
                 group: group.number(),
-                pad: [0; 3],
+                columns: group.plan.light_columns,
+                pad: [0; 2],
             };
             gpu.queue.write_buffer(&draw.block, 0, bytemuck::bytes_of(&splat));
         }

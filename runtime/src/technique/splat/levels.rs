@@ -5,24 +5,28 @@ use subsurf_shaders::uniform::MAX_RINGS;
 
 /// Edge of samples of the first ring, in pixels of the material.
 const SAMPLE_PIXELS: f32 = 1.0;
-/// Where the first ring begins to fade out, in edges of its samples, and where it ends.
-pub(super) const RING: f32 = 2.0;
-pub(super) const FADE: f32 = 1.6;
+/// Where a ring begins to fade out, in edges of its samples.
+const RING: f32 = 2.0;
+/// Where it ends, by where it begins to fade out.
+const FADE: f32 = 1.6;
+/// Where the last ring fades out: beyond everything.
+const BEYOND: [f32; 2] = [1e6, 2e6];
 /// Texels of the finest target to an edge of a sample of the first ring.
 const TEXELS_PER_SAMPLE: f32 = 2.0;
 
-/// Levels and rings for a mesh of a certain size.
+/// Levels and rings of the samples of splats, for a mesh of a certain size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Levels {
-    /// Level of shadow maps that the first ring takes its samples from.
-    pub(super) first: u32,
+pub struct SplatLevels {
+    /// Level of shadow maps that the first ring takes its samples from; each further ring takes the next.
+    pub first: u32,
     /// Number of rings.
-    pub(super) rings: u32,
+    pub rings: u32,
 }
 
-impl Levels {
+impl SplatLevels {
     /// Levels for views of `light_texels` to a side, of what lies within `radius_mm`.
-    pub(super) fn new(header: &BssrdfHeader, radius_mm: f32, light_texels: u32) -> Self {
+    #[must_use]
+    pub fn new(header: &BssrdfHeader, radius_mm: f32, light_texels: u32) -> Self {
         #[allow(clippy::cast_precision_loss, reason = "a thousand")]
         let texel_mm = 2.0 * radius_mm / light_texels as f32;
         let sample_mm = SAMPLE_PIXELS * header.pitch_mm;
@@ -37,22 +41,38 @@ impl Levels {
     }
 
     /// Number of levels of shadow maps.
-    pub(super) fn count(&self) -> u32 {
+    #[must_use]
+    pub fn count(&self) -> u32 {
         self.first + self.rings
+    }
+
+    /// Distances at which a ring begins and ends to fade in, both 0 for the first, and to fade out; in edges of samples of the first
+    /// ring.
+    #[must_use]
+    pub fn fades(&self, ring: u32) -> [[f32; 2]; 2] {
+        // It ends where the next begins.
+        let fade = |ring: u32| {
+            #[allow(clippy::cast_precision_loss, reason = "small")]
+            let end = RING * (1_u32 << ring) as f32;
+            [end, FADE * end]
+        };
+        let fade_in = ring.checked_sub(1).map_or([0.0; 2], fade);
+        [fade_in, if ring + 1 == self.rings { BEYOND } else { fade(ring) }]
+    }
+
+    /// Width and height of a ring's target, when the finest has `size`.
+    #[must_use]
+    pub fn ring_size(size: [u32; 2], ring: u32) -> [u32; 2] {
+        size.map(|side| side.div_ceil(1 << ring).max(1))
     }
 }
 
 /// Pixels of the picture to a side of a texel of the finest target, when a mm of the material covers `pixels_per_mm`.
 pub(crate) fn divisor(header: &BssrdfHeader, radius_mm: f32, light_texels: u32, pixels_per_mm: f32) -> f32 {
-    let levels = Levels::new(header, radius_mm, light_texels);
+    let levels = SplatLevels::new(header, radius_mm, light_texels);
     #[allow(clippy::cast_precision_loss, reason = "small")]
     let sample_mm = 2.0 * radius_mm / light_texels as f32 * (1_u32 << levels.first) as f32;
     let divisor = (sample_mm * pixels_per_mm / TEXELS_PER_SAMPLE).floor().clamp(1.0, 8.0);
     // Of what is no number nothing is left.
     divisor.max(1.0)
-}
-
-/// Size of a ring's target, when the finest has `size`.
-pub(super) fn ring_size(size: [u32; 2], ring: u32) -> [u32; 2] {
-    size.map(|side| side.div_ceil(1 << ring).max(1))
 }

@@ -9,5 +9,6 @@ mod levels;
 mod passes;
 
 pub(crate) use bound::Maps;
+pub use levels::SplatLevels;
 pub(crate) use levels::divisor;
 pub(crate) use passes::Passes;

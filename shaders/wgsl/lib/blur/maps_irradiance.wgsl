@@ -2,7 +2,7 @@
 
 // c_l of every pixel; linear Rec. 709, mm^-1.
 @group(0) @binding(2) var coefficients: texture_2d_array<f32>;
-// Irradiance that has entered the material, of every pixel or in one texel for all; linear Rec. 709.
+// Irradiance that has entered the material, of every pixel; linear Rec. 709.
 @group(0) @binding(3) var irradiance: texture_2d<f32>;
 
 // All maps at texel x, or beyond the border.

@@ -1,5 +1,5 @@
-// Translucent shadow maps (Dachsbacher and Stamminger 2003), a square tile for each light in one row: what the passes that draw
-// them write.
+// Translucent shadow maps (Dachsbacher and Stamminger 2003), a square tile for each light, row by row: what the passes that
+// draw them write.
 
 struct TsmTexel {
     // Mean of depths along the light's axis, and of positions relative to the middle of the scene, in mm. Targets of one

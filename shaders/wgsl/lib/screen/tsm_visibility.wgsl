@@ -1,7 +1,7 @@
 // Visibility of lights from their translucent shadow maps, or from the host's maps.
 
 // Depth along the axis of the light in mm, and positions relative to the middle of the scene where there is room for them; a
-// square tile for each light in one row.
+// square tile for each light, row by row.
 @group(0) @binding(1) var tsm_positions: TargetTexture;
 
 // Texel of a tile, not rounded, and the edge of a texel at that depth in mm.
@@ -14,8 +14,7 @@ struct TsmCoord {
 fn tsm_coord(i: u32, position_mm: vec3<f32>) -> TsmCoord {
     let source = scene.light[min(i, MAX_LIGHTS - 1u)];
     let clip = source.clip_from_world * vec4<f32>(position_mm, 1.0);
-    let side = f32(textureDimensions(tsm_positions).y);
-    let texel = (clip.xy / clip.w * vec2<f32>(0.5, -0.5) + 0.5) * side;
+    let texel = (clip.xy / clip.w * vec2<f32>(0.5, -0.5) + 0.5) * f32(scene.light_texels);
     var grown = 1.0;
     if source.is_local != 0u {
         grown = 1.0 + light_depth(i, position_mm) / source.middle_mm;
@@ -23,11 +22,12 @@ fn tsm_coord(i: u32, position_mm: vec3<f32>) -> TsmCoord {
     return TsmCoord(texel, source.texel_mm * grown);
 }
 
-// A texel of the tile of light i, clamped to it, in the row of all tiles.
+// A texel of the tile of light i, clamped to it, among all tiles.
 fn tsm_texel(i: u32, texel: vec2<i32>) -> vec2<i32> {
-    let side = i32(textureDimensions(tsm_positions).y);
-    let tile = i32(scene.light[min(i, MAX_LIGHTS - 1u)].map);
-    return clamp(texel, vec2<i32>(0), vec2<i32>(side - 1)) + vec2<i32>(tile * side, 0);
+    let side = i32(scene.light_texels);
+    let number = scene.light[min(i, MAX_LIGHTS - 1u)].map;
+    let tile = vec2<i32>(i32(number % scene.light_columns), i32(number / scene.light_columns));
+    return clamp(texel, vec2<i32>(0), vec2<i32>(side - 1)) + tile * side;
 }
 
 // Visibility of light i from a position in mm, 0 to 1: percentage-closer filtering over three texels by three, with weights

@@ -33,7 +33,8 @@ fn profile_sums(@builtin(position) at: vec4<f32>) -> Sums {
         second += entry(2u * knots + k) * value;
     }
     return Sums(
-        pack(vec4<f32>(clamp(first, -LARGEST, LARGEST), 1.0)),
-        pack(vec4<f32>(clamp(second, -LARGEST, LARGEST), 1.0)),
+        // Depth 0, for the blurs.
+        pack(vec4<f32>(clamp(first, -LARGEST, LARGEST), 0.0)),
+        pack(vec4<f32>(clamp(second, -LARGEST, LARGEST), 0.0)),
     );
 }

@@ -28,13 +28,14 @@ struct Splat {
     pitch_mm: f32,
     // Number of the group whose light is spread.
     group: f32,
+    // Tiles in a row of the translucent shadow maps.
+    columns: u32,
     pad_0: u32,
     pad_1: u32,
-    pad_2: u32,
 }
 
 @group(1) @binding(0) var<uniform> splat_block: Splat;
-// Translucent shadow maps with mipmap levels, a square tile for each light in one row.
+// Translucent shadow maps with mipmap levels, a square tile for each light, row by row.
 @group(1) @binding(1) var tsm_positions: texture_2d<f32>;
 @group(1) @binding(2) var tsm_fluxes: texture_2d<f32>;
 @group(1) @binding(3) var tsm_uvs: texture_2d<f32>;
@@ -109,7 +110,8 @@ fn projected_bounds(row: vec3<f32>, row_w: vec3<f32>, at: f32, w: f32, radius: f
 @vertex
 fn splat_quad(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance: u32) -> Sample {
     let of_tile = min(vec2<u32>(instance % splat_block.side, instance / splat_block.side), vec2<u32>(splat_block.side - 1u));
-    let texel = of_tile + vec2<u32>(splat_block.tile * splat_block.side, 0u);
+    let tile = vec2<u32>(splat_block.tile % splat_block.columns, splat_block.tile / splat_block.columns);
+    let texel = of_tile + tile * splat_block.side;
     let flux = textureLoad(tsm_fluxes, texel, splat_block.level);
     let position = textureLoad(tsm_positions, texel, splat_block.level);
     var texel_mm = splat_block.texel_mm;

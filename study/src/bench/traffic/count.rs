@@ -17,7 +17,7 @@ pub(super) struct Assumptions<'a> {
     pub(super) shares: &'a [(&'a str, usize, f64)],
 }
 
-/// Counts what an entry point reads.
+/// Counts what an entry point reads; the cases of a switch are taken equally often.
 ///
 /// # Errors
 /// If a loop or a branch with reads in it is neither constant nor among the assumptions.
@@ -107,7 +107,12 @@ impl<'a> Counter<'a> {
                 Statement::Switch { cases, .. }
                     if cases.iter().any(|case| self.is_reading(frame.function, &case.body)) =>
                 {
-                    bail!("{}: a switch with reads in it", frame.name);
+                    #[allow(clippy::cast_precision_loss, reason = "a handful")]
+                    let share = weight / cases.len() as f64;
+                    weight = 0.0;
+                    for case in cases {
+                        weight += self.block(frame, &case.body, share)?;
+                    }
                 }
                 Statement::Return { .. } | Statement::Kill => return Ok(0.0),
                 _ => {}
@@ -247,5 +252,31 @@ fn image_of(expression: &Expression) -> Option<Handle<Expression>> {
     match expression {
         Expression::ImageLoad { image, .. } | Expression::ImageSample { image, .. } => Some(*image),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn loops_and_branches_that_nobody_knows_are_named() {
+        let module = |text: &str| naga::front::wgsl::parse_str(text).unwrap();
+        let text = |body: &str| {
+            format!(
+                "@group(0) @binding(0) var t: texture_2d<f32>; @group(0) @binding(1) var<uniform> n: u32;
+                 @fragment fn f() -> @location(0) vec4<f32> {{ var s = vec4<f32>(0.0); {body} return s; }}"
+            )
+        };
+        let load = "s += textureLoad(t, vec2<u32>(0u), 0);";
+        let none = Assumptions { turns: &[], shares: &[] };
+        let of = |body: String, assumed: &Assumptions<'_>| reads(&module(&text(&body)), "f", assumed);
+        assert_eq!(of(format!("for (var k = -1; k <= 2; k++) {{ {load} }}"), &none).unwrap()["t"], 4.0);
+        let open = format!("for (var k = 0u; k < n; k++) {{ {load} }}");
+        assert_eq!(of(open.clone(), &Assumptions { turns: &[("f", "k", 7.0)], shares: &[] }).unwrap()["t"], 7.0);
+        assert!(of(open, &none).unwrap_err().to_string().contains("the loop over k in f"));
+        let branch = format!("if n > 3u {{ {load} return s; }} {load} {load}");
+        assert_eq!(of(branch.clone(), &Assumptions { turns: &[], shares: &[("f", 0, 0.25)] }).unwrap()["t"], 1.75);
+        assert!(of(branch, &none).unwrap_err().to_string().contains("branch 0 of f"));
     }
 }
