@@ -133,13 +133,21 @@ fn traffic_of_a_frame_is_counted() {
     std::fs::write(folder.join("a.subsurf"), drawable([13, 11], 3, Addressing::Clamp)).unwrap();
     let tables = last_json(folder, "bench traffic a.subsurf --size 64x48 --size 128x96 --json");
     let tables = tables.as_array().unwrap();
-    assert_eq!(tables.len(), 2, "one for each size");
+    assert_eq!(tables.len(), 4, "one for each size and technique");
     for table in tables {
         let rows = table["passes"].as_array().unwrap();
         let passes: Vec<&str> = rows.iter().map(|row| row["pass"].as_str().unwrap()).collect();
-        let expected =
-            ["tsm_render", "separable_gbuffer", "blur_screen", "sum_screen", "blur_screen_last", "shade_separable"];
-        assert_eq!(passes, expected);
+        match table["technique"].as_str() {
+            Some("separable") => assert_eq!(
+                passes,
+                ["tsm_render", "separable_gbuffer", "blur_screen", "sum_screen", "blur_screen_last", "shade_separable"]
+            ),
+            Some("splat") => {
+                assert_eq!(passes[..2], ["tsm_render", "tsm_reduce"]);
+                assert_eq!(passes[passes.len() - 3..], ["splat", "splat_resolve", "shade_splat"]);
+            }
+            other => panic!("{other:?}"),
+        }
         let sum: f64 = rows.iter().map(|row| row["bytes_written"].as_f64().unwrap()).sum();
         assert_eq!(table["bytes_written"].as_f64(), Some(sum), "{table}");
     }
