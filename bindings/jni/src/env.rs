@@ -94,10 +94,12 @@ impl Env {
         call!(self, v1_4, GetDirectBufferAddress, buffer).cast()
     }
 
-    /// Direct buffer over memory of the library's.
+    /// Direct buffer over memory of the library's; null where it is longer than such buffers are.
     pub(crate) fn buffer(self, bytes: *const u8, length: u64) -> jobject {
-        let length = jlong::try_from(length).unwrap_or(jlong::MAX);
-        call!(self, v1_4, NewDirectByteBuffer, bytes.cast_mut().cast(), length)
+        let Ok(length) = jint::try_from(length) else {
+            return null_mut();
+        };
+        call!(self, v1_4, NewDirectByteBuffer, bytes.cast_mut().cast(), jlong::from(length))
     }
 }
 

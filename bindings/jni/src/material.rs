@@ -107,11 +107,11 @@ unsafe extern "system" fn Java_dev_subsurf_Native_meshShape(
     _: jclass,
     gpu: jlong,
     shape: jint,
-    radius_mm: jfloat,
+    extent_mm: jfloat,
     mesh_out: jlongArray,
 ) -> jint {
     // SAFETY: as the crate says.
-    unsafe { made(env, mesh_out, |mesh| subsurf_mesh_shape(pointer(gpu), unsigned(shape), radius_mm, mesh)) }
+    unsafe { made(env, mesh_out, |mesh| subsurf_mesh_shape(pointer(gpu), unsigned(shape), extent_mm, mesh)) }
 }
 
 /// Vertices, triangles and has_uvs; centre and radius of what holds it; bytes on the device.

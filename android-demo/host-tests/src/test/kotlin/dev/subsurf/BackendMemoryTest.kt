@@ -9,7 +9,10 @@ import org.junit.rules.TemporaryFolder
 class BackendMemoryTest {
     @get:Rule val folder = TemporaryFolder()
 
-    private fun memory(system: String = "Android 15") = BackendMemory(folder.root, system)
+    private var process = 0
+
+    /** Memory of a process that does not run: there are fewer than that. */
+    private fun memory(system: String = "Android 15") = BackendMemory(folder.root, system, "99999999-${process++}")
 
     @Test
     fun crashIsRememberedAndForgotten() {
@@ -25,9 +28,31 @@ class BackendMemoryTest {
 
     @Test
     fun outlivedStartIsNone() {
-        memory().starting(Backend.VULKAN)
-        memory().survived()
+        memory().run {
+            starting(Backend.VULKAN)
+            survived(Backend.VULKAN)
+        }
         assertEquals(Backend.VULKAN, memory().choose(Backend.VULKAN))
+    }
+
+    @Test
+    fun startOfAnotherViewIsNoCrash() {
+        val running = List(2) { BackendMemory(folder.root, "Android 15") }
+        running.forEach { it.starting(Backend.VULKAN) }
+        assertEquals("in this process", Backend.VULKAN, running[1].choose(Backend.VULKAN))
+        assertEquals("in another, while this one runs", Backend.VULKAN, memory().choose(Backend.VULKAN))
+        running[1].survived(Backend.VULKAN)
+        assertEquals("the other start goes on", 1, folder.root.list()!!.size)
+        running[0].survived(Backend.VULKAN)
+        assertEquals(0, folder.root.list()!!.size)
+    }
+
+    @Test
+    fun folderThatCannotBeWrittenToIsNoError() {
+        val memory = BackendMemory(folder.newFile(), "Android 15")
+        memory.starting(Backend.VULKAN)
+        assertEquals(Backend.VULKAN, memory.choose(Backend.VULKAN))
+        memory.survived(Backend.VULKAN)
     }
 
     @Test

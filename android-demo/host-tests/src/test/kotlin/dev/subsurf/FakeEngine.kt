@@ -1,6 +1,7 @@
 package dev.subsurf
 
 import java.util.concurrent.CopyOnWriteArrayList
+import java.util.concurrent.CountDownLatch
 import java.util.concurrent.LinkedBlockingQueue
 import java.util.concurrent.TimeUnit
 
@@ -11,6 +12,27 @@ internal class FakeSource : EngineSource {
     private var count = 0
 
     @Volatile var isSkipping = false
+
+    /** Call at which the thread stops until it is told to go on. */
+    @Volatile private var held: Held? = null
+
+    /** Place where the thread stops. */
+    class Held(val call: String) {
+        private val reached = CountDownLatch(1)
+        private val goesOn = CountDownLatch(1)
+
+        fun stop() {
+            reached.countDown()
+            check(goesOn.await(SECONDS, TimeUnit.SECONDS)) { "nobody lets $call go on" }
+        }
+
+        fun awaitReached() = check(reached.await(SECONDS, TimeUnit.SECONDS)) { "there was no $call" }
+
+        fun goOn() = goesOn.countDown()
+    }
+
+    /** Stops the thread at the next call that begins like this. */
+    fun hold(call: String): Held = Held(call).also { held = it }
 
     override fun open(): Engine {
         call("open")
@@ -26,6 +48,10 @@ internal class FakeSource : EngineSource {
 
     private fun call(name: String) {
         calls += name
+        held?.takeIf { name.startsWith(it.call) }?.let {
+            held = null
+            it.stop()
+        }
         val failure = failures.peek() ?: return
         if (name.startsWith(failure.first)) throw failures.remove().second
     }
@@ -50,6 +76,10 @@ internal class FakeSource : EngineSource {
     val names = HashMap<Scene?, String>()
 
     fun scene(name: String): Scene = Scene(emptyList()).also { names[it] = name }
+
+    private companion object {
+        const val SECONDS = 60L
+    }
 }
 
 /** Listener whose news can be waited for. */
@@ -71,6 +101,8 @@ internal class News : RenderListener {
 
     /** Whether no frame is drawn for a while. */
     fun isQuiet(): Boolean = frames.poll(QUIET_MS, TimeUnit.MILLISECONDS) == null
+
+    fun hasErrors(): Boolean = errors.isNotEmpty()
 
     fun forget() = frames.clear()
 

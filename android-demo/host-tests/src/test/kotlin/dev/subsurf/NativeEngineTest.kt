@@ -18,13 +18,19 @@ class NativeEngineTest {
                 val renderer = SubsurfRenderer.open()
                 renderer.onLoaded = { _, report -> reports += report }
                 renderers += renderer
-                return NativeEngine(renderer, Native::drawPicture, { _, _, _ -> Status.OK }) { of, _, width, height ->
+                return NativeEngine(renderer, ::draw, { _, _, _ -> Status.OK }) { of, _, width, height ->
                     of.picture(width, height)
                 }
             }
 
             override fun survived() = Unit
         }
+
+    /** Frames that are skipped from now on. */
+    @Volatile private var skips = 0
+
+    private fun draw(of: Long, to: Long, numbers: FloatArray, handles: LongArray, report: LongArray?): Int =
+        if (skips-- > 0) Status.SKIPPED else Native.drawPicture(of, to, numbers, handles, report)
 
     private fun scene(material: SubsurfMaterial, orbit: Orbit = Orbit()) =
         Scene(listOf(SceneObject(SubsurfMesh.of(Shape.SPHERE), material)), camera = orbit)
@@ -79,6 +85,19 @@ class NativeEngineTest {
                 thread.resume()
                 news.awaitFrame()
                 assertEquals("once more", 1, reports.size)
+            }
+        }
+
+    @Test
+    fun materialThatWasLoadedInASkippedFrameIsReported() =
+        SubsurfMaterial.open(TestFiles.material("jade.subsurf").path).use { material ->
+            RenderThread(source, news).use { thread ->
+                skips = 2
+                thread.show(scene(material))
+                thread.setWindow("window", 16, 16)
+                thread.resume()
+                news.awaitFrame()
+                assertTrue(reports.single().firstFrameNanos > 0)
             }
         }
 

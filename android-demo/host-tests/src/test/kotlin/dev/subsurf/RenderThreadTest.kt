@@ -2,8 +2,10 @@ package dev.subsurf
 
 import org.junit.After
 import org.junit.Assert.assertEquals
+import org.junit.Assert.assertFalse
 import org.junit.Assert.assertTrue
 import org.junit.Test
+import kotlin.concurrent.thread as begin
 
 class RenderThreadTest {
     private val source = FakeSource()
@@ -87,6 +89,7 @@ class RenderThreadTest {
         thread.show(source.scene("b"))
         news.awaitFrame()
         assertEquals(listOf("draw b", "close 1", "open", "attach window 30x20 to 2", "draw b"), source.actions())
+        assertTrue("a loss is no crash", source.calls.indexOf("survived") < source.calls.indexOf("open"))
     }
 
     @Test
@@ -156,11 +159,74 @@ class RenderThreadTest {
     }
 
     @Test
-    fun skippedFramesAreNone() {
+    fun skippedFramesAreTriedAgainNowAndThen() {
         begin()
         source.isSkipping = true
+        thread.setContinuous(true)
         thread.show(scene)
+        news.forget()
         assertTrue("nothing to draw to", news.isQuiet())
+        val tries = source.actions().size
+        assertTrue("$tries tries", tries in 2..100)
+        thread.setContinuous(false)
+        source.isSkipping = false
+        news.awaitFrame()
+    }
+
+    @Test
+    fun windowThatGoesWhileASurfaceIsMadeIsWaitedFor() {
+        val attach = source.hold("attach")
+        thread.show(scene)
+        thread.setWindow("window", 30, 20)
+        thread.resume()
+        attach.awaitReached()
+        val gone = begin { thread.setWindow(null, 0, 0) }
+        gone.join(SHORT_MS)
+        assertTrue("returns once the window is not touched any more", gone.isAlive)
+        attach.goOn()
+        gone.join()
+        assertEquals(listOf("open", "attach window 30x20 to 1", "detach from 1"), source.actions())
+        // Views hand the same object out again, with another surface behind it.
+        source.calls.clear()
+        thread.setWindow("window", 30, 20)
+        news.awaitFrame()
+        assertEquals(listOf("attach window 30x20 to 1", "draw a"), source.actions())
+    }
+
+    @Test
+    fun windowThatGoesWhileADeviceIsOpenedIsNotTouched() {
+        val open = source.hold("open")
+        thread.show(scene)
+        thread.setWindow("window", 30, 20)
+        thread.resume()
+        open.awaitReached()
+        thread.setWindow(null, 0, 0)
+        open.goOn()
+        assertTrue("no window", news.isQuiet())
+        assertEquals(listOf("open"), source.actions())
+        assertTrue("the process is still there", "survived" in source.calls)
+    }
+
+    @Test
+    fun errorOfWhatIsNotShownAnyMoreStopsNothing() {
+        begin()
+        source.failures += "draw" to IllegalStateException("the file is closed")
+        val draw = source.hold("draw")
+        thread.show(scene)
+        draw.awaitReached()
+        thread.show(source.scene("b"))
+        draw.goOn()
+        news.awaitFrame()
+        assertEquals(listOf("draw a", "draw b"), source.actions())
+        assertFalse("of no interest", news.hasErrors())
+    }
+
+    @Test
+    fun noDeviceIsOpenedBeforeThereIsAScene() {
+        thread.setWindow("window", 30, 20)
+        thread.resume()
+        assertTrue("no scene", news.isQuiet())
+        assertEquals(emptyList<String>(), source.actions())
     }
 
     @Test
@@ -168,5 +234,9 @@ class RenderThreadTest {
         begin()
         thread.close()
         assertEquals(listOf("detach from 1", "close 1"), source.actions())
+    }
+
+    private companion object {
+        const val SHORT_MS = 100L
     }
 }

@@ -6,6 +6,8 @@ import org.junit.Assert.assertTrue
 import org.junit.Assume.assumeTrue
 import org.junit.Test
 import java.nio.ByteBuffer
+import java.nio.ByteOrder
+import java.nio.IntBuffer
 
 /** Pictures by the library itself, on both APIs. */
 class RendererTest {
@@ -110,6 +112,45 @@ class RendererTest {
                 assertEquals(full.bytes, renderer.memory.bytes)
             }
         }
+
+    @Test
+    fun whatWasShownBeforeDoesNotPileUp() =
+        onEach { renderer ->
+            SubsurfMaterial.named("jade").use { renderer.draw(scene(it), 16, 16) }
+            val first = renderer.memory
+            repeat(5) {
+                SubsurfMaterial.named("jade").use { renderer.draw(scene(it), 16, 16) }
+                val now = renderer.memory
+                assertEquals(first.materialsBytes, now.materialsBytes)
+                assertEquals(first.meshesBytes, now.meshesBytes)
+            }
+        }
+
+    @Test
+    fun buffersOfAnotherByteOrderAreRefused() {
+        val other = if (ByteOrder.nativeOrder() == ByteOrder.BIG_ENDIAN) ByteOrder.LITTLE_ENDIAN else ByteOrder.BIG_ENDIAN
+        fun buffer(order: ByteOrder) = ByteBuffer.allocateDirect(36).order(order)
+        val indices = buffer(ByteOrder.nativeOrder()).asIntBuffer().limit(3) as IntBuffer
+        SubsurfMesh.of(buffer(ByteOrder.nativeOrder()).asFloatBuffer(), indices)
+        val error =
+            assertThrows(IllegalArgumentException::class.java) { SubsurfMesh.of(buffer(other).asFloatBuffer(), indices) }
+        assertEquals("positions is $other, expected is ${ByteOrder.nativeOrder()}", error.message)
+    }
+
+    @Test
+    fun scenesDoNotFollowTheListsTheyWereMadeOf() {
+        SubsurfMaterial.named("jade").use { material ->
+            val matrix = FloatArray(16)
+            val one = SceneObject(SubsurfMesh.of(Shape.SPHERE), material, worldFromMesh = matrix)
+            val objects = mutableListOf(one)
+            val scene = Scene(objects)
+            objects.clear()
+            matrix[0] = 1f
+            assertEquals(listOf(one), scene.objects)
+            one.worldFromMesh[0] = 1f
+            assertEquals(0f, one.worldFromMesh[0])
+        }
+    }
 
     @Test
     fun lostDeviceIsSaid() =

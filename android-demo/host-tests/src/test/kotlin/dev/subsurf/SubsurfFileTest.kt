@@ -14,6 +14,7 @@ import java.io.File
 import java.io.FileDescriptor
 import java.io.RandomAccessFile
 import java.nio.ByteBuffer
+import java.nio.ByteOrder
 import java.util.concurrent.CountDownLatch
 import kotlin.concurrent.thread
 
@@ -168,6 +169,7 @@ class SubsurfFileTest {
                 assertEquals(plane.layerBytes, plane.rowBytes.toLong() * plane.height)
                 plane.use {
                     assertTrue(it.isDirect && it.isReadOnly)
+                    assertEquals(ByteOrder.LITTLE_ENDIAN, it.order())
                     assertEquals(plane.byteCount, it.remaining())
                 }
             }

@@ -20,6 +20,9 @@ internal class Handle(
     private val users = AtomicInteger(1)
     private val isClosed = AtomicBoolean()
 
+    /** Whether the owner is no user any more: of two that find the handle closed, one takes it from the users. */
+    private val isLeft = AtomicBoolean()
+
     /** Calls with the pointer, which stays for the call. */
     inline fun <T> call(work: (Long) -> T): T {
         enter()
@@ -38,7 +41,7 @@ internal class Handle(
             return work(pointer)
         } finally {
             users.set(1)
-            if (isClosed.get()) leave()
+            if (isClosed.get()) leaveAsOwner()
         }
     }
 
@@ -56,7 +59,11 @@ internal class Handle(
     }
 
     override fun close() {
-        if (isClosed.compareAndSet(false, true) && users.get() != ALONE) leave()
+        if (isClosed.compareAndSet(false, true) && users.get() != ALONE) leaveAsOwner()
+    }
+
+    private fun leaveAsOwner() {
+        if (isLeft.compareAndSet(false, true)) leave()
     }
 
     private fun expectOpen(isOpen: Boolean) = check(isOpen) { "$name is closed" }

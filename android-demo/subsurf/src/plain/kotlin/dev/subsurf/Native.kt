@@ -148,7 +148,7 @@ internal object Native {
         meshOut: LongArray,
     ): Int
 
-    @JvmStatic external fun meshShape(gpu: Long, shape: Int, radiusMm: Float, meshOut: LongArray): Int
+    @JvmStatic external fun meshShape(gpu: Long, shape: Int, extentMm: Float, meshOut: LongArray): Int
 
     /** `floats`: centre and radius. */
     @JvmStatic external fun meshInfo(mesh: Long, ints: IntArray, floats: FloatArray, bytesOut: LongArray): Int

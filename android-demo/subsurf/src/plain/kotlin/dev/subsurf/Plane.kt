@@ -1,6 +1,7 @@
 package dev.subsurf
 
 import java.nio.ByteBuffer
+import java.nio.ByteOrder
 
 /**
  * Plane of a BSSRDF: its bytes as they stand in the file, and the texture that they are. Rows follow each other without gaps, and so
@@ -38,12 +39,12 @@ public class Plane private constructor(
     public val byteCount: Int get() = bytes.capacity()
 
     /**
-     * Calls with the bytes, read-only, ready for `glTexSubImage2D` (with GL_UNPACK_ALIGNMENT 1). The file stays open for the call; the
+     * Calls with the bytes, read-only and little-endian, ready for `glTexSubImage2D` (with GL_UNPACK_ALIGNMENT 1). The file stays open for the call; the
      * buffer is of no use after it, and reading it then may end the process.
      *
      * @throws IllegalStateException if the file is closed.
      */
-    public fun <T> use(work: (ByteBuffer) -> T): T = file.handle.call { work(bytes.asReadOnlyBuffer()) }
+    public fun <T> use(work: (ByteBuffer) -> T): T = file.handle.call { work(bytes.asReadOnlyBuffer().order(ByteOrder.LITTLE_ENDIAN)) }
 
     internal companion object {
         private const val LONGS = 12
@@ -54,6 +55,11 @@ public class Plane private constructor(
             val bytes = file.handle.call { Native.bssrdfPlane(it, number, longs) }
             expectOk(longs[11].toInt())
             fun int(index: Int) = longs[index].toInt()
+            val byteCount = longs[10] * longs[4]
+            if (byteCount > Int.MAX_VALUE) {
+                val text = "plane $number has $byteCount bytes, expected are ${Int.MAX_VALUE} at most: buffers hold no more"
+                throw exceptionOf(Status.UNSUPPORTED, text)
+            }
             return Plane(
                 file,
                 checkNotNull(bytes) { "this virtual machine has no direct buffers over memory of others" },

@@ -28,8 +28,17 @@ internal class RenderThread(
     private var trim = Trim.NOTHING
     private var isClosed = false
 
+    /** Changes so far: an error of work that is older than the last of them stops nothing. */
+    private var changes = 0L
+
     // What is.
     private var attached: Attached? = null
+
+    /** Where a surface is being made at this moment. */
+    private var attaching: Attached? = null
+
+    /** Time of the virtual machine, in ns, before which no frame is tried again. */
+    private var notBefore = System.nanoTime()
 
     /** Whether an error has stopped it until something changes. */
     private var isStopped = false
@@ -37,6 +46,7 @@ internal class RenderThread(
     // Used by the thread alone.
     private var engine: Engine? = null
     private var losses = 0
+    private var skips = 0
 
     /** What memory to give up, the more the later. */
     enum class Trim {
@@ -107,13 +117,14 @@ internal class RenderThread(
     private inline fun change(work: () -> Unit) =
         lock.withLock {
             isStopped = false
+            changes++
             changed.signalAll()
             work()
         }
 
     private fun awaitDetached() {
         if (Thread.currentThread() === thread) return
-        while (attached != null && thread.isAlive) changed.await()
+        while ((attached != null || attaching != null) && thread.isAlive) changed.await()
     }
 
     private fun wanted(): Attached? =
@@ -139,53 +150,52 @@ internal class RenderThread(
         while (true) {
             val (found, to) = attached to wanted()
             val shown = scene
+            val rest = notBefore - System.nanoTime()
             when {
                 found != null && found.window !== to?.window -> return Work.Detach
                 isClosed -> return Work.End
                 trim != Trim.NOTHING ->
                     return Work.GiveUp(trim, shown?.takeIf { trim == Trim.UNUSED }).also { trim = Trim.NOTHING }
                 isStopped -> Unit
-                to != null && found == null -> return Work.Attach(to)
-                to != null && found != to -> return Work.Resize(to)
-                to != null && shown != null && (isDirty || isContinuous) -> {
+                to == null || shown == null -> Unit
+                found == null -> return Work.Attach(to)
+                found != to -> return Work.Resize(to)
+                rest <= 0 && (isDirty || isContinuous) -> {
                     isDirty = false
                     return Work.Draw(shown)
                 }
             }
-            changed.await()
+            if (rest > 0) changed.awaitNanos(rest) else changed.await()
         }
     }
 
     private fun run() {
         while (true) {
-            val work = lock.withLock { next() }
+            val (work, seen) = lock.withLock { next() to changes }
             if (work == Work.End) break
             try {
                 perform(work)
             } catch (_: SubsurfException.DeviceLost) {
-                lost()
+                lost(seen)
             } catch (_: SubsurfException.SurfaceLost) {
-                surfaceLost()
+                surfaceLost(seen)
             } catch (
                 @Suppress("TooGenericExceptionCaught") e: Exception,
             ) {
                 source.survived()
-                stop(e)
+                stop(e, seen)
             }
         }
         engine?.close()
         engine = null
+        source.survived()
         lock.withLock { changed.signalAll() }
     }
 
     private fun perform(work: Work) {
         when (work) {
             Work.Detach -> detach()
-            is Work.Attach -> {
-                val opened = engine ?: source.open().also { engine = it }
-                opened.attach(work.to.window, work.to.width, work.to.height)
-                isNow(work.to)
-            }
+            is Work.Attach -> attach(work.to)
             is Work.Resize -> {
                 engine?.resize(work.to.width, work.to.height)
                 isNow(work.to)
@@ -196,13 +206,39 @@ internal class RenderThread(
         }
     }
 
+    private fun attach(to: Attached) {
+        val opened = engine ?: source.open().also { engine = it }
+        // Opening takes long: the window may be gone since, and nobody waits for the thread before it touches one.
+        val isWanted = lock.withLock { (wanted() == to).also { if (it) attaching = to } }
+        if (!isWanted) return source.survived()
+        try {
+            opened.attach(to.window, to.width, to.height)
+            isNow(to)
+        } finally {
+            lock.withLock {
+                attaching = null
+                changed.signalAll()
+            }
+        }
+    }
+
     private fun draw(scene: Scene) {
         val begin = System.nanoTime()
         val isDrawn = engine?.draw(scene) ?: false
-        if (!isDrawn) return
+        if (!isDrawn) return skipped()
+        skips = 0
         losses = 0
         source.survived()
         listener.onFrame(System.nanoTime() - begin)
+    }
+
+    /** The frame is tried again: after the time of one of a display, and longer each time. */
+    private fun skipped() {
+        val wait = FIRST_WAIT_NS shl minOf(skips++, MOST_DOUBLINGS)
+        lock.withLock {
+            isDirty = true
+            notBefore = System.nanoTime() + wait
+        }
     }
 
     private fun giveUp(work: Work.GiveUp) {
@@ -228,31 +264,41 @@ internal class RenderThread(
         lock.withLock {
             attached = state
             if (state != null) isDirty = true
+            notBefore = System.nanoTime()
             changed.signalAll()
         }
 
     /** Opens all anew, unless that was of no use several times. */
-    private fun lost() {
+    private fun lost(seen: Long) {
         engine?.close()
         engine = null
+        source.survived()
         isNow(null)
-        if (isTooOften()) stop(SubsurfException.DeviceLost(Status.DEVICE_LOST, "the device is lost again and again"))
+        if (isTooOften()) stop(SubsurfException.DeviceLost(Status.DEVICE_LOST, "the device is lost again and again"), seen)
     }
 
-    private fun surfaceLost() {
+    private fun surfaceLost(seen: Long) {
         detach()
-        if (isTooOften()) stop(SubsurfException.SurfaceLost(Status.SURFACE_LOST, "the surface is lost again and again"))
+        if (isTooOften()) stop(SubsurfException.SurfaceLost(Status.SURFACE_LOST, "the surface is lost again and again"), seen)
     }
 
     private fun isTooOften(): Boolean = ++losses > MOST_LOSSES
 
-    private fun stop(error: Exception) {
+    /** Stops until something changes; if it has since the work began, that is tried instead, and the error is of no interest. */
+    private fun stop(error: Exception, seen: Long) {
         losses = 0
-        lock.withLock { isStopped = true }
-        listener.onError(error)
+        val isOld =
+            lock.withLock {
+                isStopped = changes == seen
+                if (!isStopped) isDirty = true
+                !isStopped
+            }
+        if (!isOld) listener.onError(error)
     }
 
     private companion object {
+        const val FIRST_WAIT_NS = 16_000_000L
+        const val MOST_DOUBLINGS = 4
         const val MOST_LOSSES = 3
     }
 }

@@ -4,20 +4,19 @@ package dev.subsurf
 internal class Resources(private val gpu: Handle) : AutoCloseable {
     private val meshes = HashMap<SubsurfMesh, GpuMesh>()
     private val materials = HashMap<MaterialKey, GpuMaterial>()
-    private val environments = HashMap<Environment, Handle>()
+    private val environments = HashMap<Vector3?, Handle>()
 
     private data class MaterialKey(val material: SubsurfMaterial, val technique: Technique)
 
     /** Mesh on the device. */
     class GpuMesh(val handle: Handle, val bounds: Bounds)
 
-    /** Material on the device, and what its load took. */
-    class GpuMaterial(val handle: Handle, val report: LongArray)
+    /** Material on the device, what its load took, and whether that was reported. */
+    class GpuMaterial(val handle: Handle, val report: LongArray) {
+        var isReported = false
+    }
 
     fun mesh(mesh: SubsurfMesh): GpuMesh = meshes.getOrPut(mesh) { uploaded(mesh) }
-
-    /** Whether a material is on the device. */
-    fun has(material: SubsurfMaterial, technique: Technique): Boolean = MaterialKey(material, technique) in materials
 
     fun material(material: SubsurfMaterial, technique: Technique): GpuMaterial =
         materials.getOrPut(MaterialKey(material, technique)) {
@@ -32,7 +31,7 @@ internal class Resources(private val gpu: Handle) : AutoCloseable {
         }
 
     fun environment(environment: Environment): Handle =
-        environments.getOrPut(environment) {
+        environments.getOrPut(environment.irradiance) {
             handle("the surroundings", Native::environmentClose) { out ->
                 val irradiance = environment.irradiance
                 if (irradiance == null) {
@@ -53,7 +52,7 @@ internal class Resources(private val gpu: Handle) : AutoCloseable {
         val shown = scene?.objects.orEmpty()
         meshes.closeUnless(shown.map { it.mesh }.toSet()) { it.handle }
         materials.closeUnless(shown.map { MaterialKey(it.material, it.technique) }.toSet()) { it.handle }
-        environments.closeUnless(setOfNotNull(scene?.environment)) { it }
+        environments.closeUnless(listOfNotNull(scene).map { it.environment.irradiance }.toSet()) { it }
     }
 
     override fun close() = keepOnly(null)
@@ -72,7 +71,7 @@ internal class Resources(private val gpu: Handle) : AutoCloseable {
                 gpu.call { gpu ->
                     when (val source = mesh.source) {
                         is SubsurfMesh.Source.OfShape ->
-                            Native.meshShape(gpu, source.shape.ordinal, source.radiusMm, out)
+                            Native.meshShape(gpu, source.shape.ordinal, source.extentMm, out)
 
                         is SubsurfMesh.Source.OfBuffers ->
                             with(source) {

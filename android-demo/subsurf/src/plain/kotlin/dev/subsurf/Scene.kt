@@ -13,13 +13,16 @@ package dev.subsurf
 public class Scene
     @JvmOverloads
     constructor(
-        public val objects: List<SceneObject>,
-        public val lights: List<Light> = listOf(Light.directional(DEFAULT_LIGHT)),
+        objects: List<SceneObject>,
+        lights: List<Light> = listOf(Light.directional(DEFAULT_LIGHT)),
         public val camera: Camera = Orbit(),
-        public val environment: Environment = Environment.uniform(SKY),
+        public val environment: Environment = SKY,
         public val exposure: Float = 1f,
         public val background: Vector3 = GREY,
     ) {
+        public val objects: List<SceneObject> = objects.toList()
+        public val lights: List<Light> = lights.toList()
+
         /**
          * Numbers of a frame, in the order that the library unpacks.
          *
@@ -35,7 +38,7 @@ public class Scene
                 out.put(light.targetMm).put(light.halfAngleRad).put(light.irradiance)
             }
             for (shown in objects) {
-                out.put(*shown.worldFromMesh).put(shown.number.toFloat(), shown.mappingOrUsual.ordinal.toFloat())
+                out.put(*shown.matrix).put(shown.number.toFloat(), shown.mappingOrUsual.ordinal.toFloat())
                 out.put(shown.copiesU, shown.copiesV).put(shown.roughness)
             }
             return out.numbers
@@ -60,7 +63,7 @@ public class Scene
             const val LIGHT = 12
             const val OBJECT = 21
             val DEFAULT_LIGHT = Vector3(0.61f, 0.75f, 0.24f)
-            private val SKY = Vector3(0.35f, 0.4f, 0.5f)
+            private val SKY = Environment.uniform(Vector3(0.35f, 0.4f, 0.5f))
             private val GREY = Vector3(0.18f, 0.18f, 0.18f)
         }
     }
@@ -99,10 +102,15 @@ public class SceneObject
         public val copiesU: Float = 4f,
         public val copiesV: Float = 4f,
         public val roughness: Float = 0.25f,
-        public val worldFromMesh: FloatArray = IDENTITY,
+        worldFromMesh: FloatArray = IDENTITY,
     ) {
+        internal val matrix: FloatArray = worldFromMesh.copyOf()
+
+        /** A copy. */
+        public val worldFromMesh: FloatArray get() = matrix.copyOf()
+
         init {
-            require(worldFromMesh.size == MATRIX) { "worldFromMesh has ${worldFromMesh.size} numbers, expected are 16" }
+            require(matrix.size == MATRIX) { "worldFromMesh has ${matrix.size} numbers, expected are 16" }
         }
 
         internal val mappingOrUsual: Mapping

@@ -52,6 +52,7 @@ internal object Status {
     const val OK: Int = 0
     const val INVALID_ARGUMENT: Int = 1
     const val NOT_EXPANDED: Int = 6
+    const val UNSUPPORTED: Int = 8
     const val DEVICE_LOST: Int = 11
     const val SURFACE_LOST: Int = 13
     const val SKIPPED: Int = 14
@@ -72,7 +73,7 @@ internal fun exceptionOf(status: Int, text: String): Exception =
         5 -> SubsurfException.OutOfMemory(status, text)
         Status.NOT_EXPANDED -> IllegalStateException(text)
         7 -> SubsurfException.OverBudget(status, text)
-        8 -> SubsurfException.Unsupported(status, text)
+        Status.UNSUPPORTED -> SubsurfException.Unsupported(status, text)
         9 -> SubsurfException.NoDevice(status, text)
         10 -> SubsurfException.DeviceFailed(status, text)
         Status.DEVICE_LOST -> SubsurfException.DeviceLost(status, text)

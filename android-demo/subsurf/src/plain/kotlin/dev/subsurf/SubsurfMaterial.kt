@@ -4,7 +4,7 @@ import java.nio.ByteBuffer
 
 /**
  * Material to be drawn: an open file. Renderers make copies of it on their devices when they first draw it, and make them again after
- * a loss or a trim, so that the material outlives devices.
+ * a loss, a trim or frames without it, so that the material outlives devices.
  *
  * Threads: any number at once. Ownership: who opens it closes it, once nothing draws it any more.
  *

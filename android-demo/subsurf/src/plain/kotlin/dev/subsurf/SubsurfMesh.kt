@@ -36,7 +36,7 @@ public class SubsurfMesh private constructor(
 ) {
     /** What a mesh is made of. */
     internal sealed class Source {
-        class OfShape(val shape: Shape, val radiusMm: Float) : Source()
+        class OfShape(val shape: Shape, val extentMm: Float) : Source()
 
         class OfBuffers(
             val vertices: Int,
@@ -52,16 +52,16 @@ public class SubsurfMesh private constructor(
     public companion object {
         private const val XYZ = 3
         private const val UV = 2
-        private const val RADIUS_MM = 20f
+        private const val EXTENT_MM = 20f
 
-        /** Shape of a radius in mm. */
+        /** Shape whose longest side is so many mm. */
         @JvmStatic
         @JvmOverloads
-        public fun of(shape: Shape, radiusMm: Float = RADIUS_MM): SubsurfMesh =
-            SubsurfMesh(Source.OfShape(shape, radiusMm))
+        public fun of(shape: Shape, extentMm: Float = EXTENT_MM): SubsurfMesh =
+            SubsurfMesh(Source.OfShape(shape, extentMm))
 
         /**
-         * Mesh of direct buffers, of which nothing is copied before it is drawn: they stay as they are.
+         * Mesh of direct buffers in the byte order of the machine ([ByteOrder.nativeOrder]), of which nothing is copied before it is drawn: they stay as they are.
          *
          * @param positions x, y and z of each vertex in mm.
          * @param indices Three vertices for each triangle, counter-clockwise.
@@ -77,15 +77,16 @@ public class SubsurfMesh private constructor(
             uvs: FloatBuffer? = null,
         ): SubsurfMesh {
             val vertices = positions.remaining() / XYZ
-            fun expect(name: String, isDirect: Boolean, found: Int, expected: Int) {
+            fun expect(name: String, isDirect: Boolean, order: ByteOrder, found: Int, expected: Int) {
                 require(isDirect) { "$name is not a direct buffer" }
+                require(order == ByteOrder.nativeOrder()) { "$name is $order, expected is ${ByteOrder.nativeOrder()}" }
                 require(found == expected) { "$name has $found numbers, expected are $expected" }
             }
             val triangles = indices.remaining() / XYZ
-            expect("positions", positions.isDirect, positions.remaining(), vertices * XYZ)
-            expect("indices", indices.isDirect, indices.remaining(), triangles * XYZ)
-            normals?.let { expect("normals", it.isDirect, it.remaining(), vertices * XYZ) }
-            uvs?.let { expect("uvs", it.isDirect, it.remaining(), vertices * UV) }
+            expect("positions", positions.isDirect, positions.order(), positions.remaining(), vertices * XYZ)
+            expect("indices", indices.isDirect, indices.order(), indices.remaining(), triangles * XYZ)
+            normals?.let { expect("normals", it.isDirect, it.order(), it.remaining(), vertices * XYZ) }
+            uvs?.let { expect("uvs", it.isDirect, it.order(), it.remaining(), vertices * UV) }
             val source =
                 Source.OfBuffers(
                     vertices,

@@ -3,7 +3,7 @@ package dev.subsurf
 import java.nio.ByteBuffer
 
 /**
- * Renderer without a window: a device, and what scenes need of it. [SubsurfView] has one of its own.
+ * Renderer without a window: a device, and what the scene that it drew last needs of it. [SubsurfView] has one of its own.
  *
  * Threads: one at a time. Ownership: who opens it closes it.
  *
@@ -15,6 +15,7 @@ public class SubsurfRenderer internal constructor(
     public val device: DeviceInfo,
 ) : AutoCloseable {
     private val resources = Resources(gpu)
+    private var last: Scene? = null
 
     /** Called with the report of a material, once its first frame is drawn. */
     internal var onLoaded: (SubsurfMaterial, LoadReport) -> Unit = { _, _ -> }
@@ -113,27 +114,33 @@ public class SubsurfRenderer internal constructor(
         target: Handle,
         draw: (Long, Long, FloatArray, LongArray, LongArray?) -> Int,
     ): Boolean {
-        val loaded = scene.objects.filterNot { resources.has(it.material, it.technique) }
         val shown = scene.objects.map { resources.mesh(it.mesh) to resources.material(it.material, it.technique) }
         val bounds =
-            scene.objects.zip(shown) { of, (mesh, _) -> mesh.bounds.transformed(of.worldFromMesh) }
+            scene.objects.zip(shown) { of, (mesh, _) -> mesh.bounds.transformed(of.matrix) }
                 .reduceOrNull(Bounds::union) ?: EMPTY
         val numbers = scene.numbers(bounds, width.toFloat() / height)
         val environment = resources.environment(scene.environment)
         val handles = LongArray(1 + 2 * shown.size)
-        val report = if (loaded.isEmpty()) null else LongArray(FRAME_REPORT)
+        val report = if (shown.all { (_, material) -> material.isReported }) null else LongArray(FRAME_REPORT)
         val used = listOf(environment) + shown.flatMap { (mesh, material) -> listOf(mesh.handle, material.handle) }
         used.forEachIndexed { place, handle -> handles[place] = handle.call { it } }
         val status = target.call { to -> renderer.call { draw(it, to, numbers, handles, report) } }
         if (status == Status.SKIPPED) return false
         expectOk(status)
-        report?.let { reported(loaded, it) }
+        // Materials that were shown before do not pile up.
+        if (scene !== last) resources.keepOnly(scene)
+        last = scene
+        report?.let { reported(scene, it) }
         return true
     }
 
-    private fun reported(loaded: List<SceneObject>, frame: LongArray) {
-        for (shown in loaded.distinctBy { it.material to it.technique }) {
-            val load = resources.material(shown.material, shown.technique).report
+    /** Reports the materials of a frame that were not reported yet. */
+    private fun reported(scene: Scene, frame: LongArray) {
+        for (shown in scene.objects) {
+            val material = resources.material(shown.material, shown.technique)
+            if (material.isReported) continue
+            material.isReported = true
+            val load = material.report
             val (fileBytes, materialBytes, upload, pipelines, recording) = load
             val framePipelines = frame.first()
             val report =
@@ -188,7 +195,9 @@ public class SubsurfRenderer internal constructor(
                         gpu.call { Native.rendererCreate(it, samples, 0, out) }
                     }
                 return SubsurfRenderer(gpu, renderer, info)
-            } catch (e: SubsurfException) {
+            } catch (
+                @Suppress("TooGenericExceptionCaught") e: Throwable,
+            ) {
                 gpu.close()
                 throw e
             }

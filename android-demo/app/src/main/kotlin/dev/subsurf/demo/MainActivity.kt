@@ -46,7 +46,7 @@ class MainActivity : Activity() {
     }
 
     override fun onDestroy() {
-        // The view has left its window before that, and draws the material no more.
+        // The view leaves its window after this: it has to let go of the material before that is closed.
         super.onDestroy()
         view.material = null
         material?.close()
