@@ -60,7 +60,9 @@ val cargoNdk =
         commandLine(
             listOf("cargo", "ndk") + abis.flatMap { listOf("--target", it) } +
                 listOf("--platform", minSdk, "--output-dir", output.get().asFile.path) +
-                listOf("rustc", "--locked", "--profile", "bindings", "--package", "subsurf-c-runtime", "--crate-type", "cdylib"),
+                listOf("rustc", "--locked", "--profile", "bindings", "--package", "subsurf-c-runtime", "--crate-type", "cdylib", "--") +
+                // As scripts/android has it, for size.
+                listOf("--icf=all", "--pack-dyn-relocs=android").flatMap { listOf("-C", "link-arg=-Wl,$it") },
         )
         outputs.dir(output)
         outputs.upToDateWhen { false }
