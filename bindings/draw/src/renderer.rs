@@ -9,6 +9,7 @@ use subsurf_c::shared::{Handle, Kind, Versioned, fill, not_null, write};
 use subsurf_runtime::wgpu::{Color, LoadOp, TextureFormat, TextureView};
 use subsurf_runtime::{DepthTarget, Frame, Input, Object, Renderer, RuntimeOptions, Target};
 use subsurf_scene::{Environment, Lighting};
+use subsurf_shaders::cpu::linear;
 
 use crate::fault::{Fault, Result, call};
 use crate::frame::{Shown, SubsurfFrame};
@@ -186,10 +187,10 @@ fn compiled<'r>(
 
 /// Background for a target, which encodes linear values if its format is one of sRGB (IEC 61966-2-1).
 fn background(display: [f32; 4], format: TextureFormat) -> Color {
-    let [r, g, b, a] = display.map(|value| f64::from(value.clamp(0.0, 1.0)));
-    let linear = |value: f64| if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) };
-    let stored = |value| if format.is_srgb() { linear(value) } else { value };
-    Color { r: stored(r), g: stored(g), b: stored(b), a }
+    let [r, g, b, a] = display.map(|value| value.clamp(0.0, 1.0));
+    let colour = if format.is_srgb() { linear([r, g, b]) } else { [r, g, b] };
+    let [r, g, b] = colour.map(f64::from);
+    Color { r, g, b, a: f64::from(a) }
 }
 
 /// Makes a renderer on a device: the passes that all techniques share.

@@ -9,7 +9,7 @@ use subsurf_c::{
 };
 
 use crate::convert::{int, long, pointer, unsigned};
-use crate::env::Env;
+use crate::env::{Env, found};
 use crate::file::to_fill;
 
 /// Ten whole numbers, and pitch, largest radius and refractive index, in the order of `SubsurfBssrdfInfo`.
@@ -88,14 +88,10 @@ unsafe extern "system" fn Java_dev_subsurf_Native_bssrdfRd(
     y_o: jint,
     rd_out: jfloatArray,
 ) -> jint {
-    let mut rd = [0.0; 3];
-    // SAFETY: an open handle, and three numbers of this function's.
-    let status = unsafe { subsurf_bssrdf_rd(pointer(file), x_i, y_i, x_o, y_o, rd.as_mut_ptr()) };
-    if status == SubsurfStatus::Ok {
-        // SAFETY: as the crate says.
-        unsafe { Env::new(env) }.set_floats(rd_out, &rd);
+    // SAFETY: an open handle, and three numbers; as the crate says.
+    unsafe {
+        found(env, rd_out, |rd: &mut [f32; 3]| subsurf_bssrdf_rd(pointer(file), x_i, y_i, x_o, y_o, rd.as_mut_ptr()))
     }
-    status as jint
 }
 
 #[unsafe(no_mangle)]
@@ -107,12 +103,8 @@ unsafe extern "system" fn Java_dev_subsurf_Native_bssrdfAlbedo(
     y: jint,
     albedo_out: jfloatArray,
 ) -> jint {
-    let mut albedo = [0.0; 3];
-    // SAFETY: an open handle, and three numbers of this function's.
-    let status = unsafe { subsurf_bssrdf_albedo(pointer(file), x, y, albedo.as_mut_ptr()) };
-    if status == SubsurfStatus::Ok {
-        // SAFETY: as the crate says.
-        unsafe { Env::new(env) }.set_floats(albedo_out, &albedo);
+    // SAFETY: an open handle, and three numbers; as the crate says.
+    unsafe {
+        found(env, albedo_out, |albedo: &mut [f32; 3]| subsurf_bssrdf_albedo(pointer(file), x, y, albedo.as_mut_ptr()))
     }
-    status as jint
 }

@@ -2,13 +2,12 @@
 
 use jni_sys::{JNIEnv, jbyteArray, jclass, jfloat, jfloatArray, jint, jintArray, jlong, jlongArray};
 use subsurf_c::{
-    SubsurfBtfInfo, SubsurfBtfMaterial, SubsurfFile, SubsurfStatus, subsurf_btf_albedo, subsurf_btf_eval,
-    subsurf_btf_expand, subsurf_btf_info, subsurf_btf_linear, subsurf_btf_material, subsurf_btf_pdf,
-    subsurf_btf_sample, subsurf_btf_texel,
+    SubsurfBtfInfo, SubsurfBtfMaterial, SubsurfStatus, subsurf_btf_albedo, subsurf_btf_eval, subsurf_btf_expand,
+    subsurf_btf_info, subsurf_btf_linear, subsurf_btf_material, subsurf_btf_pdf, subsurf_btf_sample, subsurf_btf_texel,
 };
 
 use crate::convert::{int, long, pointer, unsigned};
-use crate::env::{Env, text_bytes};
+use crate::env::{Env, found, text_bytes};
 use crate::file::to_fill;
 
 /// Seven whole numbers and four others, in the order of `SubsurfBtfInfo`, and the bytes of an expansion.
@@ -86,20 +85,6 @@ unsafe extern "system" fn Java_dev_subsurf_Native_btfTexel(
     status as jint
 }
 
-/// Writes three numbers that a function of C finds.
-///
-/// # Safety
-/// As the crate says.
-unsafe fn three(env: *mut JNIEnv, out: jfloatArray, find: impl FnOnce(*mut f32) -> SubsurfStatus) -> jint {
-    let mut found = [0.0; 3];
-    let status = find(found.as_mut_ptr());
-    if status == SubsurfStatus::Ok {
-        // SAFETY: the caller's word.
-        unsafe { Env::new(env) }.set_floats(out, &found);
-    }
-    status as jint
-}
-
 #[unsafe(no_mangle)]
 unsafe extern "system" fn Java_dev_subsurf_Native_btfEval(
     env: *mut JNIEnv,
@@ -115,13 +100,12 @@ unsafe extern "system" fn Java_dev_subsurf_Native_btfEval(
     value_out: jfloatArray,
 ) -> jint {
     let (light, view) = ([light_x, light_y, light_z], [view_x, view_y, view_z]);
-    let eval = |value| {
-        let file = pointer::<SubsurfFile>(file);
-        // SAFETY: an open handle, and three numbers each.
-        unsafe { subsurf_btf_eval(file, unsigned(texel), light.as_ptr(), view.as_ptr(), value) }
-    };
-    // SAFETY: as the crate says.
-    unsafe { three(env, value_out, eval) }
+    // SAFETY: an open handle, and three numbers each; as the crate says.
+    unsafe {
+        found(env, value_out, |value: &mut [f32; 3]| {
+            subsurf_btf_eval(pointer(file), unsigned(texel), light.as_ptr(), view.as_ptr(), value.as_mut_ptr())
+        })
+    }
 }
 
 #[unsafe(no_mangle)]
@@ -136,7 +120,9 @@ unsafe extern "system" fn Java_dev_subsurf_Native_btfLinear(
 ) -> jint {
     let value = [red, green, blue];
     // SAFETY: an open handle, and three numbers each; as the crate says.
-    unsafe { three(env, rgb_out, |rgb| subsurf_btf_linear(pointer(file), value.as_ptr(), rgb)) }
+    unsafe {
+        found(env, rgb_out, |rgb: &mut [f32; 3]| subsurf_btf_linear(pointer(file), value.as_ptr(), rgb.as_mut_ptr()))
+    }
 }
 
 /// The light, and its density.
@@ -154,17 +140,17 @@ unsafe extern "system" fn Java_dev_subsurf_Native_btfSample(
     light_and_pdf_out: jfloatArray,
 ) -> jint {
     let (view, random) = ([view_x, view_y, view_z], [random_0, random_1]);
-    let (mut light, mut pdf) = ([0.0; 3], 0.0);
-    let (light_to, pdf_to) = (light.as_mut_ptr(), &raw mut pdf);
-    let file = pointer::<SubsurfFile>(file);
-    // SAFETY: an open handle, and numbers of this function's.
-    let status = unsafe { subsurf_btf_sample(file, unsigned(texel), view.as_ptr(), random.as_ptr(), light_to, pdf_to) };
-    if status == SubsurfStatus::Ok {
-        let [x, y, z] = light;
-        // SAFETY: as the crate says.
-        unsafe { Env::new(env) }.set_floats(light_and_pdf_out, &[x, y, z, pdf]);
+    // SAFETY: an open handle, two numbers, three each, and one; as the crate says.
+    unsafe {
+        found(env, light_and_pdf_out, |out: &mut [f32; 4]| {
+            let [x, y, z, pdf] = out;
+            let mut light = [0.0; 3];
+            let (file, light_to) = (pointer(file), light.as_mut_ptr());
+            let status = subsurf_btf_sample(file, unsigned(texel), view.as_ptr(), random.as_ptr(), light_to, pdf);
+            [*x, *y, *z] = light;
+            status
+        })
     }
-    status as jint
 }
 
 #[unsafe(no_mangle)]
@@ -182,15 +168,12 @@ unsafe extern "system" fn Java_dev_subsurf_Native_btfPdf(
     pdf_out: jfloatArray,
 ) -> jint {
     let (light, view) = ([light_x, light_y, light_z], [view_x, view_y, view_z]);
-    let mut pdf = 0.0;
-    let file = pointer::<SubsurfFile>(file);
-    // SAFETY: an open handle, three numbers each, and one of this function's.
-    let status = unsafe { subsurf_btf_pdf(file, unsigned(texel), light.as_ptr(), view.as_ptr(), &raw mut pdf) };
-    if status == SubsurfStatus::Ok {
-        // SAFETY: as the crate says.
-        unsafe { Env::new(env) }.set_floats(pdf_out, &[pdf]);
+    // SAFETY: an open handle, three numbers each, and one; as the crate says.
+    unsafe {
+        found(env, pdf_out, |[pdf]: &mut [f32; 1]| {
+            subsurf_btf_pdf(pointer(file), unsigned(texel), light.as_ptr(), view.as_ptr(), pdf)
+        })
     }
-    status as jint
 }
 
 #[unsafe(no_mangle)]
@@ -205,10 +188,10 @@ unsafe extern "system" fn Java_dev_subsurf_Native_btfAlbedo(
     albedo_out: jfloatArray,
 ) -> jint {
     let view = [view_x, view_y, view_z];
-    let find = |albedo| {
-        // SAFETY: an open handle, and three numbers each.
-        unsafe { subsurf_btf_albedo(pointer::<SubsurfFile>(file), unsigned(texel), view.as_ptr(), albedo) }
-    };
-    // SAFETY: as the crate says.
-    unsafe { three(env, albedo_out, find) }
+    // SAFETY: an open handle, and three numbers each; as the crate says.
+    unsafe {
+        found(env, albedo_out, |albedo: &mut [f32; 3]| {
+            subsurf_btf_albedo(pointer(file), unsigned(texel), view.as_ptr(), albedo.as_mut_ptr())
+        })
+    }
 }

@@ -129,3 +129,21 @@ pub(crate) unsafe fn made<T>(
     }
     status as jint
 }
+
+/// Calls what finds numbers, and writes them to an array.
+///
+/// # Safety
+/// As the crate says.
+pub(crate) unsafe fn found<const N: usize>(
+    env: *mut JNIEnv,
+    numbers_out: jfloatArray,
+    find: impl FnOnce(&mut [f32; N]) -> SubsurfStatus,
+) -> jint {
+    let mut numbers = [0.0; N];
+    let status = find(&mut numbers);
+    if status == SubsurfStatus::Ok {
+        // SAFETY: the caller's word.
+        unsafe { Env::new(env) }.set_floats(numbers_out, &numbers);
+    }
+    status as jint
+}

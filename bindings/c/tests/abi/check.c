@@ -1,26 +1,12 @@
 /* Calls every function of subsurf.h: values, misuse, hostile bytes, and many files one after the other. */
 #define _POSIX_C_SOURCE 200809L
-#include "subsurf.h"
+#include "expect.h"
 
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#define EXPECT(condition)                                                                        \
-    do {                                                                                         \
-        if (!(condition)) {                                                                      \
-            fprintf(stderr, "%d: %s: %s\n", __LINE__, #condition, subsurf_last_error());         \
-            exit(1);                                                                             \
-        }                                                                                        \
-    } while (0)
-#define OK(call) EXPECT((call) == SUBSURF_STATUS_OK)
-#define FAILS(status, words, call)                                                               \
-    do {                                                                                         \
-        EXPECT((call) == SUBSURF_STATUS_##status);                                               \
-        EXPECT(strstr(subsurf_last_error(), words) != NULL);                                     \
-    } while (0)
 
 static const float LIGHT[3] = {0.48f, -0.6f, 0.64f}, VIEW[3] = {0.36f, 0.48f, 0.8f}, RANDOM[2] = {0.3f, 0.7f};
 

@@ -1,25 +1,10 @@
 /* What the programs of these tests share; in the common part of C11 and C++17. */
-#include "subsurf.h"
+#include "../../../c/tests/abi/expect.h"
 
 #include <malloc.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define EXPECT(condition)                                                                        \
-    do {                                                                                         \
-        if (!(condition)) {                                                                      \
-            fprintf(stderr, "%s:%d: %s: %s\n", __FILE__, __LINE__, #condition, subsurf_last_error()); \
-            exit(1);                                                                             \
-        }                                                                                        \
-    } while (0)
-#define OK(call) EXPECT((call) == SUBSURF_STATUS_OK)
-#define FAILS(status, words, call)                                                               \
-    do {                                                                                         \
-        EXPECT((call) == SUBSURF_STATUS_##status);                                               \
-        EXPECT(strstr(subsurf_last_error(), words) != NULL);                                     \
-        EXPECT(strchr(subsurf_last_error(), '\n') == NULL);                                      \
-    } while (0)
 
 /* Pixels of the pictures. */
 enum { WIDTH = 96, HEIGHT = 72 };
