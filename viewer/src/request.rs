@@ -76,7 +76,7 @@ impl RenderRequest {
             }],
             environment: self.environment.clone(),
             roughness: self.roughness,
-            camera: framed(bounds, self.angles, self.size),
+            camera: framed(&self.set.framed(bounds), self.angles, self.size),
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use glam::{Vec2, Vec3};
-use subsurf_scene::{Environment, Mesh, plate};
+use subsurf_scene::{BoundingSphere, Environment, Mesh, plate};
 
 use crate::request::Angles;
 
@@ -32,7 +32,7 @@ impl Set {
     pub fn towards_light(self) -> Vec3 {
         match self {
             Self::Studio => Vec3::new(0.9, 1.1, 0.35),
-            Self::Hero => Vec3::new(-0.80, 0.78, -0.62),
+            Self::Hero => Vec3::new(-0.92, 0.62, -0.52),
         }
         .normalize()
     }
@@ -61,6 +61,18 @@ impl Set {
         match self {
             Self::Studio => Angles { around: 30.0, up: 15.0 },
             Self::Hero => Angles { around: 24.0, up: 24.0 },
+        }
+    }
+
+    /// Sphere that fills the picture, around what is seen of a mesh in one.
+    pub(crate) fn framed(self, mesh: &BoundingSphere) -> BoundingSphere {
+        match self {
+            Self::Studio => *mesh,
+            // With room for the shadow before it.
+            Self::Hero => BoundingSphere {
+                centre_mm: mesh.centre_mm - 0.12 * mesh.radius_mm * Vec3::Y,
+                radius_mm: 1.18 * mesh.radius_mm,
+            },
         }
     }
 
