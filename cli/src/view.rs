@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use subsurf_runtime::{Backend, RuntimeOptions};
 use subsurf_viewer::{
-    BtfImageSet, Config, DrawnMaterial, Error, Host, KEYS, LoadImages, Picture, Scattering, Set, Viewer, event_loop, parse,
-    read,
+    BtfImageSet, Config, DrawnMaterial, Error, Host, KEYS, LoadImages, Picture, Scattering, Set, Viewer, event_loop,
+    parse, read,
 };
 
 use crate::devices::check_picture;
@@ -141,6 +141,7 @@ impl Args {
                 Api::Gl => vec![Backend::Gl],
             },
             options: RuntimeOptions {
+                light_texels: set.light_texels(),
                 budget_bytes: self.budget.map(|budget| budget.0),
                 btf: self.btf.options(usual.btf),
                 ..usual

@@ -56,7 +56,7 @@ impl RenderRequest {
             angles: set.angles(),
             size,
             exposure: None,
-            options: RuntimeOptions::default(),
+            options: RuntimeOptions { light_texels: set.light_texels(), ..RuntimeOptions::default() },
         }
     }
 

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use glam::{Vec2, Vec3};
+use subsurf_runtime::RuntimeOptions;
 use subsurf_scene::{BoundingSphere, Environment, Mesh, plate};
 
 use crate::request::Angles;
@@ -43,6 +44,15 @@ impl Set {
         match self {
             Self::Studio => [3.0, 2.9, 2.7],
             Self::Hero => [4.2, 3.75, 3.0],
+        }
+    }
+
+    /// Texels to a side of what the light sees: more where it sees ground, too.
+    #[must_use]
+    pub fn light_texels(self) -> u32 {
+        match self {
+            Self::Studio => RuntimeOptions::default().light_texels,
+            Self::Hero => 1024,
         }
     }
 

@@ -90,7 +90,8 @@ fn sets_have_ground_and_techniques_stand_side_by_side() {
     simulate(folder, "a");
     succeed(folder, "encode a.npy -M 4");
     // A tetrahedron that stands on a corner.
-    std::fs::write(folder.join("t.obj"), "v 0 0 0\nv 1 1 0\nv -1 1 0\nv 0 1 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n").unwrap();
+    std::fs::write(folder.join("t.obj"), "v 0 0 0\nv 1 1 0\nv -1 1 0\nv 0 1 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+        .unwrap();
     let command = "render a.subsurf --mesh t.obj --extent 6 --size 60x50 --backend vulkan --json";
     let report = json(folder, &format!("{command} --scene hero --technique separable,opaque -o both.png"));
     let alone = json(folder, &format!("{command} --technique separable -o alone.png"));

@@ -35,10 +35,18 @@ pub struct Asset {
 }
 
 enum Parts {
-    Gather { fine: Mesh, surface: SurfacePoints },
-    Splat { sky: Arc<Vec<AmbientTransfer>> },
+    Gather {
+        fine: Mesh,
+        surface: SurfacePoints,
+    },
+    Splat {
+        sky: Arc<Vec<AmbientTransfer>>,
+    },
     /// Without light from all around, each vertex is lit as open, flat ground is.
-    Separable { sky: Option<Arc<Vec<AmbientTransfer>>>, numbers: BasisNumbers },
+    Separable {
+        sky: Option<Arc<Vec<AmbientTransfer>>>,
+        numbers: BasisNumbers,
+    },
 }
 
 impl Asset {
@@ -100,9 +108,10 @@ impl Asset {
                 (GpuMesh::upload(gpu, fine, known)?, material.into())
             }
             Parts::Splat { sky } => (shared(Some(sky))?, Load::splat(gpu, material)?.finish()?.into()),
-            Parts::Separable { sky, numbers } => {
-                (shared(sky.as_ref().map(|sky| sky.as_slice()))?, Load::separable(gpu, material, numbers)?.finish()?.into())
-            }
+            Parts::Separable { sky, numbers } => (
+                shared(sky.as_ref().map(|sky| sky.as_slice()))?,
+                Load::separable(gpu, material, numbers)?.finish()?.into(),
+            ),
         };
         Ok(GpuAsset { mesh, material, mapping: self.mapping })
     }

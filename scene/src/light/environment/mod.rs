@@ -69,7 +69,8 @@ impl Environment {
             let (around, down) = (std::f32::consts::TAU * (u - 0.5), std::f32::consts::PI * v);
             radiance(Vec3::new(down.sin() * around.sin(), down.cos(), down.sin() * around.cos())).into()
         };
-        let pixels: Vec<_> = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))).map(|(x, y)| radiance(x, y)).collect();
+        let pixels: Vec<_> =
+            (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))).map(|(x, y)| radiance(x, y)).collect();
         Self::equirectangular(SIZE, &pixels).expect("built-in radiances are finite")
     }
 
