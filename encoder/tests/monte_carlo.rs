@@ -78,10 +78,7 @@ fn light_of_a_half_space_leaves_as_far_off_as_others_found() {
     let outcome = request.run(&()).unwrap();
     // Of all that leaves, as their table sums to; adding and doubling gives 0.60391.
     let Estimate { mean, standard_error } = outcome.reflected;
-    assert!(
-        (mean - 0.60377).abs() < SIGMAS * standard_error,
-        "{mean} ± {standard_error}"
-    );
+    assert!((mean - 0.60377).abs() < SIGMAS * standard_error, "{mean} ± {standard_error}");
     let shares = outcome.tallies[0].shares(outcome.packets);
     let errors = outcome.tallies[0].standard_errors(outcome.packets);
     for (ring, share) in SHARES {
@@ -235,4 +232,37 @@ fn profiles_have_the_grid_of_the_paper_and_all_light() {
     profiles.write_csv(csv.path()).unwrap();
     let text = std::fs::read_to_string(csv.path()).unwrap();
     assert_eq!(text.lines().filter(|line| !line.starts_with('#')).count(), 1 + profiles.channels[0].rd.len(), "lines");
+}
+
+#[test]
+fn packets_side_by_side_do_what_single_ones_do() {
+    for (stack, packets) in [
+        (Stack::half_space(1.5, 0.1, 2.0, 0.0), 200_000),
+        (Stack::half_space(1.3, 0.02, 10.0, 0.9), 60_000),
+        (Stack::half_space(1.0, 1.0, 0.5, -0.5), 200_000),
+    ] {
+        let mut request = request(stack, packets);
+        request.grid = Grid { dr_mm: 0.25, nr: 24, na: 6, ..COARSE };
+        let leaves = |r, a| Score { quantity: Quantity::Reflected, axes: Axes { r, a, ..Axes::default() } };
+        request.scores = vec![leaves(true, false), leaves(false, true)];
+        let lanes = request.run(&()).unwrap();
+        // What is absorbed is only counted packet by packet.
+        request.scores.push(Score { quantity: Quantity::Absorbed, axes: Axes { z: true, ..Axes::default() } });
+        (request.packets, request.seed) = (packets / 10, 2);
+        let single = request.run(&()).unwrap();
+        is_whole(&single);
+
+        let sigma = lanes.reflected.standard_error.hypot(single.reflected.standard_error);
+        let z = (lanes.reflected.mean - single.reflected.mean) / sigma;
+        assert!(z.abs() < SIGMAS, "{:?} and {:?}: {z:.1} σ", lanes.reflected, single.reflected);
+        for (a, b) in lanes.tallies.iter().zip(&single.tallies) {
+            let cells = a.shares(lanes.packets).len();
+            let [shares, others] = [a.shares(lanes.packets), b.shares(single.packets)];
+            let [errors, more] = [a.standard_errors(lanes.packets), b.standard_errors(single.packets)];
+            let z = (0..cells).map(|k| (shares[k] - others[k]) / errors[k].hypot(more[k]).max(1e-9));
+            // χ² of as many degrees of freedom: mean n, standard deviation √(2 n).
+            let (chi2, n) = (z.map(|z| z * z).sum::<f64>(), cells as f64);
+            assert!(chi2 < n + SIGMAS * (2.0 * n).sqrt(), "{:?}: χ² is {chi2:.0} in {n} cells", a.score);
+        }
+    }
 }

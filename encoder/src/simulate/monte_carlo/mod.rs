@@ -6,6 +6,8 @@
 //! does, [`Outcome`] what was found, with standard errors; [`mcml`] reads and writes MCML's own files, and [`profile`]
 //! gives the diffuse reflectance profiles R_d(r) of materials in three channels.
 
+mod half_space;
+mod lanes;
 pub mod mcml;
 mod outcome;
 mod packet;

@@ -61,20 +61,29 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    pub(super) fn new(request: &Request, sums: Sums) -> Self {
+    /// Of sums over packets; `rest_is_absorbed` if what does not leave was not counted.
+    pub(super) fn new(request: &Request, sums: Sums, rest_is_absorbed: bool) -> Self {
         let packets = sums.packets;
         #[allow(clippy::cast_precision_loss, reason = "53 bits are enough for a result")]
         let share = |sum: &u128| weight(*sum) / packets as f64;
         let entered_from_above = request.source == super::Source::Pencil { z_mm: 0.0 };
+        let specular = if entered_from_above { request.stack.specular() } else { 0.0 };
+        let reflected = sums.reflected.estimate(packets);
+        let mut absorbed = sums.absorbed.estimate(packets);
+        let mut layers: Vec<f64> = sums.layers.iter().map(share).collect();
+        if rest_is_absorbed {
+            absorbed = Estimate { mean: 1.0 - specular - reflected.mean, ..reflected };
+            layers = vec![absorbed.mean];
+        }
         Self {
             packets,
-            specular: if entered_from_above { request.stack.specular() } else { 0.0 },
-            reflected: sums.reflected.estimate(packets),
+            specular,
+            reflected,
             transmitted: sums.transmitted.estimate(packets),
             ballistic_reflected: sums.ballistic_reflected.estimate(packets),
             ballistic_transmitted: sums.ballistic_transmitted.estimate(packets),
-            absorbed: sums.absorbed.estimate(packets),
-            layers: sums.layers.iter().map(share).collect(),
+            absorbed,
+            layers,
             tallies: sums.tallies,
         }
     }

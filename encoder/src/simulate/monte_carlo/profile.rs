@@ -8,6 +8,7 @@ use std::path::Path;
 
 use super::{Axes, Estimate, Grid, Layer, Outcome, Quantity, Request, Score, Source, Stack};
 use crate::error::{Error, Result};
+use crate::file::output::write_bytes;
 use crate::progress::Progress;
 use crate::simulate::diffusion::Medium;
 
@@ -183,9 +184,8 @@ impl Profiles {
     /// [`Error::Output`] where the system refuses.
     pub fn write_csv(&self, path: &Path) -> Result<()> {
         let mut text = Vec::new();
-        self.csv(&mut text)
-            .and_then(|()| std::fs::write(path, &text))
-            .map_err(|source| Error::Output { path: path.into(), source })
+        self.csv(&mut text).map_err(|source| Error::Output { path: path.into(), source })?;
+        write_bytes(path, &text)
     }
 
     fn csv(&self, out: &mut Vec<u8>) -> std::io::Result<()> {

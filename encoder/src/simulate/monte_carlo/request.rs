@@ -4,6 +4,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
+use super::half_space::HalfSpace;
 use super::outcome::{Outcome, Sum};
 use super::packet::trace;
 use super::score::{Event, Grid, Quantity, Score, Tally, units};
@@ -11,8 +12,9 @@ use super::stack::{Source, Stack};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 
-/// Packets that a thread traces at a time. Each has random numbers of its own, so results do not hang on this.
-const BATCH: u64 = 4096;
+/// Packets that a thread traces at a time, at least and at most. Each has random numbers of its own, so results do not hang on
+/// this; the last packets of a batch leave vector units idle.
+const BATCH: std::ops::RangeInclusive<u64> = 1 << 12..=1 << 16;
 
 /// Packets of a run, at most: sums of their weights fit into the integers that they are kept in.
 const MAX_PACKETS: u64 = 1 << 40;
@@ -111,31 +113,40 @@ impl Request {
         self.check()?;
         progress.begin("tracing photons", self.packets);
         let planes = self.stack.planes_mm();
+        let half_space = HalfSpace::of(self);
+        let parts = 8 * rayon::current_num_threads() as u64;
+        let size = (self.packets / parts).clamp(*BATCH.start(), *BATCH.end());
         let batch = |mut sums: Sums, first: u64| {
             if progress.stopped() {
                 return sums;
             }
-            let end = (first + BATCH).min(self.packets);
-            for packet in first..end {
-                // Seeds of neighbours are far apart, those of neighbouring runs too.
-                let mut rng = Pcg64::seed_from_u64(self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(packet));
-                trace(self, &planes, &mut rng, &mut sums);
+            let end = (first + size).min(self.packets);
+            match &half_space {
+                Some(half_space) => half_space.trace(first, end, &mut sums),
+                None => (first..end).for_each(|packet| {
+                    trace(self, &planes, &mut Pcg64::seed_from_u64(self.seed_of(packet)), &mut sums);
+                }),
             }
             sums.packets += end - first;
             progress.advance(end - first);
             sums
         };
-        let firsts = (0..self.packets.div_ceil(BATCH)).into_par_iter().map(|k| k * BATCH);
+        let firsts = (0..self.packets.div_ceil(size)).into_par_iter().map(|k| k * size);
         let sums = firsts.fold(|| Sums::new(self), batch).reduce(|| Sums::new(self), Sums::merged);
         if sums.packets == 0 {
             return Err(Error::Request("stopped before a photon was traced".into()));
         }
-        Ok(Outcome::new(self, sums))
+        Ok(Outcome::new(self, sums, half_space.is_some()))
+    }
+
+    /// Seed of a packet: those of neighbours are mixed by whoever takes them, those of neighbouring runs are far apart.
+    pub(super) fn seed_of(&self, packet: u64) -> u64 {
+        self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(packet)
     }
 }
 
 impl Sums {
-    fn new(request: &Request) -> Self {
+    pub(super) fn new(request: &Request) -> Self {
         Self {
             packets: 0,
             reflected: Sum::default(),
