@@ -222,7 +222,7 @@ fn profiles_have_the_grid_of_the_paper_and_all_light() {
     let profiles = Material::half_space(marble, 1.5).simulate(&settings, &()).unwrap();
     // d_r = min MFP / 20 is blue's, and 32 max MFP red's.
     assert!((profiles.dr_mm - 1.0 / 3.0071 / 20.0).abs() < 1e-9, "rings are {} mm wide", profiles.dr_mm);
-    assert_eq!(profiles.channels[0].rd.len(), (32.0 / 2.1921 / profiles.dr_mm).ceil() as usize, "rings");
+    assert_eq!(profiles.channels[0].rd.len() as f64, (32.0 / 2.1921 / profiles.dr_mm).ceil(), "rings");
     for channel in &profiles.channels {
         let ring = |k: usize| std::f64::consts::TAU * (k as f64 + 0.5) * profiles.dr_mm.powi(2);
         let sum: f64 = channel.rd.iter().enumerate().map(|(k, rd)| rd * ring(k)).sum::<f64>() + channel.beyond;

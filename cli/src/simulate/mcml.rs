@@ -10,6 +10,7 @@ use crate::outln;
 use crate::program::failure::bad_request;
 use crate::program::interrupt::Graceful;
 use crate::program::progress::Bars;
+use crate::program::threads;
 
 /// Run an input file of MCML, version 1 or 2: every run in it, each to its own .mco file.
 ///
@@ -25,9 +26,13 @@ pub(super) struct Args {
     /// Photon packets of every run, instead of what the file says
     #[arg(long)]
     photons: Option<u64>,
+    /// Threads to use, at most eight for each core; the files are the same for any number
+    #[arg(long)]
+    threads: Option<usize>,
 }
 
 pub(super) fn run(args: &Args) -> anyhow::Result<()> {
+    threads::set(args.threads)?;
     let mut runs = mcml::read(&args.input)?;
     for run in &mut runs {
         // Names come from a file that anybody wrote: they stay in the folder that was asked for.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::builder::PossibleValuesParser;
+use subsurf_encoder::check_target;
 use subsurf_encoder::simulate::diffusion::Medium;
 use subsurf_encoder::simulate::diffusion::medium::MEASURED;
 use subsurf_encoder::simulate::monte_carlo::profile::{Material, PACKETS, Profiles, Settings};
@@ -13,6 +14,7 @@ use crate::outln;
 use crate::program::failure::bad_request;
 use crate::program::interrupt::Graceful;
 use crate::program::progress::Bars;
+use crate::program::threads;
 
 /// Simulate a diffuse reflectance profile R_d(r) by Monte Carlo: how much light leaves how far from a thin beam.
 ///
@@ -42,9 +44,12 @@ pub(super) struct Args {
     /// Radius of the last ring in mm [default: 32 of the largest mean free paths]
     #[arg(long, value_name = "MM")]
     reach: Option<f64>,
-    /// Seed of the random numbers: the same gives the same file, on any number of threads
+    /// Seed of the random numbers: the same gives the same file
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Threads to use, at most eight for each core; the file is the same for any number
+    #[arg(long)]
+    threads: Option<usize>,
 }
 
 const HELP: &str = "\
@@ -62,6 +67,8 @@ Ctrl-C once: what was traced so far is written.
   subsurf simulate profile --layer a=0.1,s=20,g=0.8,d=0.2 --layer a=0.02/0.1/0.3,s=15,g=0.8 -o skin.csv --photons 1000000";
 
 pub(super) fn run(args: &Args) -> anyhow::Result<()> {
+    threads::set(args.threads)?;
+    check_target(&args.output)?;
     let material = match &args.material {
         Some(name) => {
             let medium = Medium::measured(name).ok_or_else(|| bad_request(format!("no material is called {name}")))?;

@@ -115,8 +115,13 @@ impl Stack {
                 (!index(layer.eta), "refractive index", layer.eta, "1 to 4"),
                 (!coefficient(layer.sigma_a), "absorption in mm⁻¹", layer.sigma_a, "0 to 1e9"),
                 (!coefficient(layer.sigma_s), "scattering in mm⁻¹", layer.sigma_s, "0 to 1e9"),
-                (!(layer.g.abs() < 1.0), "mean cosine g", layer.g, "−1 to 1, both excluded"),
-                (!(layer.thickness_mm > 0.0), "thickness in mm", layer.thickness_mm, "above 0"),
+                (layer.g.is_nan() || layer.g.abs() >= 1.0, "mean cosine g", layer.g, "−1 to 1, both excluded"),
+                (
+                    layer.thickness_mm.is_nan() || layer.thickness_mm <= 0.0,
+                    "thickness in mm",
+                    layer.thickness_mm,
+                    "above 0",
+                ),
                 (
                     layer.thickness_mm.is_infinite() && !last,
                     "thickness in mm",
