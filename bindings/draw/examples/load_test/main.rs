@@ -29,16 +29,14 @@ struct Run {
     pipelines: Duration,
 }
 
-/// What is timed of a file, by name.
+/// What is timed of a file, by name: first what an app gets that does not choose.
 fn techniques(file: &File<'_>) -> Vec<(&'static str, Stored)> {
     match file.content() {
         Content::Bssrdf(material) => {
             let layout = layout_of(&material);
-            let mut all = vec![("gather", Stored::Planes(layout)), ("splat", Stored::File(Technique::Splat(layout)))];
-            if let Some(basis) = material.basis() {
-                all.push(("separable", Stored::File(Technique::Separable(basis.size().terms))));
-            }
-            all
+            let planes = [("splat", Stored::File(Technique::Splat(layout))), ("gather", Stored::Planes(layout))];
+            let separable = material.basis().map(|basis| Technique::Separable(basis.size().terms));
+            separable.map(|technique| ("separable", Stored::File(technique))).into_iter().chain(planes).collect()
         }
         Content::NestedBtf(_) => vec![("btf", Stored::File(Technique::Btf(BtfLayout::Nested)))],
         _ => Vec::new(),
