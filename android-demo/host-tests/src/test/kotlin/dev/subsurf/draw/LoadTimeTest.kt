@@ -26,7 +26,7 @@ class LoadTimeTest {
 
     @Test
     fun capturesAndImagesAreMeasuredBesideTheirFiles() {
-        val program = LoadProgram(File(System.getProperty("load.test")), TestFiles.output("."), REPEATS)
+        val program = LoadProgram(File(System.getProperty("load.test")), TestFiles.output(".").normalize(), REPEATS)
         val table = program.run(Backend.VULKAN, LoadProgram.MATERIALS.map { TestFiles.material("$it.subsurf") })
         TestFiles.output("load-times-uncompressed.csv").writeText(table)
         println(table)
