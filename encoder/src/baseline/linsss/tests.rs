@@ -32,7 +32,9 @@ fn fitted(weights: impl Fn(usize, [usize; 2]) -> f64, gaussians: usize) -> (LinS
                 _ => 0.0,
             }
         };
-        steps.flat_map(|step| [1.0, 0.7, 0.4].map(|colour| (colour * value(step)) as f32)).collect()
+        #[allow(clippy::cast_possible_truncation, reason = "captures of single precision")]
+        let rgb = |step| [1.0, 0.7, 0.4].map(|colour| (colour * value(step)) as f32);
+        steps.flat_map(rgb).collect()
     };
     let sidecar = Sidecar { pitch_mm: 1.0, addressing: Addressing::Clamp, eta: 1.4, simulated: None };
     let writer = CaptureWriter { path: &path, size: SIZE, radius: RADIUS, scalar: Scalar::F32, sidecar: &sidecar };
