@@ -10,9 +10,11 @@ const SIZE: [usize; 2] = [24, 20];
 const RADIUS: usize = 6;
 const SIGMAS: [f64; 2] = [0.8, 2.0];
 
-/// Fit of so many Gaussians to the capture of a material that is a sum of two, with weights by pixel, and the exitance of the capture under
-/// each light.
-fn fitted(weights: impl Fn(usize, [usize; 2]) -> f64, gaussians: usize) -> (LinSss, Vec<(Vec<f32>, Vec<[f64; 3]>)>) {
+/// Irradiance and exitance under each light.
+type Lit = Vec<(Vec<f32>, Vec<[f64; 3]>)>;
+
+/// Fit of so many Gaussians to the capture of a material that is a sum of two, with weights by pixel, and the capture under each light.
+fn fitted(weights: impl Fn(usize, [usize; 2]) -> f64, gaussians: usize) -> (LinSss, Lit) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("sum.npy");
     let kernels = SIGMAS.map(|sigma| gaussian(sigma, RADIUS));
@@ -57,7 +59,7 @@ fn fitted(weights: impl Fn(usize, [usize; 2]) -> f64, gaussians: usize) -> (LinS
 }
 
 /// Least PSNR in dB under all lights, by exact convolutions and by the pyramid.
-fn least_db(model: &LinSss, lit: &[(Vec<f32>, Vec<[f64; 3]>)]) -> [f64; 2] {
+fn least_db(model: &LinSss, lit: &Lit) -> [f64; 2] {
     let db = |draw: &dyn Fn(&[f32]) -> Vec<[f64; 3]>| {
         let of = |(irradiance, expected): &(Vec<f32>, Vec<[f64; 3]>)| {
             let peak = expected.iter().flatten().copied().fold(0.0, f64::max);
