@@ -221,7 +221,10 @@ fn mistakes_in_mci_files_are_named_with_their_lines() {
     assert_eq!(refused("150000", "many"), "run.mci: many in line 4; expected the number of photons");
     assert_eq!(refused("    1.0   # below\n", ""), "run.mci: its end; expected n of the medium below");
     assert_eq!(refused("1.37 1 10 0 0.1", "1.37 1 10"), "run.mci: the line's end in line 11; expected g of a layer");
-    assert_eq!(refused("0.7 0.2", "1.5 0.2"), "layer 3: mean cosine g is 1.5, allowed is −1 to 1, both excluded");
+    assert_eq!(
+        refused("0.7 0.2", "1.5 0.2"),
+        "run.mci: run 1: layer 3: mean cosine g is 1.5, allowed is −1 to 1, both excluded"
+    );
 }
 
 #[test]
