@@ -59,7 +59,7 @@ fn fitted(weights: impl Fn(usize, [usize; 2]) -> f64, gaussians: usize) -> (LinS
 }
 
 /// Least PSNR in dB under all lights, by exact convolutions and by the pyramid.
-fn least_db(model: &LinSss, lit: &Lit) -> [f64; 2] {
+fn least_db(model: &LinSss, lit: &[(Vec<f32>, Vec<[f64; 3]>)]) -> [f64; 2] {
     let db = |draw: &dyn Fn(&[f32]) -> Vec<[f64; 3]>| {
         let of = |(irradiance, expected): &(Vec<f32>, Vec<[f64; 3]>)| {
             let peak = expected.iter().flatten().copied().fold(0.0, f64::max);
