@@ -64,6 +64,33 @@ fn a_half_space_reflects_as_giovanelli_has_it() {
 }
 
 #[test]
+fn totals_are_those_of_adding_and_doubling() {
+    // iadpython 0.5.3 with 24 quadrature angles: albedo, optical thickness, g, η, R with what is mirrored, T with what is
+    // unscattered, and the spread between 12 and 24 angles.
+    const CASES: [[f64; 7]; 8] = [
+        [0.5, 1.0, 0.0, 1.5, 0.08525, 0.37482, 9.2e-4],
+        [0.9, 4.0, 0.75, 1.33, 0.11633, 0.30667, 8.3e-4],
+        [0.99, 4.0, 0.0, 1.0, 0.64505, 0.27548, 1e-5],
+        [0.9, 16.0, 0.0, 1.5, 0.26008, 0.00018, 6e-4],
+        [0.99, 16.0, 0.9, 1.5, 0.26674, 0.29826, 6.8e-4],
+        [0.5, f64::INFINITY, 0.75, 1.0, 0.01953, 0.0, 2.1e-5],
+        [0.9, f64::INFINITY, 0.0, 1.33, 0.29497, 0.0, 4.9e-4],
+        [0.99, f64::INFINITY, 0.9, 1.5, 0.26090, 0.0, 6e-4],
+    ];
+    for [albedo, thickness, g, eta, r, t, spread] in CASES {
+        let layer = Layer { eta, sigma_a: 1.0 - albedo, sigma_s: albedo, g, thickness_mm: thickness };
+        let eta_below = if thickness.is_finite() { 1.0 } else { eta };
+        let outcome = request(Stack { eta_above: 1.0, layers: vec![layer], eta_below }, 40_000).run(&()).unwrap();
+        for (name, found, printed) in [("R", outcome.reflected, r - outcome.specular), ("T", outcome.transmitted, t)] {
+            // Digits in print end at 10⁻⁵.
+            let sigma = found.standard_error.hypot(spread).hypot(1e-5);
+            let z = (found.mean - printed) / sigma;
+            assert!(z.abs() < SIGMAS, "{name} of {albedo}, {thickness}, {g}, {eta}: {found:?}, {printed} there");
+        }
+    }
+}
+
+#[test]
 fn light_of_a_half_space_leaves_as_far_off_as_others_found() {
     // The Virtual Photonics Technology Initiative's R(ρ, t) with 10⁸ photons (μ_s' = 1 mm⁻¹, g = 0.8, n = 1.4), times
     // exp(−μ_a c t / n) for μ_a = 0.01 mm⁻¹ and summed over t and over two rings of 0.2 mm, here as shares of the light.
@@ -194,7 +221,10 @@ fn mistakes_in_mci_files_are_named_with_their_lines() {
     assert_eq!(refused("150000", "many"), "run.mci: many in line 4; expected the number of photons");
     assert_eq!(refused("    1.0   # below\n", ""), "run.mci: its end; expected n of the medium below");
     assert_eq!(refused("1.37 1 10 0 0.1", "1.37 1 10"), "run.mci: the line's end in line 11; expected g of a layer");
-    assert_eq!(refused("0.7 0.2", "1.5 0.2"), "layer 3: mean cosine g is 1.5, allowed is −1 to 1, both excluded");
+    assert_eq!(
+        refused("0.7 0.2", "1.5 0.2"),
+        "run.mci: run 1: layer 3: mean cosine g is 1.5, allowed is −1 to 1, both excluded"
+    );
 }
 
 #[test]

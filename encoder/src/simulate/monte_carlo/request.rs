@@ -1,5 +1,7 @@
 //! One run: what is traced, and how much of it.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
@@ -20,7 +22,7 @@ const BATCH: std::ops::RangeInclusive<u64> = 1 << 12..=1 << 16;
 const MAX_PACKETS: u64 = 1 << 40;
 
 /// Cells of all scores of a run, at most; each takes up to 32 bytes on every thread.
-const MAX_CELLS: usize = 1 << 24;
+const MAX_CELLS: usize = 1 << 22;
 
 /// A run of the simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,25 +116,30 @@ impl Request {
         progress.begin("tracing photons", self.packets);
         let planes = self.stack.planes_mm();
         let half_space = HalfSpace::of(self);
-        let parts = 8 * rayon::current_num_threads() as u64;
-        let size = (self.packets / parts).clamp(*BATCH.start(), *BATCH.end());
-        let batch = |mut sums: Sums, first: u64| {
-            if progress.stopped() {
-                return sums;
+        let threads = rayon::current_num_threads();
+        let size = (self.packets / (8 * threads as u64)).clamp(*BATCH.start(), *BATCH.end());
+        let next = AtomicU64::new(0);
+        // Sums of integers are the same whichever thread takes a batch.
+        let of_thread = |_| {
+            let mut sums = Sums::new(self);
+            while !progress.stopped() {
+                let first = next.fetch_add(size, Ordering::Relaxed);
+                let end = (first + size).min(self.packets);
+                if first >= end {
+                    break;
+                }
+                match &half_space {
+                    Some(half_space) => half_space.trace(first, end, &mut sums),
+                    None => (first..end).for_each(|packet| {
+                        trace(self, &planes, &mut Pcg64::seed_from_u64(self.seed_of(packet)), &mut sums);
+                    }),
+                }
+                sums.packets += end - first;
+                progress.advance(end - first);
             }
-            let end = (first + size).min(self.packets);
-            match &half_space {
-                Some(half_space) => half_space.trace(first, end, &mut sums),
-                None => (first..end).for_each(|packet| {
-                    trace(self, &planes, &mut Pcg64::seed_from_u64(self.seed_of(packet)), &mut sums);
-                }),
-            }
-            sums.packets += end - first;
-            progress.advance(end - first);
             sums
         };
-        let firsts = (0..self.packets.div_ceil(size)).into_par_iter().map(|k| k * size);
-        let sums = firsts.fold(|| Sums::new(self), batch).reduce(|| Sums::new(self), Sums::merged);
+        let sums = (0..threads).into_par_iter().map(of_thread).reduce(|| Sums::new(self), Sums::merged);
         if sums.packets == 0 {
             return Err(Error::Request("stopped before a photon was traced".into()));
         }

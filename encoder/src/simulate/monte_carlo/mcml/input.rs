@@ -32,8 +32,9 @@ pub fn read(path: &Path) -> Result<Vec<Run>> {
         word if word.parse() == Ok(1.0) => version_1(&mut lines)?,
         word => return Err(first.refuse(word, "version 1.0 or mcmli2.0")),
     };
-    for run in &runs {
-        run.request.check()?;
+    for (run, number) in runs.iter().zip(1..) {
+        let place = |error| Error::Request(format!("{}: run {number}: {error}", path.display()));
+        run.request.check().map_err(place)?;
     }
     Ok(runs)
 }
