@@ -35,6 +35,14 @@ fn a_study_is_one_page_and_goes_on_where_it_was() {
     assert_eq!(other.out.matches("kept").count(), 13, "fits without noise are the same: {}", other.out);
     assert_refused(&run(folder, "bssrdf out --size 12x9 --window 4"), &["--window", "odd"]);
     assert_refused(&run(folder, "bssrdf out --photons 0"), &["--noise", "positive"]);
+    let rival = succeed(folder, "linsss out --materials jade --gaussians 2");
+    assert!(
+        rival.out.contains("| jade | 2-BMPP, L = ") && rival.out.contains("LinSSS, 2 Gaussians | 5.25 kB"),
+        "{}",
+        rival.out
+    );
+    let again = succeed(folder, "linsss out --materials jade --gaussians 2");
+    assert_eq!((rival.out, again.err.contains("fitted")), (again.out, false), "the fit is kept");
     let larger = succeed(folder, "bssrdf out --size 13x9 --window 5 --materials jade --no-paper --clean-only");
     assert!(!larger.out.contains("kept"), "another patch, other fits: {}", larger.out);
 }
