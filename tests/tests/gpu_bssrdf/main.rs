@@ -290,7 +290,7 @@ fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, layout: MaterialL
     // Irradiance and exitance.
     assert_close(&found, &expected, 2.0, &what);
 
-    let of_vertices: Vec<[f32; 3]> = surface.point_of.iter().map(|&point| found[point as usize]).collect();
+    let of_vertices = surface.of_vertices(&found);
     let triangles = cpu::Triangles {
         positions: &mesh.positions,
         normals: &mesh.normals,
