@@ -33,7 +33,7 @@ pub struct Object {
     pub group: f32,
     /// 1, or −1 where the transform is a mirror.
     pub handedness: f32,
-    /// Fills 16 bytes.
+    #[doc(hidden)]
     pub pad: u32,
 }
 

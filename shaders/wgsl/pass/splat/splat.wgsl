@@ -180,9 +180,8 @@ fn splat(in: Sample) -> @location(0) vec4<f32> {
     // Rd of the pixels at both points (eq. 2 to 4), r their distance in space.
     let places = textureLoad(uvs, texel, 0);
     var o = partner_at(load_pixel(patch_texel(places.xy)), softened_mm);
-    let share = textureLoad(albedos, texel, 0).w;
-    if share < 1.0 {
-        o = blended(o, load_pixel(patch_texel(places.zw)), share);
+    if places.z >= 0.0 {
+        o = blended(o, load_pixel(patch_texel(places.zw)), textureLoad(albedos, texel, 0).w);
     }
     let rd = reflectance(unpack_pixel(in.pixel), o, vec2<i32>(0));
     // Within half floats.

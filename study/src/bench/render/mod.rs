@@ -104,11 +104,12 @@ fn compare(
     scene.camera.exposure = exposure;
     let mut shown = vec![image(&reference, size[0])];
     for (backend, gpu) in gpus {
-        let case = |asset| BenchCase::new(gpu, asset, material, mesh, size);
+        let case = |asset: &Asset| BenchCase::new(gpu, asset, material, mesh, size);
         let gather_ms = match args.frames {
             0 => None,
             _ => {
-                let mut cases = [case(&compute(Scattering::Gather, None)?)?];
+                let gather = compute(Scattering::Gather, None)?;
+                let mut cases = [case(&gather)?];
                 case::run(gpu, &mut cases, mesh, size, 0)?;
                 Some(median(&cases[0].times.frames))
             }
