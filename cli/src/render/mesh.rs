@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_runtime::{BACKGROUND, Gpu};
 use subsurf_scene::{Mesh, Placement};
-use subsurf_shaders::uniform;
 use subsurf_shaders::cpu;
+use subsurf_shaders::uniform;
 use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scattering, choose_mapping, points};
 
 use super::exposure::{BRIGHT, SUPERSAMPLING, average_down, exposure_for};

@@ -62,8 +62,7 @@ fn near_seams(surface: &Surface, labels: &[u8], reach_mm: f32) -> Vec<u32> {
     };
     let vertices = 0..u32::try_from(surface.positions.len()).expect("meshes have fewer than 2³² vertices");
     let mut nearest = vec![f32::INFINITY; surface.positions.len()];
-    let mut open: BinaryHeap<Open> =
-        vertices.filter(is_on_seam).map(|vertex| Open { path_mm: 0.0, vertex }).collect();
+    let mut open: BinaryHeap<Open> = vertices.filter(is_on_seam).map(|vertex| Open { path_mm: 0.0, vertex }).collect();
     let mut found = Vec::new();
     for seam in &open {
         nearest[seam.vertex as usize] = 0.0;

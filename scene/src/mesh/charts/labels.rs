@@ -89,9 +89,10 @@ impl Energy<'_> {
                     continue;
                 }
                 let cost = |label: u8| {
-                    let seams = beyond.iter().enumerate().filter_map(|(k, other)| {
-                        Some(self.seam(triangle, k) * apart((*other)?, label))
-                    });
+                    let seams = beyond
+                        .iter()
+                        .enumerate()
+                        .filter_map(|(k, other)| Some(self.seam(triangle, k) * apart((*other)?, label)));
                     self.slant(triangle, label) + seams.sum::<f32>()
                 };
                 let found = best(cost);
