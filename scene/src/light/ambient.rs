@@ -3,10 +3,9 @@
 
 use std::collections::HashMap;
 
-use glam::{IVec2, IVec3, Vec3};
+use glam::{IVec3, Vec3};
 use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
-use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use super::transfer::AmbientTransfer;
 use crate::error::Result;
@@ -26,8 +25,8 @@ struct Sample {
 }
 
 impl AmbientTransfer {
-    /// Transfer of every vertex of a mesh made of a material, by its mean profile: Σ R(r) dA by the same of a flat
-    /// patch, r the distance in space. Approximate: heterogeneity and occlusion of the light are left out.
+    /// Transfer of every vertex of a mesh made of a material, by its mean profile: Σ R(r) dA / 2π ∫ R(r) r dr, r the
+    /// distance in space. Approximate: heterogeneity and occlusion of the light are left out.
     ///
     /// # Errors
     /// [`Error::Mesh`](crate::Error) if the mesh is too large for the material's pixels.
@@ -41,7 +40,7 @@ impl AmbientTransfer {
         for (number, sample) in samples.iter().enumerate() {
             cells.entry(cell_of(sample.position_mm)).or_default().push(number);
         }
-        let flat = flat(&profile, header);
+        let flat = flat(&profile, header.r_max_mm);
         let share = |(position, normal): (&Vec3, &Vec3)| {
             let [mut front, mut back] = [[0.0; 3]; 2];
             let cell = cell_of(*position);
@@ -82,14 +81,15 @@ fn samples(mesh: Mesh, pitch_mm: f32) -> Vec<Sample> {
     vertices.step_by(stride).map(sample).collect()
 }
 
-/// Exitance of a flat patch, as its pixels sum it: Σ R(r) pitch² over the window. Between vertices the profile is a function of any
-/// distance, whose integral is another one.
-fn flat(profile: &MeanProfile, header: &BssrdfHeader) -> [f32; 3] {
-    let radius = i32::from(header.window_radius);
-    let pixels = (-radius..=radius).flat_map(|y| (-radius..=radius).map(move |x| IVec2::new(x, y)));
-    let rd = pixels.map(|step| profile.at(step.as_vec2().length() * header.pitch_mm));
-    let area_mm2 = header.pitch_mm * header.pitch_mm;
-    rd.fold([1e-12; 3], |sum, rd| [0, 1, 2].map(|c| sum[c] + rd[c] * area_mm2))
+/// Exitance of flat ground, 2π ∫ R(r) r dr, by the midpoint rule.
+fn flat(profile: &MeanProfile, r_max_mm: f32) -> [f32; 3] {
+    const STEPS: u16 = 2_048;
+    let step = r_max_mm / f32::from(STEPS);
+    let ring = |k: u16| {
+        let r_mm = (f32::from(k) + 0.5) * step;
+        profile.at(r_mm).map(|value| value * std::f32::consts::TAU * r_mm * step)
+    };
+    (0..STEPS).map(ring).fold([1e-12; 3], |sum, ring| [0, 1, 2].map(|c| sum[c] + ring[c]))
 }
 
 /// Steps to the cells at most `reach` away along each axis.

@@ -89,10 +89,9 @@ impl Energy<'_> {
                     continue;
                 }
                 let cost = |label: u8| {
-                    let seams = beyond
-                        .iter()
-                        .enumerate()
-                        .filter_map(|(k, other)| Some(self.seam(triangle, k) * apart((*other)?, label)));
+                    // Borders are no seams.
+                    let seams = beyond.iter().enumerate().filter_map(|(k, other)| Some((k, (*other)?)));
+                    let seams = seams.map(|(k, other)| self.seam(triangle, k) * apart(other, label));
                     self.slant(triangle, label) + seams.sum::<f32>()
                 };
                 let found = best(cost);

@@ -49,12 +49,6 @@ fn scattered_sky(in: Varying, normal: vec3<f32>) -> vec3<f32> {
     return in.sky_front * sky_irradiance(normal) + in.sky_back * sky_irradiance(-normal);
 }
 
-// Surface of the own side within reach, relative to that on a plane, by which blurs are multiplied that take everything for a plane:
-// less on thin limbs, more in folds.
-fn own_side(in: Varying) -> vec3<f32> {
-    return max(in.sky_front, vec3<f32>(0.05));
-}
-
 // Depth of a position along the axis of the camera, from the middle of the group, in mm.
 fn depth_of(position_mm: vec3<f32>) -> f32 {
     return dot(position_mm - scene.centre_mm, scene.forward) + object.depth_offset_mm;

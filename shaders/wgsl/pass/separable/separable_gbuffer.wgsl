@@ -1,6 +1,6 @@
 // Needs: <target format>, <terms>, fresnel, object, scene, mapping, host_shadow, tsm_visibility, patch_layers, separable_basis, visibilities, vertex_none, vertex, transmission.
 // G-buffer for the separable blurs on the screen: c_l E of the light that enters, and S_m of the light that is transmitted
-// from behind, divided by what the sum is multiplied with; depth in mm in the fourth channel.
+// from behind; depth in mm in the fourth channel.
 
 @fragment
 fn separable_gbuffer(in: Varying) -> MapsAndSums {
@@ -25,10 +25,9 @@ fn separable_gbuffer(in: Varying) -> MapsAndSums {
         }
     }
     var maps: array<vec4<f32>, TERMS>;
-    let own = own_side(in);
     for (var l = 0u; l < TERMS; l++) {
         maps[l] = vec4<f32>(clamp(c[l] * e, -BRIGHTEST, BRIGHTEST), depth);
-        sums[l] = vec4<f32>(clamp(sums[l].xyz / own, -BRIGHTEST, BRIGHTEST), depth);
+        sums[l] = vec4<f32>(clamp(sums[l].xyz, -BRIGHTEST, BRIGHTEST), depth);
     }
     return maps_and_sums_of(maps, sums);
 }

@@ -33,9 +33,8 @@ fn exitance(in: Varying, normal: vec3<f32>) -> vec3<f32> {
     var c = basis_at(lookup_of(in));
     var light = sums_at(in.clip.xy, depth_of(in.position_mm));
     var sum = c[TERMS] * scattered_sky(in, normal);
-    let own = own_side(in);
     for (var m = 0u; m < TERMS; m++) {
-        sum += c[m] * light[m] * own;
+        sum += c[m] * light[m];
     }
     return max(sum, vec3<f32>(0.0));
 }
