@@ -5,8 +5,12 @@ plugins {
 }
 
 val abis = listOf("arm64-v8a", "armeabi-v7a", "x86_64")
+
+// Their names in Rust, in the same order.
+val triples = listOf("aarch64-linux-android", "armv7-linux-androideabi", "x86_64-linux-android")
 val repository = rootProject.layout.projectDirectory.dir("..")
 val jniLibs = layout.buildDirectory.dir("rust/jniLibs")
+val testPrograms = layout.buildDirectory.dir("rust/testPrograms")
 
 configure<LibraryExtension> {
     namespace = "dev.subsurf"
@@ -35,8 +39,12 @@ configure<LibraryExtension> {
         named("androidTest") {
             kotlin.directories += "src/sharedTest/kotlin"
             assets.directories += "../app/build/materials"
+            jniLibs.directories += "build/rust/testPrograms"
         }
     }
+
+    // Programs run from files alone: the test app's libraries are unpacked when it is installed.
+    packaging { jniLibs { useLegacyPackaging = true } }
 
     androidResources { noCompress += "subsurf" }
 }
@@ -48,24 +56,45 @@ kotlin {
     }
 }
 
-// The library in Rust, for every ABI: pages of 16 KB, as Android 15 and Play want them; cargo finds what is stale.
+// Runs cargo-ndk for every ABI; cargo finds what is stale.
+fun Exec.runCargoNdk(vararg arguments: String) {
+    workingDir = repository.asFile
+    val ndk = androidComponents.sdkComponents.ndkDirectory
+    doFirst { environment("ANDROID_NDK_HOME", ndk.get().asFile.path) }
+    val targets = abis.flatMap { listOf("--target", it) } + listOf("--platform", libs.versions.minSdk.get())
+    commandLine(listOf("cargo", "ndk") + targets + arguments)
+    outputs.upToDateWhen { false }
+}
+
+// The library in Rust: pages of 16 KB, as Android 15 and Play want them.
 val cargoNdk =
     tasks.register<Exec>("cargoNdk") {
         description = "Builds libsubsurf.so with cargo-ndk (cargo install cargo-ndk --version 4.1.2)"
-        workingDir = repository.asFile
-        val ndk = androidComponents.sdkComponents.ndkDirectory
-        val output = jniLibs
-        val minSdk = libs.versions.minSdk.get()
-        doFirst { environment("ANDROID_NDK_HOME", ndk.get().asFile.path) }
-        commandLine(
-            listOf("cargo", "ndk") + abis.flatMap { listOf("--target", it) } +
-                listOf("--platform", minSdk, "--output-dir", output.get().asFile.path) +
-                listOf("rustc", "--locked", "--profile", "bindings", "--package", "subsurf-c-runtime", "--crate-type", "cdylib", "--") +
-                // As scripts/android has it, for size.
-                listOf("--icf=all", "--pack-dyn-relocs=android").flatMap { listOf("-C", "link-arg=-Wl,$it") },
-        )
+        // As scripts/android has it, for size.
+        val small = listOf("--icf=all", "--pack-dyn-relocs=android").flatMap { listOf("-C", "link-arg=-Wl,$it") }
+        val library = arrayOf("--package", "subsurf-c-runtime", "--crate-type", "cdylib", "--", *small.toTypedArray())
+        val output = jniLibs.get().asFile.path
+        runCargoNdk("--output-dir", output, "rustc", "--locked", "--profile", "bindings", *library)
         outputs.dir(output)
-        outputs.upToDateWhen { false }
+    }
+
+// The program load_test, under the name of a library, as test apps carry programs.
+val cargoNdkLoadTest =
+    tasks.register<Exec>("cargoNdkLoadTest") {
+        description = "Builds load_test with cargo-ndk"
+        runCargoNdk("build", "--locked", "--profile", "bindings", "--package", "subsurf-c-draw", "--example", "load_test")
+    }
+
+val loadTest =
+    tasks.register<Sync>("loadTest") {
+        dependsOn(cargoNdkLoadTest)
+        into(testPrograms)
+        for ((abi, triple) in abis.zip(triples)) {
+            from(repository.file("target/$triple/bindings/examples/load_test")) {
+                into(abi)
+                rename { "libload_test.so" }
+            }
+        }
     }
 
 tasks.named("preBuild") { dependsOn(cargoNdk) }
@@ -92,6 +121,10 @@ tasks.withType<Zip>().matching { it.name.startsWith("bundle") && it.name.endsWit
 
 tasks.matching { it.name.startsWith("merge") && it.name.endsWith("AndroidTestAssets") }.configureEach {
     dependsOn(":app:encodeMaterials")
+}
+
+tasks.matching { it.name.startsWith("merge") && it.name.endsWith("AndroidTestJniLibFolders") }.configureEach {
+    dependsOn(loadTest)
 }
 
 dependencies {

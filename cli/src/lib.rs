@@ -47,7 +47,7 @@ Exit codes:
   1   this machine failed: disk full, driver crashed
   2   the input or the request is wrong
   3   there is no device that can do it
-  130 interrupted or terminated; after one Ctrl-C encode still writes the best fit so far";
+  130 interrupted or terminated; after one Ctrl-C encode still writes the best fit so far, simulate profile what it traced";
 
 #[derive(Subcommand)]
 enum Command {

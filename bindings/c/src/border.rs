@@ -57,16 +57,26 @@ pub unsafe trait Versioned: Copy {
     const FIRST_BYTES: usize;
 }
 
+/// Bytes of a caller's struct; refuses one that is smaller than its first version, before there is anything to write to it.
+///
+/// # Safety
+/// `pointer` is null or leads to a struct that begins with its size.
+pub unsafe fn sized<T: Versioned>(name: &'static str, pointer: *const T) -> Result<usize, Failure<'static>> {
+    // SAFETY: every such struct begins with its size.
+    let found = unsafe { read(name, pointer.cast::<u32>()) }? as usize;
+    if found < T::FIRST_BYTES {
+        return Err(Failure::StructSize { name: T::NAME, found, expected: T::FIRST_BYTES });
+    }
+    Ok(found)
+}
+
 /// Writes as much of a struct as the caller knows of, but for its size, which stays the caller's.
 ///
 /// # Safety
 /// `pointer` is null or leads to as many bytes as its first field, `struct_size`, says.
 pub unsafe fn fill<T: Versioned>(name: &'static str, pointer: *mut T, value: T) -> Result<(), Failure<'static>> {
-    // SAFETY: every such struct begins with its size.
-    let found = unsafe { read(name, pointer.cast::<u32>().cast_const()) }? as usize;
-    if found < T::FIRST_BYTES {
-        return Err(Failure::StructSize { name: T::NAME, found, expected: T::FIRST_BYTES });
-    }
+    // SAFETY: the caller's word.
+    let found = unsafe { sized(name, pointer.cast_const()) }?;
     let after = size_of::<u32>();
     let bytes = found.min(size_of::<T>()).saturating_sub(after);
     // SAFETY: as many bytes are in `value`, and by the caller's word where the pointer leads.

@@ -35,7 +35,7 @@ mod version;
 /// What the functions of other crates stand on: the border to C, handles, failures. For the crates of `bindings/` alone.
 #[doc(hidden)]
 pub mod shared {
-    pub use crate::border::{Versioned, fill, in_memory, not_null, read, read3, write};
+    pub use crate::border::{Versioned, fill, in_memory, not_null, read, read3, sized, write};
     pub use crate::failure::{Failure, status_of};
     pub use crate::file::OpenFile;
     pub use crate::handle::{Handle, Kind};

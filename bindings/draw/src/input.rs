@@ -1,6 +1,6 @@
 //! What callers hand in: structs of their version, arrays, numbers in range.
 
-use subsurf_c::shared::{Failure, Versioned, in_memory, not_null, read};
+use subsurf_c::shared::{Failure, Versioned, in_memory, not_null, read, sized};
 
 use crate::fault::{Fault, Result};
 
@@ -13,6 +13,19 @@ pub(crate) unsafe fn take<T: Versioned>(name: &'static str, pointer: *const T, l
     let found = unsafe { read(name, pointer.cast::<u32>()) }? as usize;
     // SAFETY: as many bytes are there, the caller promises.
     unsafe { take_sized(T::NAME, pointer.cast(), found, T::FIRST_BYTES, later) }
+}
+
+/// Refuses a struct of a caller that is too small to be filled, before the work that it would tell of; null is none.
+///
+/// # Safety
+/// `pointer` is null or leads to a struct that begins with its size.
+pub(crate) unsafe fn fillable<T: Versioned>(name: &'static str, pointer: *const T) -> Result<()> {
+    if pointer.is_null() {
+        return Ok(());
+    }
+    // SAFETY: the caller's word.
+    unsafe { sized(name, pointer) }?;
+    Ok(())
 }
 
 /// Element of an array of structs of a caller's version, `found` bytes each.

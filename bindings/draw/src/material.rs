@@ -11,7 +11,7 @@ use subsurf_runtime::{Load, LoadTimes, Material, Technique};
 
 use crate::fault::{Fault, Result, call};
 use crate::gpu::{OpenGpu, SubsurfGpu, close};
-use crate::input::{one_of, take};
+use crate::input::{fillable, one_of, take};
 
 /// Technique by which a material is drawn.
 #[repr(u32)]
@@ -178,6 +178,8 @@ pub unsafe extern "C" fn subsurf_material_load(
         // SAFETY: the caller's handles.
         let (gpu, file) = unsafe { (OpenGpu::of(gpu)?, SubsurfFile::of(file)?.file()) };
         not_null("material_out", material_out)?;
+        // SAFETY: the caller's struct.
+        unsafe { fillable("report", report.cast_const()) }?;
         let usual = SubsurfMaterialOptions { struct_size: 0, technique: 0 };
         // SAFETY: the caller's struct, of numbers.
         let options = if options.is_null() { usual } else { unsafe { take("options", options, usual) }? };

@@ -14,7 +14,7 @@ use subsurf_shaders::cpu::linear;
 use crate::fault::{Fault, Result, call};
 use crate::frame::{Shown, SubsurfFrame};
 use crate::gpu::{OpenGpu, SubsurfGpu, close};
-use crate::input::take;
+use crate::input::{fillable, take};
 use crate::material::nanoseconds;
 use crate::picture::{OpenPicture, SubsurfPicture};
 use crate::surface::{OpenSurface, SubsurfSurface};
@@ -256,6 +256,8 @@ unsafe fn draw(
         // SAFETY: the caller's handle, which nothing else uses.
         let open = unsafe { Handle::<Box<OpenRenderer>>::of_mut("renderer", renderer.cast()) }?;
         let gpu = open.gpu.clone();
+        // SAFETY: the caller's struct.
+        unsafe { fillable("report", report.cast_const()) }?;
         // SAFETY: the caller's frame.
         let shown = unsafe { Shown::new(&gpu, frame, open.options.objects) }?;
         let mut times = Times::default();

@@ -31,7 +31,7 @@ pub(super) fn watch() {
 /// What Ctrl-C does: the first one is left to work that wants to know, any other ends the program.
 fn interrupt() {
     if STATE.compare_exchange(GRACEFULLY, CAME, Ordering::Relaxed, Ordering::Relaxed).is_ok() {
-        say("interrupted; the best fit so far will be written. Once more to end at once");
+        say("interrupted; what there is so far will be written. Once more to end at once");
     } else {
         end("interrupted");
     }

@@ -3,6 +3,8 @@
 pub mod btf;
 mod capture;
 mod maps;
+mod mcml;
+mod profile;
 
 use crate::program::failure::bad_request;
 pub use capture::MaterialArg;
@@ -24,12 +26,18 @@ pub(crate) struct Args {
 #[derive(clap::Subcommand)]
 enum Other {
     Btf(btf::Args),
+    Profile(profile::Args),
+    Mcml(mcml::Args),
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     match (&args.other, &args.capture) {
         (Some(Other::Btf(args)), _) => btf::run(args),
+        (Some(Other::Profile(args)), _) => profile::run(args),
+        (Some(Other::Mcml(args)), _) => mcml::run(args),
         (None, Some(args)) => capture::run(args),
-        (None, None) => Err(bad_request("what is to be simulated? Give --material or --maps, or `btf`")),
+        (None, None) => {
+            Err(bad_request("what is to be simulated? Give --material or --maps, or `btf`, `profile` or `mcml`"))
+        }
     }
 }

@@ -148,3 +148,34 @@ fn targets_choose_the_model() {
     assert_eq!(run(folder, "encode a.npy --target-psnr 30 -M 8").code, 2, "M is what is looked for");
     assert_refused(&run(folder, "encode a.npy --pitch 1 --threads 0"), &["--threads"]);
 }
+
+#[test]
+fn profiles_are_traced_photon_by_photon() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let layers = "--layer a=0.5,s=9,g=0.8,eta=1.4,d=0.3 --layer a=0.1/0.4/0.9,s=2";
+    for threads in [1, 2] {
+        let profile = format!("simulate profile {layers} --photons 500 -o {threads}.csv --threads {threads}");
+        let said = succeed(folder, &profile).out;
+        assert!(said.contains("1500 photon packets"), "{said}");
+    }
+    let [one, two] = ["1.csv", "2.csv"].map(|name| std::fs::read_to_string(folder.join(name)).unwrap());
+    assert_eq!(one, two, "files do not hang on the number of threads");
+    assert!(one.lines().any(|line| line == "r_mm,rd_red,rd_green,rd_blue,error_red,error_green,error_blue"), "{one}");
+
+    let refused = |args: &str, says: &[&str]| assert_refused(&run(folder, args), says);
+    refused("simulate profile --layer s=2 -o x.csv", &["--layer s=2", "a="]);
+    refused("simulate profile --layer a=1,s=2,h=3 -o x.csv", &["h=3 is none of a=, s=, g=, eta= and d="]);
+    refused(
+        "simulate profile --layer a=1,s=2 --layer a=1,s=2 -o x.csv",
+        &["layer 1: thickness", "finite above other layers"],
+    );
+
+    let mci = |output: &str| format!("1.0\n1\n{output} A\n500\n0.01 0.01\n4 5 1\n1\n1.0\n1.4 1 100 0.9 0.1\n1.0\n");
+    std::fs::write(folder.join("a.mci"), mci("a.mco")).unwrap();
+    succeed(folder, "simulate mcml a.mci -o results");
+    let results = std::fs::read_to_string(folder.join("results/a.mco")).unwrap();
+    assert!(results.starts_with("A1 ") && results.contains("\nRd_r #[1/cm2]"), "{results}");
+    std::fs::write(folder.join("b.mci"), mci("../b.mco")).unwrap();
+    refused("simulate mcml b.mci", &["../b.mco", "not a plain file name"]);
+}

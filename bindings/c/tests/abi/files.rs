@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use subsurf_encoder::synthetic::{NestedShape, factored};
+use subsurf_decoder::bssrdf::Addressing;
+use subsurf_encoder::synthetic::{NestedShape, Shape, factored};
 
 /// Vectors of BSSRDFs that have to be read, one for each layout of planes.
 const VECTORS: [&str; 8] = [
@@ -40,4 +41,23 @@ pub(crate) fn btfs(folder: &Path) -> [PathBuf; 2] {
 pub(crate) fn all(folder: &Path) -> Vec<PathBuf> {
     let vectors = VECTORS.map(|name| vectors().join(name).with_extension("subsurf"));
     vectors.into_iter().chain(btfs(folder)).collect()
+}
+
+/// Bytes before a file in an archive: no whole pages, as `check.c` has it.
+pub(crate) const ASSET_OFFSET: usize = 5001;
+
+/// Archive with a file in it as it is, and other bytes around.
+pub(crate) fn asset(folder: &Path, bytes: &[u8]) -> PathBuf {
+    let path = folder.join("asset");
+    let archive = [&[b'-'; ASSET_OFFSET], bytes, &[b'-'; 300]].concat();
+    std::fs::write(&path, archive).expect("a temporary folder can be written to");
+    path
+}
+
+/// Archive with per-pixel profiles of 40 MB, and their length.
+#[cfg(target_os = "linux")]
+pub(crate) fn large_asset(folder: &Path) -> (PathBuf, usize) {
+    let shape = Shape { size: [512; 2], radius: 3, samples: 13, base_materials: 1, addressing: Addressing::Clamp };
+    let bytes = shape.per_pixel();
+    (asset(folder, &bytes), bytes.len())
 }

@@ -77,12 +77,7 @@ fn hostile_files_are_errors_or_values() {
 fn a_thousand_files_one_after_the_other_leave_nothing() {
     let folder = tempfile::tempdir().expect("temporary folders can be made");
     for path in files::btfs(folder.path()).into_iter().chain([files::bssrdf()]) {
-        // As an asset in an archive: from a byte that is no start of a page, with others after it.
-        let mut asset = vec![b'-'; 5001];
-        asset.extend(std::fs::read(&path).expect("a file that is there"));
-        asset.extend([b'-'; 300]);
-        let asset_path = folder.path().join("asset");
-        std::fs::write(&asset_path, asset).expect("a temporary folder can be written to");
+        let asset_path = files::asset(folder.path(), &std::fs::read(&path).expect("a file that is there"));
         // Cycles, and pages of growth: the kernel counts them in lots of 64, and 900 handles that stay would be 1,400.
         // Sanitizers keep memory that was freed for a while, but find leaks of a byte.
         for (program, limits) in [(&check().plain, ["1000", "256"]), (&check().sanitized, ["20", "5000"])] {
@@ -90,6 +85,20 @@ fn a_thousand_files_one_after_the_other_leave_nothing() {
             run(Command::new(program).arg("cycles").args(limits).arg(&path).arg(&asset_path));
         }
     }
+}
+
+/// An asset of 40 MB: its pages are those of the file, however much of it is looked at.
+#[test]
+#[cfg(target_os = "linux")]
+fn mapped_files_are_not_copied() {
+    let folder = tempfile::tempdir().expect("temporary folders can be made");
+    if !C.is_here(folder.path(), &[]) {
+        return;
+    }
+    let (asset, length) = files::large_asset(folder.path());
+    let program = decoder().compile(C, &bindings().join("c/tests/abi/mapped.c"), &[], folder.path());
+    let said = run(Command::new(program).arg(asset).args([files::ASSET_OFFSET, length].map(|bytes| bytes.to_string())));
+    println!("{said}");
 }
 
 /// Compiles an example, runs it on a file, and returns what it says; `None` where there is no compiler.

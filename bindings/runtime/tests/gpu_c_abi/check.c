@@ -310,10 +310,16 @@ static void lost(const char *path, uint32_t backend) {
     Stage stage;
     SubsurfMesh *mesh = NULL;
     SubsurfMaterial *material = NULL;
+    SubsurfLoadReport load_report;
+    SubsurfFrameReport frame_report;
+    load_report.struct_size = frame_report.struct_size = 4;
     open_stage(&stage, path, backend, SUBSURF_TECHNIQUE_AUTOMATIC);
     OK(subsurf_renderer_draw_picture(stage.renderer, &stage.frame, stage.picture, NULL));
     OK(subsurf_picture_read(stage.picture, before, sizeof before, 0));
     OK(subsurf_gpu_lose(stage.gpu));
+    /* Reports that cannot be filled are refused before the device is asked. */
+    FAILS(INVALID_ARGUMENT, "sizeof(SubsurfLoadReport)", subsurf_material_load(stage.gpu, stage.file, NULL, &load_report, &material));
+    FAILS(INVALID_ARGUMENT, "sizeof(SubsurfFrameReport)", subsurf_renderer_draw_picture(stage.renderer, &stage.frame, stage.picture, &frame_report));
     FAILS(DEVICE_LOST, "lost", subsurf_renderer_draw_picture(stage.renderer, &stage.frame, stage.picture, NULL));
     FAILS(DEVICE_LOST, "lost", subsurf_gpu_finish(stage.gpu));
     EXPECT(subsurf_picture_read(stage.picture, after, sizeof after, 0) == SUBSURF_STATUS_DEVICE_LOST);

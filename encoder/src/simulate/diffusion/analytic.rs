@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::fresnel::boundary_a;
+use crate::simulate::fresnel::boundary_a;
 
 /// One channel of a homogeneous half-space, coefficients in mm⁻¹.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! Homogeneous media, measured and inverted.
 
-use super::fresnel::boundary_a;
+use crate::simulate::fresnel::boundary_a;
 
 /// Scattering and absorption of a medium, linear Rec. 709 channels, in mm⁻¹.
 #[derive(Clone, Copy, Debug, PartialEq)]

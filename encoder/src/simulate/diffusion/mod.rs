@@ -4,7 +4,6 @@
 //! simulates what a camera and a projector would measure, and writes a capture.
 
 pub mod analytic;
-pub mod fresnel;
 mod grid;
 pub mod maps;
 mod material;

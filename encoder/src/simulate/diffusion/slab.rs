@@ -3,11 +3,11 @@
 use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Addressing;
 
-use super::fresnel::boundary_a;
 use super::grid::{Grid, Scales};
 use super::medium::Medium;
 use super::solver::{Rgb, System};
 use crate::progress::Progress;
+use crate::simulate::fresnel::boundary_a;
 
 /// The medium below every pixel of a patch; it goes straight down.
 #[derive(Clone, Debug)]

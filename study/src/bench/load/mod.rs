@@ -78,7 +78,7 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
             add(&case)?;
             for file in &case.files {
                 // The folder goes at the end anyway; a gigabyte should not wait for it.
-                std::fs::remove_file(file).ok();
+                options.done_with(file)?;
             }
         }
     }

@@ -36,6 +36,9 @@ pub(super) struct LoadOptions {
     /// Folder for the files, which are deleted at the end; the last case needs a gigabyte
     #[arg(long, value_name = "DIR")]
     dir: Option<PathBuf>,
+    /// Leave the files of the last case in that folder, as for load_test on a phone
+    #[arg(long, requires = "dir")]
+    keep: bool,
     /// Report as JSON
     #[arg(long)]
     pub(super) json: bool,
@@ -49,6 +52,14 @@ impl LoadOptions {
             None => tempfile::tempdir(),
         };
         folder.map_err(|error| bad_request(format!("no folder for the files, name one with --dir: {error}")))
+    }
+
+    /// Deletes a file, or leaves it in the folder that was named.
+    pub(super) fn done_with(&self, file: &Path) -> std::io::Result<()> {
+        match (self.keep, &self.dir, file.file_name()) {
+            (true, Some(dir), Some(name)) => std::fs::rename(file, dir.join(name)),
+            _ => std::fs::remove_file(file),
+        }
     }
 
     /// Whether a device draws, not the CPU.

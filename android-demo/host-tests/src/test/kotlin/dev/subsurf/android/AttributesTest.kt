@@ -10,6 +10,7 @@ import org.junit.Assert.assertEquals
 import org.junit.Assert.assertFalse
 import org.junit.Assert.assertNotNull
 import org.junit.Test
+import org.junit.experimental.categories.Category
 import org.junit.runner.RunWith
 import org.robolectric.Robolectric
 import org.robolectric.RobolectricTestRunner
@@ -17,6 +18,7 @@ import org.robolectric.annotation.Config
 
 /** Attributes of a view in XML, by the resources that aapt2 made, and assets. */
 @RunWith(RobolectricTestRunner::class)
+@Category(OnAndroid::class)
 @Config(sdk = [35])
 class AttributesTest {
     @Test

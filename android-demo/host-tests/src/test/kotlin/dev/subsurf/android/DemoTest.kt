@@ -12,6 +12,7 @@ import org.junit.Assert.assertEquals
 import org.junit.Assert.assertNotNull
 import org.junit.Assert.assertTrue
 import org.junit.Test
+import org.junit.experimental.categories.Category
 import org.junit.runner.RunWith
 import org.robolectric.Robolectric
 import org.robolectric.RobolectricTestRunner
@@ -20,6 +21,7 @@ import org.robolectric.annotation.Config
 
 /** The demo, with the materials that scripts encode as its assets. */
 @RunWith(RobolectricTestRunner::class)
+@Category(OnAndroid::class)
 @Config(sdk = [35])
 class DemoTest {
     @Test

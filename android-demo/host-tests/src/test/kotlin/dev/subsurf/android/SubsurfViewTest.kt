@@ -1,6 +1,7 @@
 package dev.subsurf.android
 
 import android.app.Activity
+import android.app.Application
 import android.content.ComponentCallbacks2
 import android.graphics.SurfaceTexture
 import android.os.Bundle
@@ -8,6 +9,7 @@ import android.os.Looper
 import android.view.MotionEvent
 import android.view.Surface
 import android.view.SurfaceHolder
+import android.view.ViewGroup
 import dev.subsurf.Backend
 import dev.subsurf.FakeSource
 import dev.subsurf.Orbit
@@ -23,6 +25,7 @@ import org.junit.Assert.assertNotEquals
 import org.junit.Assert.assertTrue
 import org.junit.Before
 import org.junit.Test
+import org.junit.experimental.categories.Category
 import org.junit.runner.RunWith
 import org.robolectric.Robolectric
 import org.robolectric.RobolectricTestRunner
@@ -30,6 +33,7 @@ import org.robolectric.RuntimeEnvironment
 import org.robolectric.Shadows.shadowOf
 import org.robolectric.android.controller.ActivityController
 import org.robolectric.annotation.Config
+import org.robolectric.util.ReflectionHelpers
 import java.io.File
 import java.lang.reflect.Proxy
 import java.util.concurrent.TimeUnit
@@ -55,6 +59,7 @@ class ViewActivity : Activity() {
 
 /** Lifecycle of a view against the classes of the framework, and engines that write down what is asked of them. */
 @RunWith(RobolectricTestRunner::class)
+@Category(OnAndroid::class)
 @Config(sdk = [35], manifest = Config.NONE)
 class SubsurfViewTest {
     private val source = FakeSource()
@@ -164,8 +169,8 @@ class SubsurfViewTest {
         source.calls.clear()
         @Suppress("DEPRECATION")
         application.onTrimMemory(ComponentCallbacks2.TRIM_MEMORY_RUNNING_LOW)
-        await("trim to")
-        assertTrue(has("trim to null") || has("trim to"))
+        await("trim to a scene")
+        assertFalse("what is shown stays", has("trim to null"))
         application.onLowMemory()
         await("trim to null")
     }
@@ -202,6 +207,39 @@ class SubsurfViewTest {
     fun destroyedActivityClosesTheDevice() {
         controller.pause().stop().destroy()
         await("close 1")
+    }
+
+    @Test
+    fun viewThatLeavesItsWindowGivesAllUpAndFollowsNothing() {
+        val application = RuntimeEnvironment.getApplication()
+        val parent = view.parent as ViewGroup
+        parent.removeView(view)
+        assertEquals("before the view is gone", listOf("detach from 1", "close 1"), source.actions())
+        assertEquals("callbacks", Watches(0, 0), Watches.of(application))
+        source.calls.clear()
+        application.onTrimMemory(ComponentCallbacks2.TRIM_MEMORY_BACKGROUND)
+        controller.pause()
+        controller.resume()
+        shadowOf(Looper.getMainLooper()).idle()
+        assertEquals(emptyList<String>(), source.actions())
+        parent.addView(view)
+        changeSurface(30, 20)
+        await("draw")
+        assertEquals(Watches(1, 1), Watches.of(application))
+        assertTrue("another device", has("open"))
+    }
+
+    /** Callbacks of views that an application has: of activities, and of its memory. */
+    private data class Watches(val ofActivities: Int, val ofMemory: Int) {
+        companion object {
+            fun of(application: Application): Watches {
+                val activities: List<*> = ReflectionHelpers.getField(application, "mActivityLifecycleCallbacks")
+                val controller: Any = ReflectionHelpers.getField(application, "mCallbacksController")
+                val memory: List<*> = ReflectionHelpers.getField<List<*>?>(controller, "mComponentCallbacks").orEmpty()
+                fun ours(of: List<*>) = of.count { it!!.javaClass.name.startsWith("dev.subsurf.") }
+                return Watches(ours(activities), ours(memory))
+            }
+        }
     }
 
     @Test

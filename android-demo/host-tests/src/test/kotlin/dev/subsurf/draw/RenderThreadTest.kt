@@ -5,6 +5,8 @@ import org.junit.Assert.assertEquals
 import org.junit.Assert.assertFalse
 import org.junit.Assert.assertTrue
 import org.junit.Test
+import java.util.concurrent.LinkedBlockingQueue
+import java.util.concurrent.TimeUnit
 import kotlin.concurrent.thread as begin
 
 class RenderThreadTest {
@@ -222,6 +224,29 @@ class RenderThreadTest {
     }
 
     @Test
+    fun errorOfTheVirtualMachineLeavesNobodyWaiting() {
+        begin()
+        val usual = Thread.getDefaultUncaughtExceptionHandler()
+        val uncaught = LinkedBlockingQueue<Throwable>()
+        Thread.setDefaultUncaughtExceptionHandler { _, error -> uncaught += error }
+        try {
+            source.failures += "draw" to OutOfMemoryError("of a test")
+            val draw = source.hold("draw")
+            thread.show(scene)
+            draw.awaitReached()
+            val paused = begin { thread.pause() }
+            draw.goOn()
+            assertEquals("of a test", uncaught.poll(LONG_S, TimeUnit.SECONDS)?.message)
+            paused.join(TimeUnit.SECONDS.toMillis(LONG_S))
+            assertFalse("nobody detaches any more", paused.isAlive)
+            assertEquals("the window is not touched any more", listOf("draw a", "close 1"), source.actions())
+            thread.setWindow(null, 0, 0)
+        } finally {
+            Thread.setDefaultUncaughtExceptionHandler(usual)
+        }
+    }
+
+    @Test
     fun noDeviceIsOpenedBeforeThereIsAScene() {
         thread.setWindow("window", 30, 20)
         thread.resume()
@@ -238,5 +263,6 @@ class RenderThreadTest {
 
     private companion object {
         const val SHORT_MS = 100L
+        const val LONG_S = 30L
     }
 }

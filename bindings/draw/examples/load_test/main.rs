@@ -1,16 +1,23 @@
 //! How long files take to load on this device, for `adb shell` and for every other machine: the measurements of
 //! `subsurf-study bench load`, as CSV, times in microseconds.
 //!
-//! `load_test [--vulkan | --gl] [--repeats N] FILE..` runs each technique of each file once from a cold start (pipelines are compiled,
-//! and the file is dropped from the page cache where the system lets us), then N times warm (20). `open_us` is the device's opening,
-//! `drawable_us` all but pipelines until the material can be drawn. Without a device it reads and checks.
+//! `load_test [--vulkan | --gl] [--repeats N] [--raw FOLDER] FILE..` runs each technique of each file once from a cold start (pipelines
+//! are compiled, and the file is dropped from the page cache where the system lets us), then N times warm (20). `gather` is a flat
+//! patch, the others are on a mesh. `open_us` is the device's opening, `drawable_us` all but pipelines until the material can be drawn.
+//! With `--raw` the capture or the images that a file stands for are loaded too, uncompressed, from arrays that are written into a
+//! folder and deleted: 12 bytes for every pair of pixels, 3 for every texel and pair of 81 directions. Without a device it reads and
+//! checks.
+
+mod raw;
 
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use subsurf_decoder::bssrdf::BssrdfModel;
 use subsurf_decoder::{Content, File};
 use subsurf_runtime::{Backend, BtfLayout, Gpu, LoadTimer, LoadTimes, Stored, Technique, layout_of};
+
+use crate::raw::RawFile;
 
 type Failed = Box<dyn std::error::Error>;
 
@@ -22,19 +29,14 @@ struct Run {
     pipelines: Duration,
 }
 
-/// What is timed of a file, by name.
+/// What is timed of a file, by name: first what an app gets that does not choose.
 fn techniques(file: &File<'_>) -> Vec<(&'static str, Stored)> {
     match file.content() {
         Content::Bssrdf(material) => {
             let layout = layout_of(&material);
-            if let BssrdfModel::PerPixel(_) = material.model() {
-                return vec![("gather", Stored::Planes(layout))];
-            }
-            let mut all = vec![("splat", Stored::File(Technique::Splat(layout)))];
-            if let Some(basis) = material.basis() {
-                all.push(("separable", Stored::File(Technique::Separable(basis.size().terms))));
-            }
-            all
+            let planes = [("splat", Stored::File(Technique::Splat(layout))), ("gather", Stored::Planes(layout))];
+            let separable = material.basis().map(|basis| Technique::Separable(basis.size().terms));
+            separable.map(|technique| ("separable", Stored::File(technique))).into_iter().chain(planes).collect()
         }
         Content::NestedBtf(_) => vec![("btf", Stored::File(Technique::Btf(BtfLayout::Nested)))],
         _ => Vec::new(),
@@ -56,10 +58,12 @@ fn once(path: &Path, timer: Option<&LoadTimer<'_>>) -> Result<Run, Failed> {
     Ok(Run { read, times, pipelines: times.pipelines })
 }
 
-/// Drops a file from the page cache.
+/// Drops a file from the page cache, once its pages are on disk.
 #[cfg(target_os = "linux")]
 fn drop_from_cache(path: &Path) -> Result<(), Failed> {
-    Ok(rustix::fs::fadvise(std::fs::File::open(path)?, 0, None, rustix::fs::Advice::DontNeed)?)
+    let file = std::fs::File::open(path)?;
+    file.sync_all()?;
+    Ok(rustix::fs::fadvise(file, 0, None, rustix::fs::Advice::DontNeed)?)
 }
 
 /// Leaves a file in the page cache: this system has no way to drop it.
@@ -106,31 +110,51 @@ fn measure(
     Ok(())
 }
 
-/// Measures all techniques of a file.
-fn measure_all(path: &Path, gpu: Option<&Gpu>, open: Duration, repeats: usize) -> Result<(), Failed> {
+/// Measures all techniques of a file, and what it stands for if there is a folder for that.
+fn measure_all(
+    path: &Path,
+    gpu: Option<&Gpu>,
+    open: Duration,
+    repeats: usize,
+    folder: Option<&Path>,
+) -> Result<(), Failed> {
     let Some(gpu) = gpu else { return measure(path, "decoder", "\"none\",\"\",0", None, repeats) };
     let (bytes, info) = (std::fs::read(path)?, gpu.info());
+    let file = File::parse(&bytes)?;
     let device = format!("\"{}\",\"{} {}\",{}", info.name, info.driver, info.driver_info, open.as_micros());
-    for (technique, stored) in techniques(&File::parse(&bytes)?) {
+    for (technique, stored) in techniques(&file) {
         measure(path, technique, &device, Some(&LoadTimer::new(gpu, stored)?), repeats)?;
     }
-    Ok(())
+    let Some(raw) = folder.and_then(|folder| RawFile::write(path, &file, folder).transpose()) else { return Ok(()) };
+    let raw = raw?;
+    let (name, stored) = raw.stored.clone();
+    measure(&raw.path, name, &device, Some(&LoadTimer::new(gpu, stored)?), repeats)
 }
 
-fn main() -> Result<(), Failed> {
+fn main() -> ExitCode {
+    let Err(error) = run() else { return ExitCode::SUCCESS };
+    // Drivers speak in many lines.
+    let text = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
+    eprintln!("load_test: {text}");
+    ExitCode::FAILURE
+}
+
+/// Measures what the arguments say.
+fn run() -> Result<(), Failed> {
     let mut backends = Backend::ALL.to_vec();
-    let (mut repeats, mut files) = (20, Vec::<PathBuf>::new());
+    let (mut repeats, mut files, mut folder) = (20, Vec::<PathBuf>::new(), None::<PathBuf>);
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--vulkan" => backends = vec![Backend::Vulkan],
             "--gl" => backends = vec![Backend::Gl],
             "--repeats" => repeats = arguments.next().ok_or("--repeats N")?.parse()?,
+            "--raw" => folder = Some(arguments.next().ok_or("--raw FOLDER")?.into()),
             _ => files.push(argument.into()),
         }
     }
     if files.is_empty() || repeats == 0 {
-        return Err("load_test [--vulkan | --gl] [--repeats N] FILE.., with N more than 0".into());
+        return Err("load_test [--vulkan | --gl] [--repeats N] [--raw FOLDER] FILE.., with N more than 0".into());
     }
     let begin = Instant::now();
     let gpu = backends.into_iter().find_map(|backend| Gpu::open(backend).ok());
@@ -140,7 +164,8 @@ fn main() -> Result<(), Failed> {
          drawable_us,gpu_bytes"
     );
     for file in files {
-        measure_all(&file, gpu.as_ref(), open, repeats).map_err(|error| format!("{}: {error}", file.display()))?;
+        measure_all(&file, gpu.as_ref(), open, repeats, folder.as_deref())
+            .map_err(|error| format!("{}: {error}", file.display()))?;
     }
     Ok(())
 }

@@ -1,4 +1,18 @@
-//! Reflection at the boundary of a dielectric, averaged over directions.
+//! Reflection at the boundary of a dielectric, at an angle and averaged over directions.
+
+/// Fresnel's reflectance F_r of unpolarised light at a boundary across which refractive indices have the ratio `eta` =
+/// η_here / η_there, at an angle to the normal whose cosine here is `cosine`, 0 to 1; 1 beyond the critical angle.
+#[must_use]
+pub fn reflectance(eta: f64, cosine: f64) -> f64 {
+    let sin2_there = eta * eta * (1.0 - cosine * cosine);
+    if sin2_there >= 1.0 {
+        return 1.0;
+    }
+    let there = (1.0 - sin2_there).sqrt();
+    let perpendicular = (eta * cosine - there) / (eta * cosine + there);
+    let parallel = (cosine - eta * there) / (cosine + eta * there);
+    0.5 * (perpendicular * perpendicular + parallel * parallel)
+}
 
 /// Diffuse Fresnel reflectance F_dr inside a medium of refractive index `eta` ≥ 1 against air: Fresnel's reflectance of
 /// unpolarised light, 2 ∫ F_r(cos θ) cos θ d cos θ.
@@ -31,24 +45,12 @@ pub fn boundary_a(eta: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// F_r inside at an angle whose cosine is `cos_i`; 1 beyond the critical angle.
-    fn reflectance(cos_i: f64, eta: f64) -> f64 {
-        let sin2_t = eta * eta * (1.0 - cos_i * cos_i);
-        if sin2_t >= 1.0 {
-            return 1.0;
-        }
-        let cos_t = (1.0 - sin2_t).sqrt();
-        let perpendicular = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-        let parallel = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-        0.5 * (perpendicular * perpendicular + parallel * parallel)
-    }
-
     #[test]
     fn is_the_mean_of_fresnels_reflectance() {
         const STEPS: u32 = 20_000;
         for eta in [1.0, 1.0002, 1.05, 1.33, 1.5, 2.0, 4.0] {
             let cosines = (0..STEPS).map(|k| (f64::from(k) + 0.5) / f64::from(STEPS));
-            let mean = cosines.map(|cosine| 2.0 * reflectance(cosine, eta) * cosine).sum::<f64>() / f64::from(STEPS);
+            let mean = cosines.map(|cosine| 2.0 * reflectance(eta, cosine) * cosine).sum::<f64>() / f64::from(STEPS);
             assert!((diffuse_reflectance(eta) - mean).abs() < 1e-4, "{eta}: {} {mean}", diffuse_reflectance(eta));
             assert!(boundary_a(eta) >= 1.0 && boundary_a(eta).is_finite(), "A({eta}) = {}", boundary_a(eta));
         }

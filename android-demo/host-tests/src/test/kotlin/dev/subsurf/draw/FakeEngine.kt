@@ -8,7 +8,7 @@ import java.util.concurrent.TimeUnit
 /** Engines that write down what is asked of them, and fail when told to. */
 internal class FakeSource : EngineSource {
     val calls = CopyOnWriteArrayList<String>()
-    val failures = LinkedBlockingQueue<Pair<String, Exception>>()
+    val failures = LinkedBlockingQueue<Pair<String, Throwable>>()
     private var count = 0
 
     @Volatile var isSkipping = false
@@ -64,16 +64,18 @@ internal class FakeSource : EngineSource {
         override fun detach() = call("detach from $number")
 
         override fun draw(scene: Scene): Boolean {
-            call("draw ${names[scene]}")
+            call("draw ${name(scene)}")
             return !isSkipping
         }
 
-        override fun trim(kept: Scene?) = call("trim to ${names[kept]}")
+        override fun trim(kept: Scene?) = call("trim to ${kept?.let(::name)}")
 
         override fun close() = call("close $number")
     }
 
-    val names = HashMap<Scene?, String>()
+    private val names = HashMap<Scene, String>()
+
+    private fun name(scene: Scene) = names[scene] ?: "a scene"
 
     fun scene(name: String): Scene = Scene(emptyList()).also { names[it] = name }
 

@@ -43,6 +43,9 @@ internal class RenderThread(
     /** Whether an error has stopped it until something changes. */
     private var isStopped = false
 
+    /** Whether the thread is done, and touches nothing any more. */
+    private var hasEnded = false
+
     // Used by the thread alone.
     private var engine: Engine? = null
     private var losses = 0
@@ -124,7 +127,7 @@ internal class RenderThread(
 
     private fun awaitDetached() {
         if (Thread.currentThread() === thread) return
-        while ((attached != null || attaching != null) && thread.isAlive) changed.await()
+        while ((attached != null || attaching != null) && !hasEnded) changed.await()
     }
 
     private fun wanted(): Attached? =
@@ -170,6 +173,28 @@ internal class RenderThread(
     }
 
     private fun run() {
+        try {
+            loop()
+        } finally {
+            end()
+        }
+    }
+
+    /** Gives all up, also where an error of the virtual machine ends the thread, so that nobody waits for it. */
+    private fun end() {
+        try {
+            engine?.close()
+            engine = null
+            source.survived()
+        } finally {
+            lock.withLock {
+                hasEnded = true
+                changed.signalAll()
+            }
+        }
+    }
+
+    private fun loop() {
         while (true) {
             val (work, seen) = lock.withLock { next() to changes }
             if (work == Work.End) break
@@ -186,10 +211,6 @@ internal class RenderThread(
                 stop(e, seen)
             }
         }
-        engine?.close()
-        engine = null
-        source.survived()
-        lock.withLock { changed.signalAll() }
     }
 
     private fun perform(work: Work) {

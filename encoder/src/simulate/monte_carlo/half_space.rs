@@ -1,0 +1,219 @@
+//! Runs in a homogeneous half-space, many packets at once.
+
+use pulp::NullaryFnOnce;
+
+use super::lanes::{LANES, Lanes, NEVER, Phase};
+use super::request::{Request, Sums};
+use super::score::{Event, Quantity};
+use super::stack::Source;
+use crate::simulate::fresnel;
+
+/// Collisions that roulette waits for at most, whatever a packet weighs.
+const COLLISIONS: f64 = 16_384.0;
+
+/// Chance to survive roulette of light packets, as in MCML.
+const SURVIVAL: f32 = 0.1;
+
+/// Depth below which packets play roulette, in decay lengths of diffuse light: of what is deeper, little comes back.
+const DEEP: f32 = 2.0;
+
+/// Groups of lanes that move in turns: one waits for its results while another is computed.
+const GROUPS: usize = 4;
+
+/// What of a run all its packets share.
+pub(super) struct HalfSpace<'a> {
+    request: &'a Request,
+    /// η of the medium by that above.
+    eta: f64,
+    /// Mean free path in mm.
+    path_mm: f64,
+    /// ln a = ln(σ_s / σ_t).
+    ln_albedo: f64,
+    /// Weight with which packets enter.
+    entering: f64,
+    /// Collisions before a packet first plays roulette, and between one time and the next.
+    roulette: [u32; 2],
+    /// Decay length of diffuse light L = 1 / √(3 σ_a σ_t') in mean free paths, at least 1.
+    decay: f32,
+    phase: Phase,
+}
+
+impl<'a> HalfSpace<'a> {
+    /// Of a run of that kind whose scores are of what leaves; `None` for all others.
+    pub(super) fn of(request: &'a Request) -> Option<Self> {
+        let [layer] = request.stack.layers[..] else { return None };
+        let leaves = |quantity| matches!(quantity, Quantity::Reflected | Quantity::Transmitted);
+        let suits = layer.thickness_mm.is_infinite()
+            && layer.sigma_s > 0.0
+            && request.source == (Source::Pencil { z_mm: 0.0 })
+            && request.scores.iter().all(|score| leaves(score.quantity) && !score.axes.t);
+        if !suits {
+            return None;
+        }
+        let ln_albedo = (layer.sigma_s / layer.sigma_t()).ln();
+        // a^n < threshold, and a tenth of that each time it survived.
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most COLLISIONS, at least 1")]
+        let collisions = |ln_weight: f64| (ln_weight / ln_albedo).clamp(1.0, COLLISIONS).ceil() as u32;
+        // In mean free paths, σ_a = 1 − a and σ_t' = 1 − a g.
+        let albedo = ln_albedo.exp();
+        let decay = (3.0 * (1.0 - albedo) * (1.0 - albedo * layer.g)).sqrt().recip();
+        Some(Self {
+            request,
+            eta: layer.eta / request.stack.eta_above,
+            path_mm: 1.0 / layer.sigma_t(),
+            ln_albedo,
+            entering: 1.0 - request.stack.specular(),
+            roulette: [collisions(request.threshold.ln()), collisions(f64::from(SURVIVAL).ln())],
+            #[allow(clippy::cast_possible_truncation, reason = "lanes are of single precision")]
+            decay: decay.clamp(1.0, 1e6) as f32,
+            #[allow(clippy::cast_possible_truncation, reason = "lanes are of single precision")]
+            phase: Phase { g: layer.g as f32 },
+        })
+    }
+
+    /// Traces the packets from `first` to before `end`.
+    pub(super) fn trace(&self, first: u64, end: u64, sums: &mut Sums) {
+        let mut block = Block::new(self, first, end);
+        pulp::Arch::new().dispatch(Trace { of: self, block: &mut block, sums });
+    }
+
+    /// Takes a packet that hopped above the surface back to it: it is reflected and goes on with the rest of its hop, or leaves.
+    /// Whether it left.
+    fn surface(&self, lanes: &mut Lanes, lane: usize, sums: &mut Sums) -> bool {
+        let [x, y, z] = [0, 1, 2].map(|axis| lanes.position[axis][lane]);
+        let [ux, uy, uz] = [0, 1, 2].map(|axis| lanes.direction[axis][lane]);
+        let cosine = f64::from(-uz).min(1.0);
+        let reflectance = fresnel::reflectance(self.eta, cosine);
+        if f64::from(lanes.uniform(lane)) < reflectance {
+            // The rest of the hop, mirrored.
+            lanes.position[2][lane] = -z;
+            lanes.direction[2][lane] = -uz;
+            return false;
+        }
+        // Back along the hop, by as much as it went too far.
+        let back = z / uz;
+        let [x, y] = [x - back * ux, y - back * uy].map(f64::from);
+        let weight =
+            self.entering * (self.ln_albedo * f64::from(lanes.collisions[lane])).exp() * f64::from(lanes.factor[lane]);
+        let refracted = (1.0 - self.eta * self.eta * (1.0 - cosine * cosine)).max(0.0).sqrt();
+        let event = Event { r_mm: x.hypot(y) * self.path_mm, z_mm: 0.0, cosine: refracted, t_ps: 0.0 };
+        sums.leave(Quantity::Reflected, false, &event, weight);
+        true
+    }
+}
+
+/// Packets side by side, and those that wait for a lane.
+struct Block {
+    groups: [Lanes; GROUPS],
+    /// Lanes with packets: the first ones.
+    alive: usize,
+    next: u64,
+    end: u64,
+}
+
+/// Traces the packets of a block until none is left: compiled for each set of vector instructions.
+struct Trace<'a> {
+    of: &'a HalfSpace<'a>,
+    block: &'a mut Block,
+    sums: &'a mut Sums,
+}
+
+impl NullaryFnOnce for Trace<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { of, block, sums } = self;
+        while block.alive > 0 {
+            // From the last: packets that move into emptied lanes have had their turn.
+            for group in (0..block.alive.div_ceil(LANES)).rev() {
+                if block.groups[group].turn_and_hop(of.phase) {
+                    block.look_at(of, group, sums);
+                }
+            }
+        }
+    }
+}
+
+impl Block {
+    fn new(of: &HalfSpace, first: u64, end: u64) -> Self {
+        let mut block = Self { groups: [Lanes::new(); GROUPS], alive: GROUPS * LANES, next: first, end };
+        for lane in (0..GROUPS * LANES).rev() {
+            block.refill(of, lane / LANES, lane % LANES);
+        }
+        block
+    }
+
+    /// The next packet into a lane; if there is none, that of the last lane.
+    fn refill(&mut self, of: &HalfSpace, group: usize, lane: usize) {
+        if self.next < self.end {
+            self.groups[group].start(lane, of.request.seed_of(self.next));
+            self.groups[group].roulette_at[lane] = of.roulette[0];
+            self.groups[group].roulette_below[lane] = DEEP * of.decay;
+            self.next += 1;
+            return;
+        }
+        self.alive -= 1;
+        let last = self.groups[self.alive / LANES];
+        self.groups[group].take(lane, &last, self.alive % LANES);
+    }
+
+    /// What happens to packets of a group that may have come to the surface or to roulette.
+    #[inline(never)]
+    fn look_at(&mut self, of: &HalfSpace, group: usize, sums: &mut Sums) {
+        for lane in (0..LANES.min(self.alive - group * LANES)).rev() {
+            let lanes = &mut self.groups[group];
+            let mut ended = lanes.position[2][lane] < 0.0 && of.surface(lanes, lane, sums);
+            if !ended && lanes.collisions[lane] >= lanes.roulette_at[lane] {
+                lanes.roulette_at[lane] = lanes.roulette_at[lane].saturating_add(of.roulette[1]).min(NEVER);
+                lanes.factor[lane] /= SURVIVAL;
+                ended = lanes.uniform(lane) >= SURVIVAL;
+            }
+            // One packet in two survives, each time that it is deeper by what halves diffuse light.
+            while !ended && lanes.position[2][lane] > lanes.roulette_below[lane] {
+                lanes.roulette_below[lane] += of.decay * std::f32::consts::LN_2;
+                lanes.factor[lane] *= 2.0;
+                ended = lanes.uniform(lane) >= 0.5;
+            }
+            if ended {
+                self.refill(of, group, lane);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::monte_carlo::{Grid, Outcome, Stack};
+
+    #[test]
+    fn instructions_of_the_processor_change_nothing() {
+        let stack = Stack::half_space(1.4, 0.3, 3.0, 0.6);
+        let grid = Grid { dr_mm: 0.1, nr: 20, na: 4, dz_mm: 1.0, nz: 1, dt_ps: 1.0, nt: 1 };
+        let source = Source::Pencil { z_mm: 0.0 };
+        let request = Request {
+            stack,
+            source,
+            grid,
+            scores: vec![],
+            packets: 5_000,
+            threshold: 1e-4,
+            seed: 1,
+            ballistic_apart: false,
+        };
+        let of = HalfSpace::of(&request).unwrap();
+        let outcome = |trace: &dyn Fn(&mut Sums)| {
+            let mut sums = Sums::new(&request);
+            trace(&mut sums);
+            sums.packets = request.packets;
+            Outcome::new(&request, sums, true)
+        };
+        let dispatched = outcome(&|sums| of.trace(0, request.packets, sums));
+        let baseline = outcome(&|sums| Trace { of: &of, block: &mut Block::new(&of, 0, request.packets), sums }.call());
+        let halves =
+            outcome(&|sums| [0..1_777, 1_777..5_000].into_iter().for_each(|part| of.trace(part.start, part.end, sums)));
+        assert!(dispatched == baseline, "{dispatched:?}, without vectors {baseline:?}");
+        assert!(dispatched == halves, "{dispatched:?}, in two batches {halves:?}");
+    }
+}
