@@ -43,6 +43,8 @@ fn charts_are_few_and_large() {
         for triangle in 0..labels.len() {
             *areas.entry(top(&mut root, triangle)).or_default() += surface.areas[triangle];
         }
+        // Triangles at poles are lines.
+        areas.retain(|_, area| *area > 0.0);
         let total: f32 = areas.values().sum();
         assert!((6..=most).contains(&areas.len()), "{} charts", areas.len());
         let least = areas.values().copied().fold(f32::INFINITY, f32::min);
@@ -58,8 +60,8 @@ fn neighbours_of_different_sides_are_blended() {
     for [a, b, c] in &mesh.triangles {
         for [a, b] in [[a, b], [b, c], [c, a]] {
             let [a, b] = [a, b].map(|&k| sides[k as usize].shares());
-            // Sides change by steps, and only where each has a share.
-            assert!((a - b).abs().max_element() < 0.5, "{a} beside {b}");
+            // Edges are about as long as the width: from one side to the other in two steps at least.
+            assert!((a - b).abs().max_element() < 0.75, "{a} beside {b}");
             blended += usize::from(a.abs().max_element() < 0.99);
         }
     }
