@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use subsurf_runtime::{Backend, RuntimeOptions};
-use subsurf_scene::Environment;
 use subsurf_viewer::{
-    BtfImageSet, Config, DrawnMaterial, Error, Host, KEYS, LoadImages, Picture, Scattering, Viewer, event_loop, parse,
-    read,
+    BtfImageSet, Config, DrawnMaterial, Error, Host, KEYS, LoadImages, Picture, Scattering, Set, Viewer, event_loop,
+    parse, read,
 };
 
 use crate::devices::check_picture;
@@ -16,7 +15,7 @@ use crate::options::{ByteCount, Size};
 use crate::outln;
 use crate::picture::{check_picture_target, image, write_picture};
 use crate::program::failure::{NoDisplay, line};
-use crate::render::{BtfArgs, Copies, MappingArg, TechniqueArg, UpArg, read_environment};
+use crate::render::{BtfArgs, Copies, MappingArg, SceneArg, TechniqueArg, UpArg, read_environment};
 
 /// Look at materials on a mesh in a window: turn it, drag the light, switch techniques, see the error; BTFs beside their images.
 #[derive(clap::Args)]
@@ -34,6 +33,9 @@ pub(crate) struct Args {
     /// Which way is up in the mesh
     #[arg(long, value_enum, default_value = "y")]
     up: UpArg,
+    /// What stands around the mesh, and from where both are lit and seen
+    #[arg(long, value_enum, default_value = "hero")]
+    scene: SceneArg,
     /// Where the material lies on the mesh
     #[arg(long, value_enum, default_value = "auto")]
     mapping: MappingArg,
@@ -43,7 +45,7 @@ pub(crate) struct Args {
     /// Begin with ten times the difference to the gather, or of a BTF to its images
     #[arg(long)]
     error: bool,
-    /// Light from all around: an equirectangular picture (.hdr, .exr, .png, .jpg ..)
+    /// Light from all around: an equirectangular picture (.hdr, .exr, .png, .jpg ..); the scene's if not given
     #[arg(long, value_name = "FILE")]
     environment: Option<PathBuf>,
     /// Pixels of the window
@@ -110,12 +112,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 impl Args {
     fn config(&self) -> anyhow::Result<Config> {
         let usual = subsurf_viewer::options();
+        let set = Set::from(self.scene);
         Ok(Config {
             files: self.files.clone(),
             material: self.btf.material.clone(),
             mesh: self.mesh.clone(),
             extent_mm: self.extent,
             up: self.up.into(),
+            set,
             mapping: self.mapping.into(),
             technique: match self.technique {
                 Some(technique) => technique.into(),
@@ -126,7 +130,7 @@ impl Args {
             images: self.btf.images.clone().map(load_images),
             environment: match &self.environment {
                 Some(path) => read_environment(path)?,
-                None => Environment::studio(),
+                None => set.environment(),
             },
             size: self.size.0,
             backends: match self.backend {
@@ -137,6 +141,7 @@ impl Args {
                 Api::Gl => vec![Backend::Gl],
             },
             options: RuntimeOptions {
+                light_texels: set.light_texels(),
                 budget_bytes: self.budget.map(|budget| budget.0),
                 btf: self.btf.options(usual.btf),
                 ..usual

@@ -26,7 +26,7 @@ pub use light::{
 };
 pub use mapping::{BoxPlaces, BoxSides, Mapping};
 pub use mean_profile::MeanProfile;
-pub use mesh::{BoundingSphere, Mesh, bowl, drapery, knot, relief, sphere, torus};
+pub use mesh::{BoundingSphere, Mesh, bowl, drapery, knot, plate, relief, sphere, torus};
 pub use placement::Placement;
 pub use points::{PointGrid, SurfacePoints};
 pub use read::{LoadedMesh, MESH_EXTENSIONS, SHAPES, UpAxis, load_mesh};

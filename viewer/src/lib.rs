@@ -7,6 +7,7 @@ mod asset;
 mod error;
 mod file;
 mod request;
+mod set;
 mod units;
 mod window;
 
@@ -16,6 +17,7 @@ pub use asset::{
 };
 pub use error::{Error, Result, one_line};
 pub use file::{DrawnMaterial, material_number, parse, parse_btf, read, stem};
-pub use request::{Angles, DEFAULT_LIGHT, ROUGHNESS, RenderRequest};
+pub use request::{Angles, ROUGHNESS, RenderRequest};
+pub use set::Set;
 pub use units::human;
 pub use window::{Config, Event, Host, KEYS, LoadImages, Picture, Viewer, event_loop, options};

@@ -2,14 +2,12 @@
 
 use glam::Vec3;
 use subsurf_runtime::RuntimeOptions;
-use subsurf_scene::{Camera, Environment, Light, LightShape, Mesh, Scene, Shadow};
+use subsurf_scene::{BoundingSphere, Camera, Environment, Light, LightShape, Mesh, Scene, Shadow};
 
-/// Direction towards the usual light, not normalised: over the right shoulder.
-pub const DEFAULT_LIGHT: Vec3 = Vec3::new(0.9, 1.1, 0.35);
+use crate::set::Set;
+
 /// Roughness of the usual coat, 0 to 1: polished, but not a mirror.
 pub const ROUGHNESS: f32 = 0.25;
-/// Irradiance of the usual light on a plane that faces it, linear Rec. 709.
-const IRRADIANCE: [f32; 3] = [3.0, 2.9, 2.7];
 
 /// Position of the eye around a mesh, in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +20,8 @@ pub struct Angles {
 
 /// Picture of a mesh, as it is asked for.
 pub struct RenderRequest {
+    /// What stands around the mesh.
+    pub set: Set,
     /// Direction towards the light, of length 1.
     pub direction: Vec3,
     /// Light from all around.
@@ -39,46 +39,56 @@ pub struct RenderRequest {
 }
 
 impl RenderRequest {
-    /// The usual light, surroundings and eye, in a picture of `size` pixels.
+    /// A mesh alone in the studio, in a picture of `size` pixels.
     #[must_use]
     pub fn usual(size: [u32; 2]) -> Self {
+        Self::of(Set::Studio, size)
+    }
+
+    /// Light, surroundings and eye of a set, in a picture of `size` pixels.
+    #[must_use]
+    pub fn of(set: Set, size: [u32; 2]) -> Self {
         Self {
-            direction: DEFAULT_LIGHT.normalize(),
-            environment: Environment::studio(),
+            set,
+            direction: set.towards_light(),
+            environment: set.environment(),
             roughness: ROUGHNESS,
-            angles: Angles { around: 30.0, up: 15.0 },
+            angles: set.angles(),
             size,
             exposure: None,
-            options: RuntimeOptions::default(),
+            options: RuntimeOptions { light_texels: set.light_texels(), ..RuntimeOptions::default() },
         }
     }
 
-    /// The scene in which a mesh fills the picture.
+    /// The scene in which a mesh fills the picture; of its ground, which [`Set::with_ground`] adds, as much as there is room for.
     #[must_use]
     pub fn scene(&self, mesh: &Mesh) -> Scene {
+        self.scene_around(&mesh.bounding_sphere())
+    }
+
+    /// The scene in which a sphere fills the picture.
+    pub(crate) fn scene_around(&self, bounds: &BoundingSphere) -> Scene {
         Scene {
             lights: vec![Light {
                 shape: LightShape::Directional { towards: self.direction },
-                irradiance: IRRADIANCE,
+                irradiance: self.set.irradiance(),
                 shadow: Shadow::Drawn,
             }],
             environment: self.environment.clone(),
             roughness: self.roughness,
-            camera: framed(mesh, self.angles, self.size),
+            camera: framed(&self.set.framed(bounds), self.angles, self.size),
         }
     }
 }
 
-/// A view in which the mesh fills a picture of `size`.
-fn framed(mesh: &Mesh, angles: Angles, size: [u32; 2]) -> Camera {
+/// A view in which a sphere fills a picture of `size`.
+fn framed(bounds: &BoundingSphere, angles: Angles, size: [u32; 2]) -> Camera {
     const ANGLE: f32 = 0.5;
-    let [low, high] = mesh.bounds();
-    let target_mm = 0.5 * (low + high);
+    let target_mm = bounds.centre_mm;
     let (around, up) = (angles.around.to_radians(), angles.up.to_radians());
     let towards = Vec3::new(up.cos() * around.sin(), up.sin(), up.cos() * around.cos());
-    let radius = mesh.positions.iter().map(|position| position.distance(target_mm)).fold(0.0, f32::max);
     #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
     let aspect = (size[0] as f32 / size[1] as f32).min(1.0);
-    let distance = 1.02 * radius / (0.5 * ANGLE).sin() / aspect;
+    let distance = 1.02 * bounds.radius_mm / (0.5 * ANGLE).sin() / aspect;
     Camera { eye_mm: target_mm + distance * towards, target_mm, fov_y_rad: ANGLE, exposure: 1.0 }
 }

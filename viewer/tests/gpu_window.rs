@@ -9,7 +9,7 @@ use subsurf_scene::{Environment, UpAxis, torus};
 use subsurf_tests::drawable;
 use subsurf_tests::meshes::write_obj;
 use subsurf_tests::program::under_display;
-use subsurf_viewer::{Config, Error, Event, Host, MappingChoice, Picture, Scattering, Viewer, options};
+use subsurf_viewer::{Config, Error, Event, Host, MappingChoice, Picture, Scattering, Set, Viewer, options};
 use winit::event_loop::EventLoop;
 use winit::platform::x11::EventLoopBuilderExtX11 as _;
 
@@ -60,6 +60,7 @@ fn draw(bytes: &[u8], backend: Backend) {
         mesh,
         extent_mm: 60.0,
         up: UpAxis::Y,
+        set: Set::Studio,
         mapping: MappingChoice::Auto,
         technique: Scattering::Separable,
         shows_error: false,

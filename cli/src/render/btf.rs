@@ -13,7 +13,7 @@ use super::exposure::{SUPERSAMPLING, average_down};
 use crate::images::FolderImages;
 use crate::picture::montage;
 
-/// Draws a mesh made of a BTF; where there are images, which need a device, they come second.
+/// Draws a mesh made of a BTF, with the ground of its set; where there are images, which need a device, they come second.
 pub(crate) fn draw_btf(
     gpu: Option<&Gpu>,
     btf: &NestedBtf<'_>,
@@ -28,6 +28,7 @@ pub(crate) fn draw_btf(
     let options = RuntimeOptions { btf: args.options(request.options.btf), ..request.options };
     let large = request.size.map(|side| side * SUPERSAMPLING);
     let mut scene = request.scene(mesh);
+    let mesh = &*request.set.with_ground(mesh);
     let mut facts = Map::new();
     facts.insert("size".to_owned(), json!(request.size));
     facts.insert("triangles".to_owned(), json!(mesh.triangles.len()));

@@ -12,7 +12,7 @@ use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scatter
 
 use super::exposure::{BRIGHT, SUPERSAMPLING, average_down, exposure_for};
 
-/// Draws a mesh made of the material; without a device, by the reference technique only.
+/// Draws a mesh made of the material, with the ground of its set; without a device, by the reference technique only.
 pub(crate) fn draw_mesh(
     gpu: Option<&Gpu>,
     material: &Bssrdf<'_>,
@@ -24,6 +24,7 @@ pub(crate) fn draw_mesh(
     let mapping = choose_mapping(mesh, mapping, material)?;
     let large = request.size.map(|side| side * SUPERSAMPLING);
     let mut scene = request.scene(mesh);
+    let mesh = &*request.set.with_ground(mesh);
     let mut facts = Map::new();
     facts.insert("size".to_owned(), json!(request.size));
     facts.insert("triangles".to_owned(), json!(mesh.triangles.len()));

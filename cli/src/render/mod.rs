@@ -14,14 +14,14 @@ use image::RgbImage;
 use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::bssrdf::Light;
-use subsurf_runtime::{RuntimeOptions, TargetFormat};
-use subsurf_scene::{Environment, Mesh, load_mesh};
-use subsurf_viewer::{DEFAULT_LIGHT, DrawnMaterial, ROUGHNESS, RenderRequest, Scattering, human, parse, read};
+use subsurf_runtime::TargetFormat;
+use subsurf_scene::{Mesh, load_mesh};
+use subsurf_viewer::{DrawnMaterial, RenderRequest, Scattering, Set, human, parse, read};
 
 use crate::devices::{self, BackendArg, check_picture};
 use crate::options::Size;
 use crate::outln;
-use crate::picture::{check_picture_target, write_picture};
+use crate::picture::{check_picture_target, montage, write_picture};
 use crate::program::failure::bad_request;
 use crate::program::warnings::warn;
 use btf::draw_btf;
@@ -29,12 +29,12 @@ use options::{AnglesArg, LightArg};
 
 pub(crate) use btf_args::{BtfArgs, Copies};
 pub(crate) use mesh::draw_mesh;
-pub(crate) use options::{MappingArg, TechniqueArg, UpArg, read_environment};
+pub(crate) use options::{MappingArg, SceneArg, TechniqueArg, UpArg, read_environment};
 pub(crate) use patch::{draw_patch, patch_irradiance};
 
 /// Draw a material: a translucent one flat or on a mesh, by the reference technique or by a fast one; a BTF on a mesh.
 #[derive(clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, group(clap::ArgGroup::new("surface").multiple(true)))]
 pub(crate) struct Args {
     /// The .subsurf file
     file: PathBuf,
@@ -42,37 +42,41 @@ pub(crate) struct Args {
     #[arg(long, short)]
     output: PathBuf,
     /// Draw it on this mesh: a file (.obj, .ply, .stl, .off, .glb, .gltf), or one of knot, bowl, drapery, relief, sphere,
-    /// torus; a BTF on the knot if not given
-    #[arg(long, value_name = "FILE|SHAPE")]
+    /// torus; a BTF, and anything in a --scene, on the knot if not given
+    #[arg(long, value_name = "FILE|SHAPE", group = "surface")]
     mesh: Option<PathBuf>,
+    /// What stands around the mesh, and from where both are lit and seen; studio if not given
+    #[arg(long, value_enum, value_name = "NAME", group = "surface")]
+    scene: Option<SceneArg>,
     /// Longest side of the mesh in mm: a translucent material has its real size
-    #[arg(long, default_value_t = 60.0, value_name = "MM", requires = "mesh")]
+    #[arg(long, default_value_t = 60.0, value_name = "MM", requires = "surface")]
     extent: f32,
-    /// How light scatters in a translucent material; gather if not given
-    #[arg(long, value_enum)]
-    technique: Option<TechniqueArg>,
-    /// Light from all around: an equirectangular picture (.hdr, .exr, .png, .jpg ..); a dim studio if not given
-    #[arg(long, value_name = "FILE", requires = "mesh")]
+    /// How light scatters in a translucent material; of several, separated by commas, the pictures stand side by side, all of the
+    /// exposure of the first; gather if not given
+    #[arg(long, value_enum, value_delimiter = ',')]
+    technique: Vec<TechniqueArg>,
+    /// Light from all around: an equirectangular picture (.hdr, .exr, .png, .jpg ..); the scene's if not given
+    #[arg(long, value_name = "FILE", requires = "surface")]
     environment: Option<PathBuf>,
     /// How rough the coat of a translucent material is that reflects it, 0 to 1; 0.25 if not given
-    #[arg(long, requires = "mesh")]
+    #[arg(long, requires = "surface")]
     roughness: Option<f32>,
     /// Which way is up in the mesh
-    #[arg(long, value_enum, default_value = "y", requires = "mesh")]
+    #[arg(long, value_enum, default_value = "y", requires = "surface")]
     up: UpArg,
     /// Where the material lies on the mesh
-    #[arg(long, value_enum, default_value = "auto", requires = "mesh")]
+    #[arg(long, value_enum, default_value = "auto", requires = "surface")]
     mapping: MappingArg,
-    /// From where the mesh is seen: degrees around, degrees up
-    #[arg(long, default_value = "30,15", value_name = "AROUND,UP", requires = "mesh", allow_hyphen_values = true)]
-    view: AnglesArg,
-    /// uniform, disc or line on a patch; a direction X,Y,Z towards the light on a mesh
+    /// From where the mesh is seen: degrees around, degrees up; 30,15 in the studio
+    #[arg(long, value_name = "AROUND,UP", requires = "surface", allow_hyphen_values = true)]
+    view: Option<AnglesArg>,
+    /// uniform, disc or line on a patch; a direction X,Y,Z towards the light on a mesh; the scene's if not given
     #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
     light: Option<LightArg>,
     /// What to multiply light by before tone mapping; chosen from the picture if not given
     #[arg(long)]
     exposure: Option<f32>,
-    /// Pixels of the picture
+    /// Pixels of the picture, of each if there are several
     #[arg(long, default_value = "960x720", value_name = "WxH")]
     size: Size,
     /// What draws
@@ -89,6 +93,8 @@ const EXAMPLES: &str = "\
 Examples:
   subsurf render jade.subsurf -o patch.png --light line
   subsurf render jade.subsurf -o bunny.png --mesh bunny.ply --technique separable
+  subsurf render jade.subsurf -o jade.png --scene hero --technique separable
+  subsurf render jade.subsurf -o both.png --scene hero --mesh bowl --technique separable,gather
   subsurf render leather.subsurf -o leather.png
   subsurf render leather.subsurf -o sofa.png --mesh sofa.glb --repeat 8 --environment room.hdr --samples 32
   subsurf render leather.subsurf -o both.png --images leather/        the file and the images, side by side";
@@ -115,8 +121,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 Some(_) => Some(args.backend.open_device("--images are drawn by devices only")?),
                 None => args.backend.open()?,
             };
-            let shape = args.mesh.as_deref().unwrap_or(Path::new(BTF_SHAPE));
-            let mesh = args.load_mesh(shape)?;
+            let mesh = args.load_mesh(args.mesh.as_deref().unwrap_or(Path::new(USUAL_SHAPE)))?;
             let (picture, facts) = draw_btf(gpu.as_ref(), &btf, &mesh, &args.btf, &args.request()?)?;
             (picture, facts, devices::name(gpu.as_ref()))
         }
@@ -140,37 +145,61 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What a BTF is drawn on if nothing is said.
-const BTF_SHAPE: &str = "knot";
+/// What a BTF, or whatever stands in a set, is drawn on if nothing is said.
+const USUAL_SHAPE: &str = "knot";
 
-/// A translucent material, flat or on a mesh; and what drew it.
+/// A translucent material, flat or on a mesh, by each technique that is asked for; and what drew it.
 fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, Map<String, Value>, String)> {
     args.btf.expect_none()?;
-    let technique = Scattering::from(args.technique.unwrap_or(TechniqueArg::Gather));
-    let is_separable = matches!(technique, Scattering::Separable | Scattering::Homogeneous);
-    let mut gpu = if args.mesh.is_some() && technique != Scattering::Gather {
+    let mut techniques: Vec<Scattering> = args.technique.iter().copied().map(Into::into).collect();
+    if techniques.is_empty() {
+        techniques.push(Scattering::Gather);
+    }
+    let mesh = match (args.mesh.as_deref(), args.scene) {
+        (None, None) => None,
+        (shape, _) => Some(args.load_mesh(shape.unwrap_or(Path::new(USUAL_SHAPE)))?),
+    };
+    let blurs = |technique: &Scattering| !matches!(technique, Scattering::Gather | Scattering::Splat);
+    let mut gpu = if mesh.is_some() && techniques.iter().any(|technique| *technique != Scattering::Gather) {
         Some(args.backend.open_device("the CPU draws meshes by --technique gather only")?)
     } else {
         args.backend.open()?
     };
     let is_short_of_halves = gpu.as_ref().is_some_and(|gpu| gpu.target_format() == TargetFormat::Packed);
-    if is_short_of_halves && is_separable && args.mesh.is_none() && args.backend == BackendArg::Auto {
+    if is_short_of_halves && techniques.iter().any(blurs) && mesh.is_none() && args.backend == BackendArg::Auto {
         // The CPU does what the device cannot.
         gpu = None;
     }
-    let flat = |light| draw_patch(gpu.as_ref(), material, technique, light, args.size.0, args.exposure);
-    let (picture, facts) = match (&args.mesh, args.light) {
-        (None, None) => flat(Light::Disc)?,
-        (None, Some(LightArg::Pattern(light))) => flat(light)?,
+    let gpu = gpu.as_ref();
+    let light = match (&mesh, args.light) {
+        (None, Some(LightArg::Pattern(light))) => light,
         (None, Some(LightArg::Direction(_))) => {
             return Err(bad_request("--light X,Y,Z is for meshes; on a patch it is uniform, disc or line"));
         }
-        (Some(shape), _) => {
-            let mesh = args.load_mesh(shape)?;
-            draw_mesh(gpu.as_ref(), material, &mesh, args.mapping.into(), technique, &args.request()?)?
-        }
+        _ => Light::Disc,
     };
-    Ok((picture, facts, devices::name(gpu.as_ref())))
+    let mut exposure = args.exposure;
+    let (mut pictures, mut first) = (Vec::new(), Map::new());
+    for technique in techniques {
+        let (picture, facts) = match &mesh {
+            None => draw_patch(gpu, material, technique, light, args.size.0, exposure)?,
+            Some(mesh) => {
+                let request = RenderRequest { exposure, ..args.request()? };
+                draw_mesh(gpu, material, mesh, args.mapping.into(), technique, &request)?
+            }
+        };
+        if pictures.is_empty() {
+            #[allow(clippy::cast_possible_truncation, reason = "it was of single precision")]
+            let chosen = facts.get("exposure").and_then(Value::as_f64).map(|exposure| exposure as f32);
+            (exposure, first) = (chosen, facts);
+        }
+        pictures.push(picture);
+    }
+    let picture = match pictures.len() {
+        1 => pictures.swap_remove(0),
+        _ => montage(&[pictures]),
+    };
+    Ok((picture, first, devices::name(gpu)))
 }
 
 impl Args {
@@ -185,9 +214,10 @@ impl Args {
 
     /// The picture of a mesh that is asked for.
     fn request(&self) -> anyhow::Result<RenderRequest> {
+        let usual = RenderRequest::of(self.scene.map(Set::from).unwrap_or_default(), self.size.0);
         Ok(RenderRequest {
             direction: match self.light {
-                None => DEFAULT_LIGHT.normalize(),
+                None => usual.direction,
                 Some(LightArg::Direction(direction)) => direction,
                 Some(LightArg::Pattern(_)) => {
                     return Err(bad_request(
@@ -197,20 +227,19 @@ impl Args {
             },
             environment: match &self.environment {
                 Some(path) => read_environment(path)?,
-                None => Environment::studio(),
+                None => usual.environment,
             },
-            roughness: self.roughness.unwrap_or(ROUGHNESS),
-            angles: self.view.0,
-            size: self.size.0,
+            roughness: self.roughness.unwrap_or(usual.roughness),
+            angles: self.view.map_or(usual.angles, |AnglesArg(angles)| angles),
             exposure: self.exposure,
-            options: RuntimeOptions::default(),
+            ..usual
         })
     }
 
     /// Refuses options that say nothing to a BTF.
     fn refuse_scattering(&self) -> anyhow::Result<()> {
         let given = [
-            ("--technique", self.technique.is_some()),
+            ("--technique", !self.technique.is_empty()),
             ("--roughness", self.roughness.is_some()),
             ("--mapping box", self.mapping == MappingArg::Box),
         ];

@@ -7,7 +7,7 @@ use glam::Vec3;
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_encoder::picture::Picture;
 use subsurf_scene::{Environment, UpAxis};
-use subsurf_viewer::{Angles, MappingChoice, Scattering};
+use subsurf_viewer::{Angles, MappingChoice, Scattering, Set};
 
 use crate::program::failure::bad_request;
 use crate::program::warnings::warn;
@@ -23,6 +23,8 @@ pub(crate) enum TechniqueArg {
     Separable,
     /// The same with one mean profile everywhere, as if the material were not heterogeneous; for comparison
     Homogeneous,
+    /// Light leaves where it enters, as if the material were opaque; for comparison
+    Opaque,
 }
 
 /// Where a translucent material lies on a mesh.
@@ -43,6 +45,7 @@ impl From<TechniqueArg> for Scattering {
             TechniqueArg::Splat => Self::Splat,
             TechniqueArg::Separable => Self::Separable,
             TechniqueArg::Homogeneous => Self::Homogeneous,
+            TechniqueArg::Opaque => Self::Opaque,
         }
     }
 }
@@ -53,6 +56,24 @@ impl From<MappingArg> for MappingChoice {
             MappingArg::Auto => Self::Auto,
             MappingArg::Uv => Self::Uv,
             MappingArg::Box => Self::Box,
+        }
+    }
+}
+
+/// What stands around a mesh, and from where both are lit and seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum SceneArg {
+    /// The mesh alone, lit over the right shoulder in a dim studio
+    Studio,
+    /// The mesh on a plate of the same material, lit from behind on a dark stage
+    Hero,
+}
+
+impl From<SceneArg> for Set {
+    fn from(arg: SceneArg) -> Self {
+        match arg {
+            SceneArg::Studio => Self::Studio,
+            SceneArg::Hero => Self::Hero,
         }
     }
 }

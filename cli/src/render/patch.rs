@@ -48,7 +48,7 @@ pub(crate) fn draw_patch(
                     let uploaded = BssrdfPlanes::upload(gpu, material)?;
                     (renderer.gather(gpu, &uploaded, &light, whole)?, uploaded.gpu_bytes())
                 }
-                Scattering::Separable | Scattering::Homogeneous => {
+                Scattering::Separable | Scattering::Homogeneous | Scattering::Opaque => {
                     let uploaded = Load::separable(gpu, material, &numbers(material, technique)?)?.finish()?;
                     let renderer = SeparableRenderer::new(gpu, uploaded.terms())?;
                     let patch = renderer.prepare(gpu, &uploaded, &light)?;
@@ -68,7 +68,9 @@ pub(crate) fn draw_patch(
             let exitance = match technique {
                 Scattering::Splat => return Err(no_splats()),
                 Scattering::Gather => cpu::gather(material, &irradiance, whole.origin, whole.size),
-                Scattering::Separable | Scattering::Homogeneous => basis(material, technique)?.exitance(&irradiance),
+                Scattering::Separable | Scattering::Homogeneous | Scattering::Opaque => {
+                    basis(material, technique)?.exitance(&irradiance)
+                }
             };
             let exposure = exposure.unwrap_or_else(|| exposure_for(exitance.iter()));
             facts.insert("exposure".to_owned(), json!(exposure));

@@ -82,6 +82,32 @@ fn draws_on_everything_there_is() {
     assert!(!folder.join("x.png").exists(), "nothing is drawn");
 }
 
+/// A mesh stands on the ground of its set; techniques stand side by side at one exposure.
+#[test]
+fn sets_have_ground_and_techniques_stand_side_by_side() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    simulate(folder, "a");
+    succeed(folder, "encode a.npy -M 4");
+    // A tetrahedron that stands on a corner.
+    std::fs::write(folder.join("t.obj"), "v 0 0 0\nv 1 1 0\nv -1 1 0\nv 0 1 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+        .unwrap();
+    let command = "render a.subsurf --mesh t.obj --extent 6 --size 60x50 --backend vulkan --json";
+    let report = json(folder, &format!("{command} --scene hero --technique separable,opaque -o both.png"));
+    let alone = json(folder, &format!("{command} --technique separable -o alone.png"));
+    assert!(report["triangles"].as_u64() > alone["triangles"].as_u64(), "a mesh with its ground: {report}");
+    let both = image::open(folder.join("both.png")).unwrap().into_rgb8();
+    assert_eq!(both.dimensions(), (2 * 60 + 3 * 6, 50 + 2 * 6), "two pictures with a border");
+    // Below the mesh, in the middle of each picture.
+    for left in [6, 72] {
+        let ground = both.get_pixel(left + 30, 6 + 46).0;
+        assert!(ground.iter().any(|value| value.abs_diff(46) > 4), "{ground:?} is the background");
+    }
+    let differ = (0..60).filter(|x| both.get_pixel(6 + x, 31) != both.get_pixel(72 + x, 31)).count();
+    assert!(differ > 5, "{differ} pixels of a row differ: one of them scatters no light");
+    assert_refused(&run(folder, "render a.subsurf --roughness 0.1 -o x.png"), &["--mesh", "--scene"]);
+}
+
 #[test]
 fn without_a_driver_the_exit_code_says_so() {
     let folder = tempfile::tempdir().unwrap();

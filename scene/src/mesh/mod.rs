@@ -8,5 +8,5 @@ mod tangents;
 mod triangles;
 
 pub use bounds::BoundingSphere;
-pub use shapes::{bowl, drapery, knot, relief, sphere, torus};
+pub use shapes::{bowl, drapery, knot, plate, relief, sphere, torus};
 pub use triangles::Mesh;

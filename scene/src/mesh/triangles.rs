@@ -106,6 +106,38 @@ impl Mesh {
         }
     }
 
+    /// Length of the side of the texture's unit square on the surface in mm, from the areas of both; 0 where all texture
+    /// coordinates are on a line. `None` without texture coordinates.
+    #[must_use]
+    pub fn mm_per_uv(&self) -> Option<f32> {
+        let uvs = self.uvs.as_ref()?;
+        let (mut area_mm2, mut area_uv) = (0.0_f64, 0.0_f64);
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|k| self.positions[k as usize]);
+            let [ta, tb, tc] = triangle.map(|k| uvs[k as usize]);
+            area_mm2 += f64::from((b - a).cross(c - a).length());
+            area_uv += f64::from((tb - ta).perp_dot(tc - ta).abs());
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "a length of single precision")]
+        let mm = if area_uv > 0.0 { (area_mm2 / area_uv).sqrt() as f32 } else { 0.0 };
+        Some(mm)
+    }
+
+    /// This mesh and another as one, where both lie. It has texture coordinates if both have.
+    ///
+    /// # Panics
+    /// If they have more than 2³² vertices together.
+    #[must_use]
+    pub fn with(mut self, other: Self) -> Self {
+        let first = u32::try_from(self.positions.len()).expect("fewer than 2³² vertices");
+        self.positions.extend(other.positions);
+        self.normals.extend(other.normals);
+        self.uvs = self.uvs.zip(other.uvs).map(|(uvs, more)| [uvs, more].concat());
+        let number = |vertex: u32| vertex.checked_add(first).expect("fewer than 2³² vertices");
+        self.triangles.extend(other.triangles.into_iter().map(|triangle| triangle.map(number)));
+        self
+    }
+
     /// Area that each vertex stands for, a third of the triangles around it, in mm².
     #[must_use]
     pub fn vertex_areas(&self) -> Vec<f32> {

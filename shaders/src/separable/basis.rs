@@ -24,7 +24,7 @@ impl ProjectedBasis {
         Some(Self { coefficients: profile_sums(material, numbers.sums()), numbers })
     }
 
-    /// Numbers of the basis, those of the file but for [`Self::homogeneous`].
+    /// Numbers of the basis, those of the file but for [`Self::homogeneous`] and [`Self::opaque`].
     #[must_use]
     pub fn numbers(&self) -> &BasisNumbers {
         &self.numbers
@@ -58,6 +58,12 @@ impl ProjectedBasis {
             }
         }
         Self { numbers: self.numbers.with_weights(weights), coefficients: vec![vec![[1.0; 3]; pixels]] }
+    }
+
+    /// The same material with light that leaves where it enters: what a renderer draws that knows no scattering.
+    #[must_use]
+    pub fn opaque(&self) -> Self {
+        Self { numbers: self.numbers.opaque(), coefficients: self.coefficients.clone() }
     }
 
     /// Coefficients c_l of all pixels for one l, linear Rec. 709; shape `[height][width]`.

@@ -7,6 +7,9 @@ use subsurf_decoder::bssrdf::basis::{BasisSize, Cascade};
 use super::sums::ProfileSums;
 use crate::rgb::Rgb;
 
+/// Standard deviation in pixels of a Gaussian that spreads nothing to the next pixel.
+const POINT: f32 = 0.05;
+
 /// Numbers of a separable basis: what projects the profiles of pixels, Gaussians and their weights; lengths are in pixels of the
 /// patch.
 #[derive(Clone, Debug)]
@@ -44,6 +47,21 @@ impl BasisNumbers {
             sums: ProfileSums::one(),
             sigmas: self.sigmas.clone(),
             weights,
+        }
+    }
+
+    /// Numbers of a material like this one from which light leaves where it enters: one Gaussian so narrow that it spreads nothing,
+    /// with the weights of all.
+    #[must_use]
+    pub fn opaque(&self) -> Self {
+        let terms = self.size.terms;
+        let pairs = (0..terms).flat_map(|l| (0..terms).map(move |m| (l, m)));
+        let sum = |(l, m)| self.weights_of(l, m).iter().fold([0.0; 3], |sum, w| [0, 1, 2].map(|c| sum[c] + w[c]));
+        Self {
+            size: BasisSize { gaussians: 1, ..self.size },
+            sigmas: vec![POINT],
+            weights: pairs.map(sum).collect(),
+            ..self.clone()
         }
     }
 

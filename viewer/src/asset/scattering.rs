@@ -24,6 +24,8 @@ pub enum Scattering {
     Separable,
     /// The same with one mean profile everywhere, as if the material were not heterogeneous; for comparison.
     Homogeneous,
+    /// Light leaves where it enters, as much of it as of the translucent material; for comparison.
+    Opaque,
 }
 
 /// Translucent material and mesh as a technique needs them: what takes long to compute, and needs no device.
@@ -33,9 +35,18 @@ pub struct Asset {
 }
 
 enum Parts {
-    Gather { fine: Mesh, surface: SurfacePoints },
-    Splat { sky: Arc<Vec<AmbientTransfer>> },
-    Separable { sky: Arc<Vec<AmbientTransfer>>, numbers: BasisNumbers },
+    Gather {
+        fine: Mesh,
+        surface: SurfacePoints,
+    },
+    Splat {
+        sky: Arc<Vec<AmbientTransfer>>,
+    },
+    /// Without light from all around, each vertex is lit as open, flat ground is.
+    Separable {
+        sky: Option<Arc<Vec<AmbientTransfer>>>,
+        numbers: BasisNumbers,
+    },
 }
 
 impl Asset {
@@ -64,8 +75,9 @@ impl Asset {
             }
             Scattering::Splat => Parts::Splat { sky: sky()? },
             Scattering::Separable | Scattering::Homogeneous => {
-                Parts::Separable { numbers: numbers(material, technique)?, sky: sky()? }
+                Parts::Separable { numbers: numbers(material, technique)?, sky: Some(sky()?) }
             }
+            Scattering::Opaque => Parts::Separable { numbers: numbers(material, technique)?, sky: None },
         };
         Ok(Self { mapping, parts })
     }
@@ -74,7 +86,8 @@ impl Asset {
     #[must_use]
     pub fn sky(&self) -> Option<&Arc<Vec<AmbientTransfer>>> {
         match &self.parts {
-            Parts::Splat { sky } | Parts::Separable { sky, .. } => Some(sky),
+            Parts::Splat { sky } => Some(sky),
+            Parts::Separable { sky, .. } => sky.as_ref(),
             Parts::Gather { .. } => None,
         }
     }
@@ -84,8 +97,8 @@ impl Asset {
     /// # Errors
     /// The device cannot draw it, or has no room for it.
     pub fn upload(&self, gpu: &Gpu, material: &Bssrdf<'_>, mesh: &Mesh) -> Result<GpuAsset> {
-        let shared = |sky: &[AmbientTransfer]| {
-            GpuMesh::upload(gpu, mesh, VertexData { ambient: Some(sky), ..Default::default() })
+        let shared = |ambient: Option<&[AmbientTransfer]>| {
+            GpuMesh::upload(gpu, mesh, VertexData { ambient, ..Default::default() })
         };
         let (mesh, material): (_, Material) = match &self.parts {
             Parts::Gather { fine, surface } => {
@@ -94,25 +107,31 @@ impl Asset {
                 let material = GatherMaterial { planes, points: GpuPoints::upload(gpu, surface)? };
                 (GpuMesh::upload(gpu, fine, known)?, material.into())
             }
-            Parts::Splat { sky } => (shared(sky)?, Load::splat(gpu, material)?.finish()?.into()),
-            Parts::Separable { sky, numbers } => {
-                (shared(sky)?, Load::separable(gpu, material, numbers)?.finish()?.into())
-            }
+            Parts::Splat { sky } => (shared(Some(sky))?, Load::splat(gpu, material)?.finish()?.into()),
+            Parts::Separable { sky, numbers } => (
+                shared(sky.as_ref().map(|sky| sky.as_slice()))?,
+                Load::separable(gpu, material, numbers)?.finish()?.into(),
+            ),
         };
         Ok(GpuAsset { mesh, material, mapping: self.mapping })
     }
 }
 
-/// Separable basis of a file with the coefficients of every pixel, or that of its mean for [`Scattering::Homogeneous`].
+/// Separable basis of a file with the coefficients of every pixel, or what [`Scattering::Homogeneous`] and
+/// [`Scattering::Opaque`] have instead.
 ///
 /// # Errors
 /// The file has no basis.
 pub fn basis(material: &Bssrdf<'_>, technique: Scattering) -> Result<ProjectedBasis> {
     let basis = ProjectedBasis::of(material).ok_or_else(no_basis)?;
-    Ok(if technique == Scattering::Homogeneous { basis.homogeneous() } else { basis })
+    Ok(match technique {
+        Scattering::Homogeneous => basis.homogeneous(),
+        Scattering::Opaque => basis.opaque(),
+        _ => basis,
+    })
 }
 
-/// Numbers of the separable basis of a file, or those of its mean for [`Scattering::Homogeneous`].
+/// Numbers of the separable basis of a file, or of what [`Scattering::Homogeneous`] and [`Scattering::Opaque`] have instead.
 ///
 /// # Errors
 /// The file has no basis.
@@ -120,7 +139,8 @@ pub fn numbers(material: &Bssrdf<'_>, technique: Scattering) -> Result<BasisNumb
     if technique == Scattering::Homogeneous {
         return Ok(basis(material, technique)?.numbers().clone());
     }
-    BasisNumbers::of(material).ok_or_else(no_basis)
+    let numbers = BasisNumbers::of(material).ok_or_else(no_basis)?;
+    Ok(if technique == Scattering::Opaque { numbers.opaque() } else { numbers })
 }
 
 fn no_basis() -> Error {

@@ -208,6 +208,8 @@ impl<'a> App<'a> {
             }
             goes_on = true;
         }
+        // The panel was laid out before the picture was drawn: it tells what it found then.
+        goes_on |= self.session.facts(stage, &self.jobs) != facts;
         stage.painter().0.forget(&output.textures_delta);
         window.set_title(&title(&self.session));
 

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use subsurf_scene::{LoadedMesh, MESH_EXTENSIONS, Mesh, SHAPES, UpAxis, load_mesh};
+use subsurf_scene::{BoundingSphere, LoadedMesh, MESH_EXTENSIONS, Mesh, SHAPES, UpAxis, load_mesh};
 
 use crate::error::{Error, Result};
 use crate::file::{DrawnMaterial, material_number, parse, read, stem};
+use crate::set::Set;
 
 /// Material of a file that was found to be in order.
 pub(super) struct MaterialFile {
@@ -62,9 +63,10 @@ impl MaterialFile {
     }
 }
 
-/// How mesh files are read: to which size, and which way is up in them.
+/// How mesh files are read: to which size, which way is up in them, and what they stand in.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MeshReading {
+    pub(super) set: Set,
     pub(super) extent_mm: f32,
     pub(super) up: UpAxis,
 }
@@ -72,7 +74,10 @@ pub(super) struct MeshReading {
 /// Materials to choose from, and the mesh that is made of one of them.
 pub(super) struct Assets {
     pub(super) materials: Vec<Arc<MaterialFile>>,
+    /// Mesh with the ground of the set.
     pub(super) mesh: Arc<Mesh>,
+    /// Sphere around the mesh without ground.
+    pub(super) bounds: BoundingSphere,
     /// What was changed or left out of the mesh's file.
     pub(super) warnings: Vec<String>,
     pub(super) mesh_name: String,
@@ -97,7 +102,8 @@ impl Assets {
         let loaded = load_mesh(mesh, reading.extent_mm, reading.up)?;
         Ok(Self {
             materials: files.concat(),
-            mesh: Arc::new(loaded.mesh),
+            bounds: loaded.mesh.bounding_sphere(),
+            mesh: Arc::new(reading.set.with_ground(&loaded.mesh).into_owned()),
             warnings: loaded.warnings,
             mesh_name: stem(mesh),
             mesh_number: 0,
@@ -137,7 +143,8 @@ impl Assets {
 
     fn set_mesh(&mut self, path: &Path) -> Result<()> {
         let LoadedMesh { mesh, warnings } = load_mesh(path, self.reading.extent_mm, self.reading.up)?;
-        (self.mesh, self.warnings) = (Arc::new(mesh), warnings);
+        (self.bounds, self.warnings) = (mesh.bounding_sphere(), warnings);
+        self.mesh = Arc::new(self.reading.set.with_ground(&mesh).into_owned());
         self.mesh_name = stem(path);
         self.mesh_number += 1;
         Ok(())
@@ -156,7 +163,7 @@ mod tests {
             std::fs::write(&path, text).unwrap();
             path
         };
-        let reading = MeshReading { extent_mm: 60.0, up: UpAxis::Y };
+        let reading = MeshReading { set: Set::Studio, extent_mm: 60.0, up: UpAxis::Y };
         let mut assets = Assets::open(&[], None, Path::new("torus"), reading).unwrap();
         let triangle = file("triangle.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         assert_eq!(assets.drop(&triangle).unwrap(), Dropped::Mesh);

@@ -8,6 +8,7 @@ use subsurf_scene::{Environment, UpAxis};
 
 use crate::asset::{BtfImageSet, MappingChoice, Scattering};
 use crate::error::Result;
+use crate::set::Set;
 
 /// Reads the images that BTFs were made from. It is called on another thread, when they are to be shown.
 pub type LoadImages = dyn Fn() -> Result<Box<dyn BtfImageSet>> + Send + Sync;
@@ -24,6 +25,8 @@ pub struct Config {
     pub extent_mm: f32,
     /// Which way is up in mesh files.
     pub up: UpAxis,
+    /// What stands around the mesh; where it has ground, files of meshes get it too.
+    pub set: Set,
     /// Where translucent materials lie on the mesh.
     pub mapping: MappingChoice,
     /// How translucent materials are drawn.

@@ -7,11 +7,12 @@ use winit::keyboard::{Key, NamedKey};
 use crate::asset::Scattering;
 
 /// Key, technique, name and meaning of what a translucent material can be drawn by.
-pub(super) const TECHNIQUES: [(&str, Scattering, &str, &str); 4] = [
+pub(super) const TECHNIQUES: [(&str, Scattering, &str, &str); 5] = [
     ("1", Scattering::Splat, "splat", "Every place that the light reaches is spread over what lies around it"),
     ("2", Scattering::Separable, "separable", "Weighted irradiance maps and shared Gaussians: the fastest"),
     ("3", Scattering::Homogeneous, "homogeneous", "One mean profile everywhere; for comparison"),
-    ("4", Scattering::Gather, "gather", "Every point gathers from all others: the reference, and slow"),
+    ("4", Scattering::Opaque, "opaque", "Light leaves where it enters; for comparison"),
+    ("5", Scattering::Gather, "gather", "Every point gathers from all others: the reference, and slow"),
 ];
 
 /// Keys and pointer of the window, in lines for a help text.
@@ -19,7 +20,7 @@ pub const KEYS: &str = "\
   drag            turn the mesh
   right drag      drag the light; shift and drag do the same
   wheel           zoom
-  1 2 3 4         path: splat, separable, homogeneous, gather
+  1 2 3 4 5       technique: splat, separable, homogeneous, opaque, gather
   N               next material
   M               next shape
   E               ten times the difference to the gather, of a BTF to its images

@@ -24,6 +24,7 @@ pub(super) struct Settings {
 }
 
 /// Facts that the panel tells.
+#[derive(PartialEq)]
 pub(super) struct Facts {
     pub(super) device: String,
     /// Whether the material is a BTF, and whether there are images to compare it with.

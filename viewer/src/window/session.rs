@@ -47,10 +47,10 @@ impl Session {
         if !(config.extent_mm.is_finite() && config.extent_mm > 0.0) {
             return Err(Error::Request(format!("an extent of {} mm; it must be positive", config.extent_mm)));
         }
-        let reading = MeshReading { extent_mm: config.extent_mm, up: config.up };
+        let reading = MeshReading { set: config.set, extent_mm: config.extent_mm, up: config.up };
         let assets = Assets::open(&config.files, config.material.as_deref(), &config.mesh, reading)?;
         Ok(Self {
-            state: SceneState::of(&assets.mesh, &config.environment, config.size),
+            state: SceneState::of(config.set, &assets.bounds, &config.environment, config.size),
             settings: Settings {
                 technique: config.technique,
                 material: 0,
@@ -245,7 +245,7 @@ impl Session {
             Command::TurnLight => self.settings.turns_light ^= true,
             Command::Expose => (self.exposes, self.is_stale) = (true, true),
             Command::Reset => {
-                self.state.reset(&self.assets.mesh, size);
+                self.state.reset(&self.assets.bounds, size);
                 self.is_stale = true;
             }
             // Nothing of the picture changes.
@@ -273,7 +273,7 @@ impl Session {
 
     fn show_mesh(&mut self, size: [u32; 2]) {
         self.message = warning(&self.assets);
-        self.state.look_at(&self.assets.mesh, size);
+        self.state.look_at(&self.assets.bounds, size);
         self.changed();
     }
 

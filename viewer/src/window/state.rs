@@ -1,17 +1,19 @@
 //! State of the scene: eye, light and surroundings.
 
 use glam::{Quat, Vec2, Vec3};
-use subsurf_scene::{Environment, LightShape, Mesh, Scene};
+use subsurf_scene::{BoundingSphere, Environment, LightShape, Scene};
 
 use super::orbit::{Orbit, dragged};
 use super::panel::Settings;
 use crate::request::RenderRequest;
+use crate::set::Set;
 
 /// Speed of the light that goes around, in radians per second.
 const LIGHT_SPEED: f32 = 0.6;
 
 /// Scene, and what moves in it.
 pub(super) struct SceneState {
+    set: Set,
     scene: Scene,
     orbit: Orbit,
     /// Direction towards the light, of length 1.
@@ -21,22 +23,22 @@ pub(super) struct SceneState {
 }
 
 impl SceneState {
-    /// The usual picture of a mesh, in a window of `size`.
-    pub(super) fn of(mesh: &Mesh, environment: &Environment, size: [u32; 2]) -> Self {
-        let request = RenderRequest { environment: environment.clone(), ..RenderRequest::usual(size) };
-        let scene = request.scene(mesh);
-        Self { orbit: Orbit::of(&scene.camera), scene, light: request.direction, rested: request.direction }
+    /// Light and view of a set on a mesh within a sphere, in a window of `size`.
+    pub(super) fn of(set: Set, bounds: &BoundingSphere, environment: &Environment, size: [u32; 2]) -> Self {
+        let request = RenderRequest { environment: environment.clone(), ..RenderRequest::of(set, size) };
+        let scene = request.scene_around(bounds);
+        Self { set, orbit: Orbit::of(&scene.camera), scene, light: request.direction, rested: request.direction }
     }
 
     /// View and light as at the beginning; the surroundings stay.
-    pub(super) fn reset(&mut self, mesh: &Mesh, size: [u32; 2]) {
-        *self = Self::of(mesh, &self.scene.environment, size);
+    pub(super) fn reset(&mut self, bounds: &BoundingSphere, size: [u32; 2]) {
+        *self = Self::of(self.set, bounds, &self.scene.environment, size);
     }
 
     /// Sees another mesh in the same light.
-    pub(super) fn look_at(&mut self, mesh: &Mesh, size: [u32; 2]) {
+    pub(super) fn look_at(&mut self, bounds: &BoundingSphere, size: [u32; 2]) {
         let (light, rested) = (self.light, self.rested);
-        self.reset(mesh, size);
+        self.reset(bounds, size);
         (self.light, self.rested) = (light, rested);
     }
 

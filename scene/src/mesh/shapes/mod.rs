@@ -3,6 +3,7 @@
 mod bowl;
 mod drapery;
 mod lattice;
+mod plate;
 mod sphere;
 mod tube;
 
@@ -11,5 +12,6 @@ mod tests;
 
 pub use bowl::bowl;
 pub use drapery::drapery;
+pub use plate::plate;
 pub use sphere::{relief, sphere};
 pub use tube::{knot, torus};

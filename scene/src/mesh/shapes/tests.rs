@@ -5,10 +5,10 @@ use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::Vec3;
 
-use super::{bowl, drapery, knot, relief, sphere, torus};
+use super::{bowl, drapery, knot, plate, relief, sphere, torus};
 use crate::mesh::triangles::Mesh;
 
-fn all() -> [(&'static str, Mesh); 10] {
+fn all() -> [(&'static str, Mesh); 11] {
     [
         ("sphere", sphere(10.0, 12)),
         ("torus", torus(10.0, 4.0, 10)),
@@ -20,6 +20,7 @@ fn all() -> [(&'static str, Mesh); 10] {
         ("one thin fold", drapery(10.0, 0.1, 1, 12)),
         ("relief", relief(10.0, 5, 30)),
         ("one bump", relief(10.0, 1, 12)),
+        ("plate", plate(10.0, 2.0, 10)),
     ]
 }
 
