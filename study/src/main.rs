@@ -4,6 +4,7 @@ mod bench;
 mod bssrdf;
 mod btf;
 mod cache;
+mod linsss;
 mod page;
 
 use std::process::ExitCode;
@@ -24,6 +25,7 @@ const EXAMPLES: &str = "\
 Examples:
   subsurf-study bssrdf out                                  Yatagawa et al. 2020, as one page: an hour
   subsurf-study bssrdf out --materials jade --no-paper      one material, without the paper's own method: a minute
+  subsurf-study linsss out                                  a rival's model, fitted to the captures of the first: ten minutes
   subsurf-study btf out                                     Havran et al. 2010, as one page: more than an hour
   subsurf-study bench load                                  load size and latency, compressed and not
   subsurf-study bench render jade.subsurf -o out            every path against the reference, as one page
@@ -36,6 +38,7 @@ Exit codes: 0 done, 1 this machine failed, 2 the input or the request is wrong, 
 enum Command {
     Bssrdf(bssrdf::Args),
     Btf(btf::Args),
+    Linsss(linsss::Args),
     #[command(subcommand)]
     Bench(bench::Command),
 }
@@ -44,6 +47,7 @@ fn main() -> ExitCode {
     subsurf_cli::program::run("subsurf-study", |cli: Cli| match cli.command {
         Command::Bssrdf(args) => bssrdf::run(&args),
         Command::Btf(args) => btf::run(&args),
+        Command::Linsss(args) => linsss::run(&args),
         Command::Bench(command) => bench::run(&command),
     })
 }

@@ -59,7 +59,8 @@ pub(crate) struct Args {
     clean_only: bool,
 }
 
-const MATERIALS: [&str; 6] = ["stone", "chessboard", "onyx", "blue-wax", "yellow-wax", "jade"];
+/// Names of the materials of the study.
+pub(crate) const MATERIALS: [&str; 6] = ["stone", "chessboard", "onyx", "blue-wax", "yellow-wax", "jade"];
 const PITCH_MM: f64 = 0.5;
 const SEED: u64 = 1;
 
