@@ -24,7 +24,7 @@ pub use light::visibility;
 pub use light::{
     AmbientTransfer, Environment, Light, LightShape, MAX_LIGHTS, REFLECTION_LEVELS, REFLECTION_SIZE, Shadow,
 };
-pub use mapping::{Mapping, place_in_box};
+pub use mapping::{BoxPlaces, BoxSides, Mapping};
 pub use mean_profile::MeanProfile;
 pub use mesh::{BoundingSphere, Mesh, bowl, drapery, knot, plate, relief, sphere, torus};
 pub use placement::Placement;

@@ -52,7 +52,7 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(PointGrid: origin_mm, cell_mm, cells, points);
     assert_layout_of!(LightSource: clip_from_world, position_or_direction, is_local, irradiance, cos_outer, axis, cos_inner, middle_mm, texel_mm, shadow, map);
     assert_layout_of!(Scene: clip_from_world, eye_mm, exposure, forward, lights, centre_mm, row, light_texels, light_columns, sky, light);
-    assert_layout_of!(Object: world_from_mesh, place_from_world, uv_scale, patches_per_mm, pitch_mm, is_boxed, eta, sky_transmittance, roughness, depth_offset_mm, group, handedness);
+    assert_layout_of!(Object: world_from_mesh, place_from_world, uv_scale, patches_per_mm, is_boxed, eta, sky_transmittance, roughness, depth_offset_mm, group, handedness);
     assert_layout_of!(TsmLight: light, group, level);
     assert_layout_of!(Splat: softening_gain, clip_from_centre, fade_in, fade_out, middle_mm, texel_mm, tile, level, side, refines, stride, pitch_mm, group, columns);
     assert_layout_of!(SplatRings: count, near_mm);

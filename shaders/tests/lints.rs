@@ -192,12 +192,12 @@ fn texture_loads_are_accounted_for() {
             ("tsm_reduce", 3),
             // Samples within their level, texels of the target times its stride clamped, places wrapped into the patch.
             ("surface_gbuffer", 0),
-            ("splat, Material(Bmpp1)", 9),
-            ("splat, Material(Bmpp2)", 10),
-            ("splat, Material(Bmpp2Palette)", 10),
-            ("splat, Material(Bmpp3)", 10),
-            ("splat, Material(Bmpp5)", 10),
-            ("splat, Material(PerPixel)", 10),
+            ("splat, Material(Bmpp1)", 10),
+            ("splat, Material(Bmpp2)", 11),
+            ("splat, Material(Bmpp2Palette)", 11),
+            ("splat, Material(Bmpp3)", 11),
+            ("splat, Material(Bmpp5)", 11),
+            ("splat, Material(PerPixel)", 11),
             ("splat_resolve", 8),
             ("shade_splat", 2),
             // Taps clamped to the size of the maps; translucent shadow maps clamped to theirs.

@@ -211,7 +211,8 @@ pub unsafe extern "C" fn subsurf_mesh_upload(
         };
         let mm_per_unit = if data.mm_per_unit == 0.0 { 1.0 } else { data.mm_per_unit };
         let mesh = Mesh::new(positions, normals, uvs, indices, mm_per_unit);
-        mesh.map_err(|error| Fault::of(&Error::Scene(error), None))
+        let mesh = mesh.map_err(|error| Fault::of(&Error::Scene(error), None))?;
+        Ok(if mesh.uvs.is_none() { mesh.charted() } else { mesh })
     };
     // SAFETY: the caller's handle and pointer.
     unsafe { create(gpu, mesh_out, read) }

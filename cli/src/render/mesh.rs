@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_runtime::{BACKGROUND, Gpu};
 use subsurf_scene::{Mesh, Placement};
+use subsurf_shaders::cpu;
 use subsurf_shaders::uniform;
-use subsurf_shaders::{Rgb, cpu};
 use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scattering, choose_mapping, points};
 
 use super::exposure::{BRIGHT, SUPERSAMPLING, average_down, exposure_for};
@@ -51,9 +51,9 @@ pub(crate) fn draw_mesh(
             let chosen = || exposure_for(exitance.iter()).min(BRIGHT / brightest.max(1e-6)) * std::f32::consts::PI;
             block.scene.exposure = request.exposure.unwrap_or_else(chosen);
             scene.camera.exposure = block.scene.exposure;
-            let of_vertices = || surface.point_of.iter().map(|&point| point as usize);
-            let exitances: Vec<Rgb> = of_vertices().map(|point| exitance[point]).collect();
-            let visibilities: Vec<_> = of_vertices().map(|point| surface.visibilities[point]).collect();
+            let exitances = surface.of_vertices(&exitance);
+            let visibilities: Vec<_> =
+                surface.point_of.iter().map(|&point| surface.visibilities[point as usize]).collect();
             let triangles = cpu::Triangles {
                 positions: &fine.positions,
                 normals: &fine.normals,

@@ -34,6 +34,8 @@ struct Vertex {
     sky_front: [u8; 4],
     /// [`AmbientTransfer::back`], likewise.
     sky_back: [u8; 4],
+    /// Shares of the sides of the box.
+    sides: [i8; 4],
 }
 
 /// What techniques need to know of every vertex, in the order of the mesh; what nobody needs may be left out.
@@ -67,6 +69,7 @@ impl GpuMesh {
         if let Some(length) = lengths.into_iter().flatten().find(|length| *length != count) {
             return Err(Error::Usage(format!("data of {length} vertices for a mesh of {count}")));
         }
+        let sides = mesh.sides();
         let vertex = |k: usize| {
             let sky = known.ambient.map_or(AmbientTransfer::FLAT, |sky| sky[k]);
             Vertex {
@@ -76,6 +79,7 @@ impl GpuMesh {
                 point: known.points.map_or(0, |points| points[k]),
                 sky_front: halves(sky.front),
                 sky_back: halves(sky.back),
+                sides: sides[k].0,
             }
         };
         let vertices: Vec<Vertex> = (0..count).map(vertex).collect();
@@ -132,7 +136,8 @@ pub(crate) const VERTICES: VertexBufferLayout<'static> = VertexBufferLayout {
     array_stride: size_of::<Vertex>() as u64,
     step_mode: VertexStepMode::Vertex,
     attributes: &vertex_attr_array![
-        0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32, 4 => Unorm8x4, 5 => Unorm8x4
+        0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32, 4 => Unorm8x4, 5 => Unorm8x4,
+        7 => Snorm8x4
     ],
 };
 

@@ -1,6 +1,7 @@
-//! Triangle meshes: checked once, made finer, with tangents; and shapes that need no file.
+//! Triangle meshes: checked once, made finer, with tangents and charts; and shapes that need no file.
 
 mod bounds;
+mod charts;
 mod shapes;
 mod subdivide;
 mod tangents;

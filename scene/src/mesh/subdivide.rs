@@ -52,6 +52,9 @@ impl Mesh {
             if let Some(uvs) = &mut self.uvs {
                 uvs.push(0.5 * (uvs[a] + uvs[b]));
             }
+            if let Some(sides) = &mut self.sides {
+                sides.push(sides[a].middle(sides[b]));
+            }
             u32::try_from(self.positions.len() - 1).expect("subdivision stops long before 2³² vertices")
         })
     }

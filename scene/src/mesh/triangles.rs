@@ -1,9 +1,12 @@
 //! Triangle meshes, checked once.
 
+use std::borrow::Cow;
+
 use glam::{Vec2, Vec3};
 
 use super::bounds::BoundingSphere;
 use crate::error::{Error, Result};
+use crate::mapping::BoxSides;
 
 /// Triangle mesh in mm.
 #[derive(Clone, Debug)]
@@ -14,6 +17,8 @@ pub struct Mesh {
     pub normals: Vec<Vec3>,
     /// Texture coordinates of the vertices, v upwards, if there are any.
     pub uvs: Option<Vec<Vec2>>,
+    /// Shares of the sides of the box by which materials lie at the vertices, as [`Mesh::charted`] makes them.
+    pub sides: Option<Vec<BoxSides>>,
     /// Numbers of the vertices of each triangle, from 0.
     pub triangles: Vec<[u32; 3]>,
 }
@@ -58,7 +63,7 @@ impl Mesh {
         let smooth = if is_whole { Vec::new() } else { smooth_normals(&positions, &triangles) };
         let unit = |(k, normal): (usize, &Vec3)| normal.try_normalize().or_else(|| smooth.get(k)?.try_normalize());
         let normals = given.iter().enumerate().map(|normal| unit(normal).unwrap_or(Vec3::Y)).collect();
-        Ok(Self { positions, normals, uvs, triangles })
+        Ok(Self { positions, normals, uvs, sides: None, triangles })
     }
 
     /// Lowest and highest corner of the box around all vertices.
@@ -87,7 +92,18 @@ impl Mesh {
         let middle = 0.5 * (low + high);
         let positions = self.positions.iter().map(|position| *position - middle).collect();
         let scale = extent_mm / (high - low).max_element();
-        Self::new(positions, self.normals, self.uvs, self.triangles, scale)
+        let sides = self.sides;
+        Ok(Self { sides, ..Self::new(positions, self.normals, self.uvs, self.triangles, scale)? })
+    }
+
+    /// Shares of the sides of the box by which materials lie at the vertices: those of the charts, or by the normals where the
+    /// mesh has no charts.
+    #[must_use]
+    pub fn sides(&self) -> Cow<'_, [BoxSides]> {
+        match &self.sides {
+            Some(sides) => Cow::Borrowed(sides),
+            None => self.normals.iter().map(|normal| BoxSides::facing(*normal)).collect(),
+        }
     }
 
     /// Length of the side of the texture's unit square on the surface in mm, from the areas of both; 0 where all texture

@@ -61,7 +61,7 @@ pub struct LoadedMesh {
 /// Mesh from a file, or the shape if `path` is one of [`SHAPES`]; its longest side is `extent_mm`, its middle the origin.
 ///
 /// Materials, textures, colours and animations are not read: a mesh is not refused for what is not drawn. Normals that are
-/// missing, zero or not finite are made anew.
+/// missing, zero or not finite are made anew. A mesh without texture coordinates has charts ([`Mesh::charted`]).
 ///
 /// # Errors
 /// [`Error::File`] if the file is not a mesh, or a broken one.
@@ -83,7 +83,9 @@ pub fn load_mesh(path: &Path, extent_mm: f32, up: UpAxis) -> Result<LoadedMesh> 
     let scale = extent_mm / longest;
     let uvs = (!raw.uvs.is_empty()).then_some(raw.uvs);
     let mesh = Mesh::new(positions, raw.normals, uvs, raw.triangles, scale);
-    Ok(LoadedMesh { mesh: mesh.map_err(|error| wrong(error.to_string()))?, warnings: raw.warnings })
+    let mesh = mesh.map_err(|error| wrong(error.to_string()))?;
+    let mesh = if mesh.uvs.is_none() { mesh.charted() } else { mesh };
+    Ok(LoadedMesh { mesh, warnings: raw.warnings })
 }
 
 /// Positions around the origin, and the longest side of the box around them.

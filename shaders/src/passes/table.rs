@@ -150,7 +150,20 @@ pub static SURFACE_GATHER: Pass = fullscreen(
 /// Picture of a mesh from the exitance of its vertices.
 pub static SHADE_VERTEX: Pass = picture(
     wgsl!("pass/surface/shade_vertex"),
-    &[Part::TargetFormat, TONE, DISPLAY, FRESNEL, OBJECT, SCENE, COAT, VISIBILITIES, EXITANCE_VERTEX, VERTEX, SHADING],
+    &[
+        Part::TargetFormat,
+        TONE,
+        DISPLAY,
+        FRESNEL,
+        OBJECT,
+        SCENE,
+        COAT,
+        MAPPING,
+        VISIBILITIES,
+        EXITANCE_VERTEX,
+        VERTEX,
+        SHADING,
+    ],
     &[LIT, Group::Fixed(&[Target, Binding::Uint]), OF_OBJECT],
 );
 
@@ -182,7 +195,7 @@ pub static SPLAT: Pass = pass(
     wgsl!("pass/splat/splat"),
     &[Part::FittedLayout],
     "splat_quad",
-    &[Group::Material, Group::Fixed(&[Uniform, Float, Float, Float, Float, Float])],
+    &[Group::Material, Group::Fixed(&[Uniform, Float, Float, Float, Float, Float, Float])],
 );
 
 /// Sum of all rings of splats.

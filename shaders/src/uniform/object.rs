@@ -19,8 +19,6 @@ pub struct Object {
     pub uv_scale: [f32; 2],
     /// Box mapping: copies of the patch to a mm, in x and y.
     pub patches_per_mm: [f32; 2],
-    /// Pitch of the pixels of the material in mm.
-    pub pitch_mm: f32,
     /// 0 texture coordinates, 1 box mapping.
     pub is_boxed: u32,
     /// Refractive index of the material against air.
@@ -35,6 +33,8 @@ pub struct Object {
     pub group: f32,
     /// 1, or −1 where the transform is a mirror.
     pub handedness: f32,
+    #[doc(hidden)]
+    pub pad: u32,
 }
 
 impl Object {
@@ -54,7 +54,6 @@ impl Object {
                 Mapping::Box => [0.0; 2],
             },
             patches_per_mm: [1.0 / (pitch_mm * width), 1.0 / (pitch_mm * height)],
-            pitch_mm,
             is_boxed: u32::from(placement.mapping == Mapping::Box),
             eta: placement.eta,
             sky_transmittance: diffuse_transmittance(placement.eta),
@@ -62,6 +61,7 @@ impl Object {
             depth_offset_mm: 0.0,
             group: 1.0,
             handedness: world_from_mesh.determinant().signum(),
+            pad: 0,
         }
     }
 }

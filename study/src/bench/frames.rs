@@ -54,7 +54,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let profiles = Bssrdf::parse(&profiles)?;
     let meshes: Vec<(String, Mesh)> = match &args.meshes[..] {
         [] => RELIEFS.iter().map(|&rings| bumpy_sphere(rings)).collect::<anyhow::Result<_>>()?,
-        paths => paths.iter().map(|path| named(path)).collect::<anyhow::Result<_>>()?,
+        paths => paths.iter().map(|path| named(path, EXTENT_MM)).collect::<anyhow::Result<_>>()?,
     };
     let modes = [
         ("splat", &material, Scattering::Splat),

@@ -19,7 +19,7 @@ use subsurf_runtime::{
 };
 use subsurf_scene::{
     Camera, Environment, Light, LightShape, MAX_LIGHTS, Mapping, Mesh, Placement, REFLECTION_SIZE, Scene, Shadow,
-    SurfacePoints, sphere, torus,
+    SurfacePoints, relief, sphere, torus,
 };
 use subsurf_shaders::separable::ProjectedBasis;
 use subsurf_shaders::{cpu, uniform};
@@ -290,7 +290,7 @@ fn mesh_scene(backend: Backend, mesh: &Mesh, mapping: Mapping, layout: MaterialL
     // Irradiance and exitance.
     assert_close(&found, &expected, 2.0, &what);
 
-    let of_vertices: Vec<[f32; 3]> = surface.point_of.iter().map(|&point| found[point as usize]).collect();
+    let of_vertices = surface.of_vertices(&found);
     let triangles = cpu::Triangles {
         positions: &mesh.positions,
         normals: &mesh.normals,
@@ -316,6 +316,8 @@ fn different(a: &[[u8; 3]], b: &[[u8; 3]], tolerance: u8) -> usize {
 fn meshes(backend: Backend) {
     let ball = sphere(5.0, 24);
     mesh_scene(backend, &ball, Mapping::Box, MaterialLayout::Bmpp2, "sphere, box mapping");
+    let bumpy = Mesh { uvs: None, ..relief(5.0, 8, 14) }.charted();
+    mesh_scene(backend, &bumpy, Mapping::Box, MaterialLayout::Bmpp2Palette, "bumpy sphere, charts");
     mesh_scene(backend, &ball, Mapping::Uv([2.0, 1.0]), MaterialLayout::PerPixel, "sphere, texture coordinates");
     for layout in [MaterialLayout::Bmpp2, MaterialLayout::Bmpp1, MaterialLayout::Bmpp2Palette, MaterialLayout::Bmpp5] {
         mesh_scene(backend, &torus(5.0, 2.0, 20), Mapping::Uv([4.0, 2.0]), layout, "torus");

@@ -155,7 +155,9 @@ fn no_basis() -> Error {
 /// # Errors
 /// The mesh would have too many vertices.
 pub fn points(mesh: &Mesh, mapping: Mapping, material: &Bssrdf<'_>, scene: &Scene) -> Result<(Mesh, SurfacePoints)> {
-    let fine = mesh.clone().subdivided(LONGEST_EDGE * material.header().pitch_mm)?;
+    // Shares of the box are linear between the vertices of the mesh itself, as other techniques take them.
+    let sides = (mapping == Mapping::Box).then(|| mesh.sides().into_owned());
+    let fine = Mesh { sides, ..mesh.clone() }.subdivided(LONGEST_EDGE * material.header().pitch_mm)?;
     let visibilities = visibility(&fine, &scene.lights);
     let surface = SurfacePoints::new(&fine, mapping, material.header(), &visibilities);
     Ok((fine, surface))

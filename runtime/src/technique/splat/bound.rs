@@ -178,6 +178,7 @@ impl Passes {
                     texture(lights.views()[2]),
                     texture(&maps.visible[0].view),
                     texture(&maps.visible[1].view),
+                    texture(&maps.visible[2].view),
                 ];
                 let group = self.splat.bind(gpu, 1, &group)?;
                 draws.push(Draw { tile, ring, refines, block, group });

@@ -32,5 +32,5 @@ pub(super) fn lattice(us: &[f32], vs: &[f32], place: impl Fn(Vec2) -> (Vec3, Vec
     let (stride, rows) = (index(us.len()), index(vs.len()));
     let quads = (0..rows - 1).flat_map(|y| (0..stride - 1).map(move |x| y * stride + x));
     let triangles = quads.flat_map(|a| [[a, a + 1, a + stride], [a + 1, a + stride + 1, a + stride]]).collect();
-    Mesh { positions, normals, uvs: Some(uvs), triangles }
+    Mesh { positions, normals, uvs: Some(uvs), sides: None, triangles }
 }

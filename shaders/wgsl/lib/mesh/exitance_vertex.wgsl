@@ -6,8 +6,18 @@
 @group(1) @binding(1) var visibilities: texture_2d<u32>;
 
 // Exitance at a point, by its number.
-fn vertex_exitance(point: u32) -> vec3<f32> {
-    return unpack(textureLoad(exitances, vec2<u32>(point % scene.row, point / scene.row), 0)).xyz;
+fn point_exitance(point: u32) -> vec3<f32> {
+    let texel = min(vec2<u32>(point % scene.row, point / scene.row), textureDimensions(exitances) - 1u);
+    return unpack(textureLoad(exitances, texel, 0)).xyz;
+}
+
+// Exitance at a vertex: of its point, or of two that follow each other where box mapping blends two places.
+fn vertex_exitance(point: u32, shares: vec3<f32>) -> vec3<f32> {
+    let share = box_sides(shares).share;
+    if object.is_boxed == 0u || share == 1.0 {
+        return point_exitance(point);
+    }
+    return mix(point_exitance(point + 1u), point_exitance(point), share);
 }
 
 // Visibility of the lights from a point, by its number.

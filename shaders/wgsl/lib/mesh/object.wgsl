@@ -9,8 +9,6 @@ struct Object {
     uv_scale: vec2<f32>,
     // Box mapping: copies of the patch to a mm, in x and y.
     patches_per_mm: vec2<f32>,
-    // Pitch of the pixels of the material in mm.
-    pitch_mm: f32,
     // 0 texture coordinates, 1 box mapping.
     is_boxed: u32,
     // Refractive index of the material against air.
@@ -25,6 +23,7 @@ struct Object {
     group: f32,
     // 1, or -1 where the transform is a mirror.
     handedness: f32,
+    pad: u32,
 }
 
 @group(2) @binding(0) var<uniform> object: Object;

@@ -14,6 +14,8 @@ struct Varying {
     // Ambient transfer: light from all around that comes from the same side and from the other, relative to that on a plane.
     @location(5) sky_front: vec3<f32>,
     @location(6) sky_back: vec3<f32>,
+    // Signed shares of the sides of the box, for box mapping.
+    @location(8) sides: vec3<f32>,
 }
 
 @vertex
@@ -24,6 +26,7 @@ fn project(
     @location(3) point: u32,
     @location(4) sky_front: vec4<f32>,
     @location(5) sky_back: vec4<f32>,
+    @location(7) sides: vec4<f32>,
 ) -> Varying {
     let position = world_position(position_mm);
     var out: Varying;
@@ -31,12 +34,13 @@ fn project(
     out.position_mm = position;
     out.normal = world_direction(normal);
     out.uv = material_uv(uv);
-    out.exitance = vertex_exitance(point);
+    out.exitance = vertex_exitance(point, sides.xyz);
     let seen = vertex_visibilities(point);
     out.visibility = seen.first;
     out.visibility_of_last = seen.last;
     out.sky_front = 2.0 * sky_front.xyz;
     out.sky_back = 2.0 * sky_back.xyz;
+    out.sides = sides.xyz;
     return out;
 }
 

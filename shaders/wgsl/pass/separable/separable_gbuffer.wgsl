@@ -4,9 +4,8 @@
 
 @fragment
 fn separable_gbuffer(in: Varying) -> MapsAndSums {
-    let slopes = derivatives(in.position_mm, in.uv);
     let normal = normalize(in.normal);
-    var c = basis_at(in.position_mm, normal, in.uv, slopes);
+    var c = basis_at(lookup_of(in));
     let depth = depth_of(in.position_mm);
     var e = vec3<f32>(0.0);
     var sums: array<vec4<f32>, TERMS>;

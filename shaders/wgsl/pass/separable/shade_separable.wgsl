@@ -30,8 +30,7 @@ fn sums_at(pixel: vec2<f32>, depth: f32) -> array<vec3<f32>, TERMS> {
 
 // Exitance of a fragment; linear Rec. 709.
 fn exitance(in: Varying, normal: vec3<f32>) -> vec3<f32> {
-    let slopes = derivatives(in.position_mm, in.uv);
-    var c = basis_at(in.position_mm, normal, in.uv, slopes);
+    var c = basis_at(lookup_of(in));
     var light = sums_at(in.clip.xy, depth_of(in.position_mm));
     var sum = c[TERMS] * scattered_sky(in, normal);
     for (var m = 0u; m < TERMS; m++) {

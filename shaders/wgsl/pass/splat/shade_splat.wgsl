@@ -22,8 +22,7 @@ fn unspread_light(position_mm: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
 
 // Exitance of a fragment; linear Rec. 709.
 fn exitance(in: Varying, normal: vec3<f32>) -> vec3<f32> {
-    let slopes = derivatives(in.position_mm, in.uv);
-    let albedo = layer_at(0u, in.position_mm, normal, in.uv, slopes);
+    let albedo = layer_at(0u, lookup_of(in));
     let depth = depth_of(in.position_mm);
     let coord = bilinear_coord(in.clip.xy);
     var sum = vec3<f32>(0.0);

@@ -39,9 +39,11 @@ struct Splat {
 @group(1) @binding(1) var tsm_positions: texture_2d<f32>;
 @group(1) @binding(2) var tsm_fluxes: texture_2d<f32>;
 @group(1) @binding(3) var tsm_uvs: texture_2d<f32>;
-// G-buffer: positions relative to the middle of the scene and depth, in mm; texture coordinates on the patch.
+// G-buffer: positions relative to the middle of the scene and depth, in mm; texture coordinates of two places on the patch.
 @group(1) @binding(4) var positions: texture_2d<f32>;
 @group(1) @binding(5) var uvs: texture_2d<f32>;
+// Share of the first of two places in the fourth channel.
+@group(1) @binding(6) var albedos: texture_2d<f32>;
 
 struct Sample {
     @builtin(position) clip: vec4<f32>,
@@ -169,16 +171,19 @@ fn splat(in: Sample) -> @location(0) vec4<f32> {
     let texel = min(vec2<u32>(in.clip.xy) * splat_block.stride + splat_block.stride / 2u, size - 1u);
     let seen = textureLoad(positions, texel, 0);
     let r_mm = distance(seen.xyz, in.position);
-    let share = ring_weight(r_mm);
+    let of_ring = ring_weight(r_mm);
     let softened_mm = sqrt(r_mm * r_mm + in.softening_mm * in.softening_mm);
     // Depth of the background is beyond everything.
-    if softened_mm > material.r_max_mm || share <= 0.0 || seen.w > 50000.0 {
+    if softened_mm > material.r_max_mm || of_ring <= 0.0 || seen.w > 50000.0 {
         return vec4<f32>(0.0);
     }
     // Rd of the pixels at both points (eq. 2 to 4), r their distance in space.
-    let o = load_pixel(patch_texel(textureLoad(uvs, texel, 0).xy));
-    let i = unpack_pixel(in.pixel);
-    let rd = reflectance(i, partner_at(o, softened_mm), vec2<i32>(0));
+    let places = textureLoad(uvs, texel, 0);
+    var o = partner_at(load_pixel(patch_texel(places.xy)), softened_mm);
+    if places.z >= 0.0 {
+        o = blended(o, load_pixel(patch_texel(places.zw)), textureLoad(albedos, texel, 0).w);
+    }
+    let rd = reflectance(unpack_pixel(in.pixel), o, vec2<i32>(0));
     // Within half floats.
-    return vec4<f32>(min(rd * in.flux * share, vec3<f32>(60000.0)), 0.0);
+    return vec4<f32>(min(rd * in.flux * of_ring, vec3<f32>(60000.0)), 0.0);
 }

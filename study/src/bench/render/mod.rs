@@ -1,6 +1,7 @@
 //! `subsurf-study bench render`: every technique against the reference gather.
 
 mod page;
+mod reference;
 
 use std::path::PathBuf;
 
@@ -17,15 +18,17 @@ use subsurf_scene::{Mesh, Scene};
 use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scattering, choose_mapping, read, stem};
 
 use self::page::{Page, Row};
+use self::reference::{Reference, case_of, reference};
 use super::case::{self, BenchCase};
 use super::devices::to_compare;
-use super::meshes::named;
+use super::meshes::{EXTENT_MM, named};
 use super::timing::{median, quantile};
 
 /// Compare all paths with the reference gather: PSNR, SSIM, difference pictures, frame times and memory.
 ///
 /// The reference gathers between points of the surface, by their distances in space. PSNR is of display values, over the
-/// pixels that the mesh covers in either picture. Writes index.html, the pictures and render.json.
+/// pixels that the mesh covers in either picture. Writes index.html, the pictures and render.json; pictures of the reference
+/// that are in the folder, of the same material, mesh and size, are not drawn again.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// .subsurf files, one for each material
@@ -34,6 +37,9 @@ pub(crate) struct Args {
     /// Meshes: files, or names of shapes
     #[arg(long = "mesh", value_name = "FILE|SHAPE", default_values = ["knot", "bowl", "drapery", "relief"])]
     meshes: Vec<PathBuf>,
+    /// Longest side of the meshes in mm
+    #[arg(long, default_value_t = EXTENT_MM, value_name = "MM")]
+    extent: f32,
     /// Folder for the page
     #[arg(long, short, value_name = "DIR")]
     output: PathBuf,
@@ -51,13 +57,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if gpus.is_empty() {
         return Err(bad_request("there is no device; this compares what devices draw"));
     }
-    let meshes = args.meshes.iter().map(|path| named(path)).collect::<anyhow::Result<Vec<_>>>()?;
+    let meshes = args.meshes.iter().map(|path| named(path, args.extent)).collect::<anyhow::Result<Vec<_>>>()?;
     let mut page = Page { folder: &args.output, rows: Vec::new(), pictures: Vec::new() };
     for file in &args.files {
         let bytes = read(file)?;
         let material = parse(file, &bytes)?;
         for (mesh_name, mesh) in &meshes {
-            compare(args, &gpus, (&stem(file), &material), (mesh_name, mesh), &mut page)?;
+            let case = case_of(&bytes, mesh, args.size.0);
+            compare(args, &gpus, (&stem(file), &material), (mesh_name, mesh), case, &mut page)?;
         }
     }
     page.write(&gpus, args.size.0)?;
@@ -70,13 +77,14 @@ fn compare(
     gpus: &[(Backend, Gpu)],
     (material_name, material): (&str, &Bssrdf<'_>),
     (mesh_name, mesh): (&str, &Mesh),
+    case: u64,
     page: &mut Page<'_>,
 ) -> anyhow::Result<()> {
     let size = args.size.0;
     let mapping = choose_mapping(mesh, MappingChoice::Auto, material)?;
     let mut scene = RenderRequest::usual(size).scene(mesh);
-    let compute = |technique, sky| Asset::compute(material, mesh, mapping, &scene, technique, sky);
-    let gather = compute(Scattering::Gather, None)?;
+    let lit = scene.clone();
+    let compute = |technique, sky| Asset::compute(material, mesh, mapping, &lit, technique, sky);
     let splat = compute(Scattering::Splat, None)?;
     let separable = compute(Scattering::Separable, splat.sky().cloned())?;
     let homogeneous = compute(Scattering::Homogeneous, splat.sky().cloned())?;
@@ -85,15 +93,22 @@ fn compare(
     let session = |gpu, asset: &Asset, scene: &Scene| {
         RenderSession::new(gpu, asset.upload(gpu, material, mesh)?, scene, size, RuntimeOptions::default())
     };
-    let exposure = session(gpu, &separable, &scene)?.exposure(gpu, &scene)?;
+    let name = format!("{material_name}-{mesh_name}");
+    let Reference { exposure, pixels: reference } = reference(&args.output, &name, case, size[0], || {
+        let mut scene = lit.clone();
+        let exposure = session(gpu, &separable, &scene)?.exposure(gpu, &scene)?;
+        scene.camera.exposure = exposure;
+        let gather = compute(Scattering::Gather, None)?;
+        Ok(Reference { exposure, pixels: session(gpu, &gather, &scene)?.picture(gpu, &scene)? })
+    })?;
     scene.camera.exposure = exposure;
-    let reference = session(gpu, &gather, &scene)?.picture(gpu, &scene)?;
     let mut shown = vec![image(&reference, size[0])];
     for (backend, gpu) in gpus {
-        let case = |asset| BenchCase::new(gpu, asset, material, mesh, size);
+        let case = |asset: &Asset| BenchCase::new(gpu, asset, material, mesh, size);
         let gather_ms = match args.frames {
             0 => None,
             _ => {
+                let gather = compute(Scattering::Gather, None)?;
                 let mut cases = [case(&gather)?];
                 case::run(gpu, &mut cases, mesh, size, 0)?;
                 Some(median(&cases[0].times.frames))
@@ -128,7 +143,7 @@ fn compare(
             }
         }
     }
-    let file = format!("{material_name}-{mesh_name}.png");
+    let file = format!("{name}.png");
     let half = |picture: &RgbImage| {
         let (width, height) = picture.dimensions();
         image::imageops::resize(picture, width / 2, height / 2, image::imageops::FilterType::Triangle)

@@ -1,5 +1,6 @@
 //! Page of the results.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -10,6 +11,7 @@ use subsurf_encoder::write_bytes;
 use subsurf_runtime::{Backend, Gpu};
 use subsurf_viewer::human;
 
+use super::super::timing::median;
 use crate::page::CSS;
 
 /// Row of the table: one technique, material, mesh and device.
@@ -86,6 +88,28 @@ pub(super) struct Page<'a> {
 }
 
 impl Page<'_> {
+    /// Worst and median PSNR of each technique on each device, if there are several pictures of each.
+    fn summary(&self) -> Vec<String> {
+        let mut of: BTreeMap<(String, &str), Vec<&Row>> = BTreeMap::new();
+        for row in &self.rows {
+            of.entry((row.backend.to_string(), row.path)).or_default().push(row);
+        }
+        let line = |((backend, path), mut rows): ((String, &str), Vec<&Row>)| {
+            rows.sort_by(|a, b| a.psnr_db.total_cmp(&b.psnr_db));
+            let worst = rows[0];
+            let values: Vec<f64> = rows.iter().map(|row| row.psnr_db).collect();
+            format!(
+                "{backend}: {path:<11} {:.1} dB at worst ({}, {}), {:.1} dB median of {}",
+                worst.psnr_db,
+                worst.material,
+                worst.mesh,
+                median(&values),
+                rows.len()
+            )
+        };
+        of.into_iter().filter(|(_, rows)| rows.len() > 1).map(line).collect()
+    }
+
     pub(super) fn write(&self, gpus: &[(Backend, Gpu)], [width, height]: [u32; 2]) -> anyhow::Result<()> {
         let rows: Vec<Value> = self.rows.iter().map(Row::json).collect();
         write_bytes(&self.folder.join("render.json"), format!("{:#}\n", Value::Array(rows)).as_bytes())?;
@@ -112,6 +136,10 @@ impl Page<'_> {
             "</table><p class=\"note\">Pictures: reference, splat, separable, homogeneous; below each its difference from \
              the reference, ten times.</p>",
         );
+        for line in self.summary() {
+            outln!("{line}");
+            let _ = write!(out, "<p>{line}</p>");
+        }
         for (title, file) in &self.pictures {
             let bytes = std::fs::read(self.folder.join(file))?;
             let data = base64::engine::general_purpose::STANDARD.encode(bytes);

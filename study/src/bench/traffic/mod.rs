@@ -26,7 +26,7 @@ use self::row::{Common, Row};
 use self::separable::SeparableFrame;
 use self::splat::{Planes, SplatFrame};
 use super::devices::to_compare;
-use super::meshes::named;
+use super::meshes::{EXTENT_MM, named};
 
 /// Share of the pixels that face the light.
 const FACING: f64 = 0.5;
@@ -63,7 +63,7 @@ struct Counts {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let bytes = read(&args.file)?;
     let material = parse(&args.file, &bytes)?;
-    let (mesh_name, mesh) = named(&args.mesh)?;
+    let (mesh_name, mesh) = named(&args.mesh, EXTENT_MM)?;
     let mut all = Vec::new();
     for Size(size) in &args.sizes {
         let counts = match &material {

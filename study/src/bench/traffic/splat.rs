@@ -89,7 +89,7 @@ impl SplatFrame {
         let squares = self.common.facing * (2.0 * outer).powi(2);
         // Of a square, the ring.
         let beyond = 1.0 - std::f64::consts::PI * (outer * outer - inner * inner) / (2.0 * outer).powi(2);
-        let assumed = Assumptions { turns: &self.turns(), shares: &[("splat", 0, beyond)] };
+        let assumed = Assumptions { turns: &self.turns(), shares: &[("splat", 0, beyond), ("splat", 1, 0.0)] };
         Ok(Counted::new(splat, "splat", target)?.run(squares, &assumed, WHOLE, &|name| self.texel_bytes(name))?.row())
     }
 
