@@ -49,7 +49,7 @@ fn a_window_draws() {
             // Small, for a processor may have to draw it.
             view.args(["--size", "560x240", "--budget", "12MB", "--backend", backend, "--screenshot", &picture]);
             if file == "b.subsurf" {
-                view.args(["--samples", "1"]);
+                view.args(["--samples", "1", "--scene", "studio"]);
             }
         });
         let Some(run) = run else {

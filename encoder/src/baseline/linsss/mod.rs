@@ -3,8 +3,8 @@
 //!
 //! Rd(x_i, x_o) pitch² ≈ ½ Σ_h (W_h(x_o) + W_h(x_i)) G(r; σ_h), with weights W ≥ 0 for every pixel and channel and standard
 //! deviations σ for every channel, shared by all pixels. The model is linear in the weights: they are found by non-negative least
-//! squares over all pairs of a capture ([`weights`]), beside which the exitance under uniform light counts, without which the
-//! albedo is 10 dB worse. Standard deviations descend along with them ([`widths`]).
+//! squares over all pairs of a capture (`weights`), beside which the exitance under uniform light counts, without which the
+//! albedo is 10 dB worse. Standard deviations descend along with them (`widths`).
 
 mod channel;
 mod convolve;
