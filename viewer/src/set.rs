@@ -123,6 +123,9 @@ mod tests {
         assert!((high.y - 8.0).abs() < 1e-3 && (high.x - 2.1 * 26.0).abs() < 1e-2, "{high}");
         let [alone, both] = [&mesh, whole.as_ref()].map(|mesh| mesh.mm_per_uv().unwrap());
         assert!((both / alone - 1.0).abs() < 0.05, "{both} mm to a unit of the texture, {alone} of the mesh alone");
+        let bare = Mesh { uvs: None, ..mesh.clone() }.charted();
+        let whole = Set::Hero.with_ground(&bare);
+        assert_eq!(whole.sides().len(), whole.positions.len(), "charts of the mesh, and the ground by its normals");
         assert!(matches!(Set::Studio.with_ground(&mesh), Cow::Borrowed(_)), "nothing else");
     }
 }

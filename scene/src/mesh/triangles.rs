@@ -123,13 +123,16 @@ impl Mesh {
         Some(mm)
     }
 
-    /// This mesh and another as one, where both lie. It has texture coordinates if both have.
+    /// This mesh and another as one, where both lie. It has texture coordinates if both have; where one has charts, the other lies
+    /// by its normals if it has none.
     ///
     /// # Panics
     /// If they have more than 2³² vertices together.
     #[must_use]
     pub fn with(mut self, other: Self) -> Self {
         let first = u32::try_from(self.positions.len()).expect("fewer than 2³² vertices");
+        let have_charts = self.sides.is_some() || other.sides.is_some();
+        self.sides = have_charts.then(|| [self.sides(), other.sides()].concat());
         self.positions.extend(other.positions);
         self.normals.extend(other.normals);
         self.uvs = self.uvs.zip(other.uvs).map(|(uvs, more)| [uvs, more].concat());

@@ -27,8 +27,10 @@ struct Record {
 pub(super) fn case_of(material: &[u8], mesh: &Mesh, size: [u32; 2]) -> u64 {
     let mut hasher = DefaultHasher::new();
     (material, size, &mesh.triangles).hash(&mut hasher);
-    let positions = mesh.positions.iter().flat_map(|position| position.to_array());
-    positions.for_each(|value| value.to_bits().hash(&mut hasher));
+    let vectors = mesh.positions.iter().chain(&mesh.normals).flat_map(|vector| vector.to_array());
+    let uvs = mesh.uvs.iter().flatten().flat_map(|uv| uv.to_array());
+    vectors.chain(uvs).for_each(|value| value.to_bits().hash(&mut hasher));
+    mesh.sides().iter().for_each(|sides| sides.0.hash(&mut hasher));
     hasher.finish()
 }
 
