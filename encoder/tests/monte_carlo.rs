@@ -58,9 +58,36 @@ fn a_slab_reflects_and_transmits_as_van_de_hulst_has_it() {
 fn a_half_space_reflects_as_giovanelli_has_it() {
     // Giovanelli 1955, as in the manual of MCML, table 6.2: R 0.2600 with 0.04 mirrored.
     let outcome = request(Stack::half_space(1.5, 1.0, 9.0, 0.0), 200_000).run(&()).unwrap();
-    is_whole(&outcome);
     assert!((outcome.specular - 0.04).abs() < 1e-12, "η = 1.5 mirrors {}", outcome.specular);
     agrees("R", outcome.reflected, 0.22, 5e-5);
+}
+
+#[test]
+fn what_absorbs_nothing_gives_all_light_back() {
+    let outcome = request(Stack::half_space(1.3, 0.0, 10.0, 0.0), 20_000).run(&()).unwrap();
+    agrees("R of a half-space", outcome.reflected, 1.0 - outcome.specular, 0.0);
+    // Glass: R + T T R + T T R³ .. of its two sides, R = 0.04.
+    let outcome = request(slab(1.5, [0.0, 0.0, 0.0, 1.0]), 100_000).run(&()).unwrap();
+    is_whole(&outcome);
+    agrees("T of glass", outcome.transmitted, 0.96 / 1.04, 0.0);
+}
+
+#[test]
+fn a_run_that_is_stopped_has_a_result() {
+    struct Stopped;
+    impl subsurf_encoder::Progress for Stopped {
+        fn begin(&self, _: &str, _: u64) {}
+        fn advance(&self, _: u64) {}
+        fn stopped(&self) -> bool {
+            true
+        }
+    }
+    let skin = Medium::measured("skin1").unwrap();
+    let settings = Settings { packets: 1_000_000, ..Settings::default() };
+    let profiles = Material::half_space(skin, 1.3).simulate(&settings, &Stopped).unwrap();
+    for channel in &profiles.channels {
+        assert!((1..1_000_000).contains(&channel.packets), "{} packets", channel.packets);
+    }
 }
 
 #[test]

@@ -81,7 +81,9 @@ fn fitted(folder: &Path, name: &str, capture: &Capture, gaussians: usize) -> any
     let changed = |path: &Path| std::fs::metadata(path).and_then(|facts| facts.modified());
     let is_newer = changed(&path).is_ok_and(|fit| changed(capture.path()).is_ok_and(|capture| fit >= capture));
     let cached = is_newer.then(|| std::fs::read(&path).ok()).flatten();
-    if let Some(model) = cached.and_then(|bytes| LinSss::parse(&bytes, capture.pitch_mm())) {
+    let cached = cached.and_then(|bytes| LinSss::parse(&bytes, capture.pitch_mm()));
+    let shape = ([capture.width(), capture.height()], capture.radius(), gaussians);
+    if let Some(model) = cached.filter(|model| (model.size, model.radius, model.sigmas.len()) == shape) {
         return Ok(model);
     }
     let start = Instant::now();

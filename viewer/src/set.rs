@@ -98,6 +98,8 @@ impl Set {
         let below = Vec3::new(bounds.centre_mm.x, low.y + SUNK * bounds.radius_mm, bounds.centre_mm.z);
         let mut ground = plate(PLATE * bounds.radius_mm, PLATE_THICKNESS * bounds.radius_mm, PLATE_RINGS);
         ground.uvs = mesh.mm_per_uv().map(|mm| {
+            // All texture coordinates of a mesh may be one.
+            let mm = if mm > 0.0 { mm } else { 1.0 };
             let uv = |position: &Vec3| Vec2::new(position.x, -position.z) / mm;
             ground.positions.iter().map(uv).collect()
         });
@@ -123,6 +125,11 @@ mod tests {
         assert!((high.y - 8.0).abs() < 1e-3 && (high.x - 2.1 * 26.0).abs() < 1e-2, "{high}");
         let [alone, both] = [&mesh, whole.as_ref()].map(|mesh| mesh.mm_per_uv().unwrap());
         assert!((both / alone - 1.0).abs() < 0.05, "{both} mm to a unit of the texture, {alone} of the mesh alone");
+        let one = Mesh { uvs: Some(vec![Vec2::ONE; mesh.positions.len()]), ..mesh.clone() };
+        assert!(
+            Set::Hero.with_ground(&one).uvs.iter().flatten().all(|uv| uv.is_finite()),
+            "one texture coordinate for all"
+        );
         let bare = Mesh { uvs: None, ..mesh.clone() }.charted();
         let whole = Set::Hero.with_ground(&bare);
         assert_eq!(whole.sides().len(), whole.positions.len(), "charts of the mesh, and the ground by its normals");

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use subsurf_encoder::simulate::monte_carlo::{Estimate, mcml};
-use subsurf_encoder::{Error, write_bytes};
+use subsurf_encoder::{Error, check_target, write_bytes};
 
 use crate::outln;
 use crate::program::failure::bad_request;
@@ -34,6 +34,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> anyhow::Result<()> {
     threads::set(args.threads)?;
     let mut runs = mcml::read(&args.input)?;
+    let mut targets = Vec::new();
     for run in &mut runs {
         // Names come from a file that anybody wrote: they stay in the folder that was asked for.
         if Path::new(&run.output).file_name() != Some(run.output.as_ref()) {
@@ -43,17 +44,28 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
                 run.output
             )));
         }
+        let target = args.output.join(&run.output);
+        let is_input =
+            std::fs::canonicalize(&target).is_ok_and(|target| Some(target) == std::fs::canonicalize(&args.input).ok());
+        if is_input || targets.contains(&target) {
+            return Err(bad_request(format!(
+                "{}: output file {:?} is that of another run, or the input; change it there, or take another --output",
+                args.input.display(),
+                run.output
+            )));
+        }
+        targets.push(target);
         run.request.packets = args.photons.unwrap_or(run.request.packets);
     }
     std::fs::create_dir_all(&args.output).map_err(|source| Error::Output { path: args.output.clone(), source })?;
-    for run in &runs {
+    targets.iter().try_for_each(|target| check_target(target))?;
+    for (run, path) in runs.iter().zip(&targets) {
         let start = Instant::now();
         let outcome = {
             let _graceful = Graceful::new();
             run.request.run(&Bars::new())?
         };
-        let path = args.output.join(&run.output);
-        write_bytes(&path, mcml::write(run, &outcome).as_bytes())?;
+        write_bytes(path, mcml::write(run, &outcome).as_bytes())?;
         outln!("{}: {} photon packets in {:.1} s", path.display(), outcome.packets, start.elapsed().as_secs_f64());
         let parts = [
             ("reflected", outcome.reflected),

@@ -178,4 +178,6 @@ fn profiles_are_traced_photon_by_photon() {
     assert!(results.starts_with("A1 ") && results.contains("\nRd_r #[1/cm2]"), "{results}");
     std::fs::write(folder.join("b.mci"), mci("../b.mco")).unwrap();
     refused("simulate mcml b.mci", &["../b.mco", "not a plain file name"]);
+    std::fs::write(folder.join("c.mci"), mci("c.mci")).unwrap();
+    refused("simulate mcml c.mci", &["c.mci", "the input"]);
 }

@@ -31,7 +31,8 @@ impl LinSss {
         let [width, height, gaussians, window] = [number(0)?, number(1)?, number(2)?, number(3)?];
         let pixels = width.checked_mul(height).filter(|pixels| *pixels > 0)?;
         let count = pixels.checked_add(1)?.checked_mul(3 * gaussians)?;
-        if !(1..=MAX_GAUSSIANS).contains(&gaussians) || window % 2 == 0 || values.len() != count.checked_mul(8)? {
+        let is_in_range = (1..=MAX_GAUSSIANS).contains(&gaussians) && width.max(height) < 1 << 16 && window < 2 << 10;
+        if !is_in_range || window % 2 == 0 || values.len() != count.checked_mul(8)? {
             return None;
         }
         #[allow(clippy::cast_possible_truncation, reason = "single precision")]

@@ -9,10 +9,7 @@ use super::stack::Source;
 use crate::simulate::fresnel;
 
 /// Collisions that roulette waits for at most, whatever a packet weighs.
-const COLLISIONS: f64 = 16_384.0;
-
-/// Chance to survive roulette of light packets, as in MCML.
-const SURVIVAL: f32 = 0.1;
+const COLLISIONS: u32 = 16_384;
 
 /// Depth below which packets play roulette, in decay lengths of diffuse light: of what is deeper, little comes back.
 const DEEP: f32 = 2.0;
@@ -31,8 +28,7 @@ pub(super) struct HalfSpace<'a> {
     ln_albedo: f64,
     /// Weight with which packets enter.
     entering: f64,
-    /// Collisions before a packet first plays roulette, and between one time and the next.
-    roulette: [u32; 2],
+    roulette: Roulette,
     /// Decay length of diffuse light L = 1 / √(3 σ_a σ_t') in mean free paths, at least 1.
     decay: f32,
     phase: Phase,
@@ -51,9 +47,6 @@ impl<'a> HalfSpace<'a> {
             return None;
         }
         let ln_albedo = (layer.sigma_s / layer.sigma_t()).ln();
-        // a^n < threshold, and a tenth of that each time it survived.
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most COLLISIONS, at least 1")]
-        let collisions = |ln_weight: f64| (ln_weight / ln_albedo).clamp(1.0, COLLISIONS).ceil() as u32;
         // In mean free paths, σ_a = 1 − a and σ_t' = 1 − a g.
         let albedo = ln_albedo.exp();
         let decay = (3.0 * (1.0 - albedo) * (1.0 - albedo * layer.g)).sqrt().recip();
@@ -63,7 +56,7 @@ impl<'a> HalfSpace<'a> {
             path_mm: 1.0 / layer.sigma_t(),
             ln_albedo,
             entering: 1.0 - request.stack.specular(),
-            roulette: [collisions(request.threshold.ln()), collisions(f64::from(SURVIVAL).ln())],
+            roulette: Roulette::new(ln_albedo, request.threshold),
             #[allow(clippy::cast_possible_truncation, reason = "lanes are of single precision")]
             decay: decay.clamp(1.0, 1e6) as f32,
             #[allow(clippy::cast_possible_truncation, reason = "lanes are of single precision")]
@@ -99,6 +92,33 @@ impl<'a> HalfSpace<'a> {
         let event = Event { r_mm: x.hypot(y) * self.path_mm, z_mm: 0.0, cosine: refracted, t_ps: 0.0 };
         sums.leave(Quantity::Reflected, false, &event, weight);
         true
+    }
+}
+
+/// Roulette by the number of collisions.
+#[derive(Clone, Copy)]
+struct Roulette {
+    /// Collisions before a packet plays first.
+    first: u32,
+    /// Collisions from one time to the next; `None`: as many as there were.
+    step: Option<u32>,
+    /// Chance to survive.
+    survival: f32,
+}
+
+impl Roulette {
+    /// Where a^n falls below the threshold, and below a tenth of that each time that a packet survived, with MCML's chance of a
+    /// tenth. With so little absorption that this is late, whenever the collisions have doubled: 1/√2 of the packets come so far, so
+    /// that survivors neither cost more and more nor grow too heavy.
+    fn new(ln_albedo: f64, threshold: f64) -> Self {
+        const TENTH: f32 = 0.1;
+        if threshold.ln() > ln_albedo * f64::from(COLLISIONS) {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to COLLISIONS")]
+            let collisions = |ln_weight: f64| (ln_weight / ln_albedo).clamp(1.0, f64::from(COLLISIONS)).ceil() as u32;
+            let step = collisions(f64::from(TENTH).ln());
+            return Self { first: collisions(threshold.ln()), step: Some(step), survival: TENTH };
+        }
+        Self { first: COLLISIONS, step: None, survival: std::f32::consts::FRAC_1_SQRT_2 }
     }
 }
 
@@ -148,7 +168,7 @@ impl Block {
     fn refill(&mut self, of: &HalfSpace, group: usize, lane: usize) {
         if self.next < self.end {
             self.groups[group].start(lane, of.request.seed_of(self.next));
-            self.groups[group].roulette_at[lane] = of.roulette[0];
+            self.groups[group].roulette_at[lane] = of.roulette.first;
             self.groups[group].roulette_below[lane] = DEEP * of.decay;
             self.next += 1;
             return;
@@ -165,9 +185,11 @@ impl Block {
             let lanes = &mut self.groups[group];
             let mut ended = lanes.position[2][lane] < 0.0 && of.surface(lanes, lane, sums);
             if !ended && lanes.collisions[lane] >= lanes.roulette_at[lane] {
-                lanes.roulette_at[lane] = lanes.roulette_at[lane].saturating_add(of.roulette[1]).min(NEVER);
-                lanes.factor[lane] /= SURVIVAL;
-                ended = lanes.uniform(lane) >= SURVIVAL;
+                let Roulette { step, survival, .. } = of.roulette;
+                let limit = lanes.roulette_at[lane];
+                lanes.roulette_at[lane] = limit.saturating_add(step.unwrap_or(limit)).min(NEVER);
+                lanes.factor[lane] /= survival;
+                ended = lanes.uniform(lane) >= survival;
             }
             // One packet in two survives, each time that it is deeper by what halves diffuse light.
             while !ended && lanes.position[2][lane] > lanes.roulette_below[lane] {

@@ -136,7 +136,8 @@ impl Phase {
     fn turn(self, u: [f32; 3], xi: f32, turn: f32) -> [f32; 3] {
         let (sin_phi, cos_phi) = sin_cos_of_turn(turn);
         let g = self.g;
-        if g == 0.0 {
+        // Of a smaller g, the differences below would lose all digits.
+        if g.abs() < 1e-4 {
             let cosine = 2.0 * xi - 1.0;
             let sine = positive(1.0 - cosine * cosine).sqrt();
             return [sine * cos_phi, sine * sin_phi, cosine];

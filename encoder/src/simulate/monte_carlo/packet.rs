@@ -12,8 +12,9 @@ use crate::simulate::fresnel;
 /// Chance to survive roulette; what survives is that much heavier.
 const SURVIVAL: f64 = 0.1;
 
-/// Events after which a packet plays roulette whatever it weighs: without absorption it would wander on and on.
-const EVENTS_BETWEEN_ROULETTES: u64 = 1 << 14;
+/// Events after which a packet plays roulette whatever it weighs, and whenever they have doubled: without absorption it would
+/// wander on and on. 1/√2 of them come so far, so that survivors neither cost more and more nor grow too heavy.
+const EVENTS: u64 = 1 << 14;
 
 /// Light in air goes this far in mm per ps.
 const C_MM_PER_PS: f64 = 0.299_792_458;
@@ -37,7 +38,7 @@ struct Packet {
 /// Traces one packet from its start until it has left or lost all its weight.
 pub(super) fn trace(request: &Request, planes: &[f64], rng: &mut impl Rng, sums: &mut Sums) {
     let mut packet = start(request, planes, rng);
-    let mut events = 0;
+    let mut events: u64 = 0;
     loop {
         let layer = request.stack.layers[packet.layer];
         let sigma_t = layer.sigma_t();
@@ -66,12 +67,17 @@ pub(super) fn trace(request: &Request, planes: &[f64], rng: &mut impl Rng, sums:
             packet.left = 0.0;
             packet.collide(request, rng, sums);
         }
-        if packet.weight < request.threshold || events % EVENTS_BETWEEN_ROULETTES == 0 {
-            if rng.random::<f64>() >= SURVIVAL {
-                break;
-            }
-            packet.weight /= SURVIVAL;
+        let survival = if packet.weight < request.threshold {
+            SURVIVAL
+        } else if events >= EVENTS && events.is_power_of_two() {
+            std::f64::consts::FRAC_1_SQRT_2
+        } else {
+            continue;
+        };
+        if rng.random::<f64>() >= survival {
+            break;
         }
+        packet.weight /= survival;
     }
     sums.absorbed.add(packet.absorbed);
 }

@@ -106,11 +106,12 @@ impl Request {
         Ok(())
     }
 
-    /// Traces the packets on all threads. Where `progress` says stop, the packets traced so far are the result.
+    /// Traces the packets on all threads. Where `progress` says stop, the packets traced so far are the result, a batch for each
+    /// thread at least.
     ///
     /// # Errors
     ///
-    /// Those of [`Self::check`]; [`Error::Request`] where it was stopped before anything was traced.
+    /// Those of [`Self::check`].
     pub fn run(&self, progress: &dyn Progress) -> Result<Outcome> {
         self.check()?;
         progress.begin("tracing photons", self.packets);
@@ -122,7 +123,7 @@ impl Request {
         // Sums of integers are the same whichever thread takes a batch.
         let of_thread = |_| {
             let mut sums = Sums::new(self);
-            while !progress.stopped() {
+            loop {
                 let first = next.fetch_add(size, Ordering::Relaxed);
                 let end = (first + size).min(self.packets);
                 if first >= end {
@@ -136,19 +137,21 @@ impl Request {
                 }
                 sums.packets += end - first;
                 progress.advance(end - first);
+                // After a batch: a run that is stopped at once has a result, too.
+                if progress.stopped() {
+                    break;
+                }
             }
             sums
         };
         let sums = (0..threads).into_par_iter().map(of_thread).reduce(|| Sums::new(self), Sums::merged);
-        if sums.packets == 0 {
-            return Err(Error::Request("stopped before a photon was traced".into()));
-        }
         Ok(Outcome::new(self, sums, half_space.is_some()))
     }
 
-    /// Seed of a packet: those of neighbours are mixed by whoever takes them, those of neighbouring runs are far apart.
+    /// Seed of a packet: those of neighbours are mixed by whoever takes them, those of neighbouring runs are far apart (by another
+    /// odd multiplier than the mixers have: L'Ecuyer 1999).
     pub(super) fn seed_of(&self, packet: u64) -> u64 {
-        self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(packet)
+        self.seed.wrapping_mul(0xd134_2543_de82_ef95).wrapping_add(packet)
     }
 }
 

@@ -71,9 +71,13 @@ const UNITS: f64 = (1_u64 << 48) as f64;
 
 /// Weight as an integer.
 pub(super) fn units(weight: f64) -> u128 {
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "weights are 0 to some hundreds")]
-    let units = (weight * UNITS).round() as u64;
-    u128::from(units)
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "casts saturate, and weights are positive"
+    )]
+    let units = (weight * UNITS).round() as u128;
+    units
 }
 
 /// Weight of an integer.

@@ -78,17 +78,15 @@ impl Stack {
         planes
     }
 
-    /// Share of a pencil from above that is reflected before it enters. Where the first layer is clear (glass), that is
-    /// what comes back from both of its sides, after any number of reflections.
+    /// Share of a pencil from above that is reflected before it enters. Where the first of several layers is clear (glass), that
+    /// is what comes back from both of its sides, after any number of reflections.
     #[must_use]
     pub fn specular(&self) -> f64 {
         let mirror = |a: f64, b: f64| ((a - b) / (a + b)).powi(2);
         let first = self.layers[0];
         let outer = mirror(self.eta_above, first.eta);
-        if first.sigma_t() > 0.0 {
-            return outer;
-        }
-        let inner = mirror(first.eta, self.layers.get(1).map_or(self.eta_below, |layer| layer.eta));
+        let Some(second) = self.layers.get(1).filter(|_| first.sigma_t() == 0.0) else { return outer };
+        let inner = mirror(first.eta, second.eta);
         outer + (1.0 - outer).powi(2) * inner / (1.0 - outer * inner)
     }
 

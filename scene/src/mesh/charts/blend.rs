@@ -86,6 +86,9 @@ fn near_seams(surface: &Surface, labels: &[u8], reach_mm: f32) -> Vec<u32> {
     found
 }
 
+/// Triangles that a vertex looks at, at most, the nearest ones first: fine scans are blended over less than the width.
+const MOST: usize = 1024;
+
 /// Shares at a vertex; `seen` is room for the search.
 fn shares(surface: &Surface, labels: &[u8], vertex: u32, width_mm: f32, seen: &mut HashSet<u32>) -> BoxSides {
     let centre = surface.positions[vertex as usize];
@@ -95,7 +98,7 @@ fn shares(surface: &Surface, labels: &[u8], vertex: u32, width_mm: f32, seen: &m
     seen.extend(&open);
     let first = open.len();
     let mut at = 0;
-    while let Some(&triangle) = open.get(at) {
+    while let Some(&triangle) = open.get(at).filter(|_| at < MOST) {
         let k = triangle as usize;
         let mut distance = surface.middles[k].distance(centre) / width_mm;
         if at < first {

@@ -7,6 +7,8 @@ mod blend;
 mod labels;
 mod surface;
 
+use glam::Vec3;
+
 use super::triangles::Mesh;
 use blend::blended;
 use labels::labels;
@@ -20,11 +22,17 @@ impl Mesh {
     /// Mesh with charts for box mapping, which are blended within 2.5 % of its longest side about their seams, or within one edge of
     /// the mesh where edges are longer. Vertices at one place whose normals differ by more than 60° are no neighbours.
     ///
-    /// The work of a few hundred passes over the triangles.
+    /// The work of a few hundred passes over the triangles, and of at most 1,024 of them for each vertex about a seam. A mesh that is too
+    /// large for numbers of single precision stays without charts.
     #[must_use]
     pub fn charted(self) -> Self {
-        let [low, high] = self.bounds();
+        // Of what is seen: files may have vertices that belong to no triangle.
+        let corners = || self.triangles.iter().flatten().map(|&vertex| self.positions[vertex as usize]);
+        let [low, high] = [corners().reduce(Vec3::min), corners().reduce(Vec3::max)].map(Option::unwrap_or_default);
         let width_mm = WIDTH * (high - low).max_element();
+        if !width_mm.is_finite() {
+            return self;
+        }
         let surface = Surface::new(&self);
         let labels = labels(&surface, width_mm);
         let sides = blended(&surface, &labels, width_mm);

@@ -4,6 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use subsurf_cli::outln;
 use subsurf_cli::picture::{image, write_picture};
 use subsurf_scene::Mesh;
 
@@ -46,6 +47,7 @@ pub(super) fn reference(
     if let Some(known) = cache::read::<Record>(&record).filter(|known| known.case == case)
         && let Ok(pixels) = image::open(&picture)
     {
+        outln!("{} is kept: delete it to have it drawn again", picture.display());
         let pixels = pixels.into_rgb8().pixels().map(|pixel| pixel.0).collect();
         return Ok(Reference { exposure: known.exposure, pixels });
     }
