@@ -143,9 +143,9 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
         devices.push(name);
     }
     let gpu = gpus.first();
-    let (patch, _) = draw_patch(gpu, material, Scattering::Gather, Light::Disc, [512, 512], None)?;
-    write_picture(&dir.join("patch.png"), &patch)?;
-    let (mesh, _) = draw_mesh(
+    let patch = draw_patch(gpu, material, Scattering::Gather, Light::Disc, [512, 512], None)?;
+    write_picture(&dir.join("patch.png"), &patch.picture)?;
+    let mesh = draw_mesh(
         gpu,
         material,
         &torus(18.0, 8.0, 64),
@@ -153,7 +153,7 @@ fn draw(dir: &Path, material: &Bssrdf<'_>) -> anyhow::Result<Drawn> {
         Scattering::Gather,
         &RenderRequest::usual([800, 600]),
     )?;
-    write_picture(&dir.join("mesh.png"), &mesh)?;
+    write_picture(&dir.join("mesh.png"), &mesh.picture)?;
     Ok(Drawn { devices, agreement })
 }
 

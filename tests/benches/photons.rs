@@ -18,7 +18,7 @@ fn requests(g: f64, packets: u64, scores: &[Score]) -> Vec<Request> {
     let of_channel = |name: &'static str, c: usize| {
         let medium = Medium::measured(name).expect("a name of the list");
         let [absorption, scattering] = [medium.sigma_a[c], medium.sigma_s[c] / (1.0 - g)];
-        let stack = Stack::half_space(if name == "marble" { 1.5 } else { 1.3 }, absorption, scattering, g);
+        let stack = Stack::half_space(Medium::measured_eta(name), absorption, scattering, g);
         let dr_mm = medium.mean_free_path_mm(c) / 20.0;
         Request {
             stack,

@@ -1,13 +1,13 @@
 //! A mesh made of a BTF, and the images that it was made from beside it.
 
-use image::RgbImage;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, json};
 use subsurf_decoder::NestedBtf;
 use subsurf_runtime::{BACKGROUND, BtfMaterial, Gpu, RuntimeOptions};
 use subsurf_scene::{Mesh, Placement, REFLECTION_SIZE, Scene, visibility};
 use subsurf_shaders::{cpu, uniform};
 use subsurf_viewer::{GpuAsset, RenderRequest, RenderSession, TexturedMesh, expect_uvs, exposure_of, upload_images};
 
+use super::Drawing;
 use super::btf_args::BtfArgs;
 use super::exposure::{SUPERSAMPLING, average_down};
 use crate::images::FolderImages;
@@ -20,7 +20,7 @@ pub(crate) fn draw_btf(
     mesh: &Mesh,
     args: &BtfArgs,
     request: &RenderRequest,
-) -> anyhow::Result<(RgbImage, Map<String, Value>)> {
+) -> anyhow::Result<Drawing> {
     expect_uvs(mesh)?;
     let number = args.number(btf)?;
     let size = btf.materials().nth(number).map_or([1; 2], |material| material.size(0));
@@ -38,8 +38,7 @@ pub(crate) fn draw_btf(
         let surface =
             cpu::BtfSurface { btf, material: number, filtering: options.btf.filtering, samples: options.btf.samples };
         let (picture, exposure) = on_cpu(&surface, mesh, copies, &scene, request.exposure, large)?;
-        facts.insert("exposure".to_owned(), json!(exposure));
-        return Ok((average_down(&picture, large), facts));
+        return Ok(Drawing { picture: average_down(&picture, large), exposure, facts });
     };
     let mut draw = |material: BtfMaterial, number: usize, scene: &mut Scene, exposure: Option<f32>, name: &str| {
         facts.insert(name.to_owned(), json!(material.gpu_bytes()));
@@ -61,8 +60,7 @@ pub(crate) fn draw_btf(
             montage(&[vec![picture, beside]])
         }
     };
-    facts.insert("exposure".to_owned(), json!(scene.camera.exposure));
-    Ok((picture, facts))
+    Ok(Drawing { picture, exposure: scene.camera.exposure, facts })
 }
 
 /// The same by the twin of the shaders, with the exposure; shadows are known of vertices only.

@@ -1,8 +1,7 @@
 //! A mesh made of a translucent material, by one of the techniques.
 
 use glam::Vec3;
-use image::RgbImage;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_runtime::{BACKGROUND, Gpu};
 use subsurf_scene::{Mesh, Placement};
@@ -10,6 +9,7 @@ use subsurf_shaders::cpu;
 use subsurf_shaders::uniform;
 use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scattering, choose_mapping, points};
 
+use super::Drawing;
 use super::exposure::{BRIGHT, SUPERSAMPLING, average_down, exposure_for};
 
 /// Draws a mesh made of the material, with the ground of its set; without a device, by the reference technique only.
@@ -20,7 +20,7 @@ pub(crate) fn draw_mesh(
     mapping: MappingChoice,
     technique: Scattering,
     request: &RenderRequest,
-) -> anyhow::Result<(RgbImage, Map<String, Value>)> {
+) -> anyhow::Result<Drawing> {
     let mapping = choose_mapping(mesh, mapping, material)?;
     let large = request.size.map(|side| side * SUPERSAMPLING);
     let mut scene = request.scene(mesh);
@@ -66,6 +66,5 @@ pub(crate) fn draw_mesh(
             cpu::shade_vertex(&triangles, &block, &reflections, large, [BACKGROUND; 3])
         }
     };
-    facts.insert("exposure".to_owned(), json!(scene.camera.exposure));
-    Ok((average_down(&pixels, large), facts))
+    Ok(Drawing { picture: average_down(&pixels, large), exposure: scene.camera.exposure, facts })
 }

@@ -113,7 +113,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let bytes = read(&args.file)?;
     let start = Instant::now();
-    let (picture, facts, device) = match parse(&args.file, &bytes)? {
+    let (Drawing { picture, exposure, facts }, device) = match parse(&args.file, &bytes)? {
         DrawnMaterial::Bssrdf(material) => draw_bssrdf(args, &material)?,
         DrawnMaterial::Btf(btf) => {
             args.refuse_scattering()?;
@@ -122,14 +122,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 None => args.backend.open()?,
             };
             let mesh = args.load_mesh(args.mesh.as_deref().unwrap_or(Path::new(USUAL_SHAPE)))?;
-            let (picture, facts) = draw_btf(gpu.as_ref(), &btf, &mesh, &args.btf, &args.request()?)?;
-            (picture, facts, devices::name(gpu.as_ref()))
+            (draw_btf(gpu.as_ref(), &btf, &mesh, &args.btf, &args.request()?)?, devices::name(gpu.as_ref()))
         }
     };
     write_picture(&args.output, &picture)?;
     let seconds = start.elapsed().as_secs_f64();
     if args.json {
-        let mut value = json!({ "file": args.output, "device": device, "seconds": seconds });
+        let mut value = json!({ "file": args.output, "device": device, "exposure": exposure, "seconds": seconds });
         if let Some(value) = value.as_object_mut() {
             value.extend(facts);
         }
@@ -148,8 +147,16 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 /// What a BTF, or whatever stands in a set, is drawn on if nothing is said.
 const USUAL_SHAPE: &str = "knot";
 
+/// A picture, and what is said about it.
+pub(crate) struct Drawing {
+    pub(crate) picture: RgbImage,
+    /// Factor on radiances before they became display values.
+    exposure: f32,
+    facts: Map<String, Value>,
+}
+
 /// A translucent material, flat or on a mesh, by each technique that is asked for; and what drew it.
-fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, Map<String, Value>, String)> {
+fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(Drawing, String)> {
     args.btf.expect_none()?;
     let mut techniques: Vec<Scattering> = args.technique.iter().copied().map(Into::into).collect();
     if techniques.is_empty() {
@@ -178,28 +185,28 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(RgbImage, 
         }
         _ => Light::Disc,
     };
-    let mut exposure = args.exposure;
-    let (mut pictures, mut first) = (Vec::new(), Map::new());
-    for technique in techniques {
-        let (picture, facts) = match &mesh {
-            None => draw_patch(gpu, material, technique, light, args.size.0, exposure)?,
-            Some(mesh) => {
-                let request = RenderRequest { exposure, ..args.request()? };
-                draw_mesh(gpu, material, mesh, args.mapping.into(), technique, &request)?
-            }
-        };
-        if pictures.is_empty() {
-            #[allow(clippy::cast_possible_truncation, reason = "it was of single precision")]
-            let chosen = facts.get("exposure").and_then(Value::as_f64).map(|exposure| exposure as f32);
-            (exposure, first) = (chosen, facts);
+    let mut on_mesh = match mesh {
+        Some(mesh) => Some((mesh, args.request()?)),
+        None => None,
+    };
+    // One after the other, all by the exposure of the first.
+    let mut draw = |technique, exposure| match &mut on_mesh {
+        None => draw_patch(gpu, material, technique, light, args.size.0, exposure),
+        Some((mesh, request)) => {
+            request.exposure = exposure;
+            draw_mesh(gpu, material, mesh, args.mapping.into(), technique, request)
         }
-        pictures.push(picture);
+    };
+    let mut drawing = draw(techniques[0], args.exposure)?;
+    let mut pictures = vec![drawing.picture];
+    for technique in &techniques[1..] {
+        pictures.push(draw(*technique, Some(drawing.exposure))?.picture);
     }
-    let picture = match pictures.len() {
+    drawing.picture = match pictures.len() {
         1 => pictures.swap_remove(0),
         _ => montage(&[pictures]),
     };
-    Ok((picture, first, devices::name(gpu)))
+    Ok((drawing, devices::name(gpu)))
 }
 
 impl Args {

@@ -1,13 +1,13 @@
 //! A flat patch, each of its pixels a block.
 
-use image::RgbImage;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_runtime::{BssrdfPlanes, Gpu, Load, PatchLight, PatchRenderer, Region, SeparableRenderer, layout_of};
 use subsurf_shaders::{Rgb, cpu};
 use subsurf_viewer::{Scattering, basis, numbers};
 
+use super::Drawing;
 use super::exposure::exposure_for;
 use crate::picture::image;
 use crate::program::failure::bad_request;
@@ -27,7 +27,7 @@ pub(crate) fn draw_patch(
     light: Light,
     size: [u32; 2],
     exposure: Option<f32>,
-) -> anyhow::Result<(RgbImage, Map<String, Value>)> {
+) -> anyhow::Result<Drawing> {
     let header = material.header();
     let whole = Region { origin: [0, 0], size: [header.width, header.height] };
     // The patch keeps its shape.
@@ -38,7 +38,7 @@ pub(crate) fn draw_patch(
     let mut facts = Map::new();
     facts.insert("light".to_owned(), json!(light.name()));
     facts.insert("size".to_owned(), json!(size));
-    let pixels = match gpu {
+    let (pixels, exposure) = match gpu {
         Some(gpu) => {
             let renderer = PatchRenderer::new(gpu, layout_of(material))?;
             let light = PatchLight::upload(gpu, whole.size, &irradiance)?;
@@ -61,8 +61,7 @@ pub(crate) fn draw_patch(
                 None => exposure_for(exitance.read(gpu)?.iter()),
             };
             facts.insert("gpu_bytes".to_owned(), json!(gpu_bytes));
-            facts.insert("exposure".to_owned(), json!(exposure));
-            renderer.picture(gpu, &exitance, size, exposure)?
+            (renderer.picture(gpu, &exitance, size, exposure)?, exposure)
         }
         None => {
             let exitance = match technique {
@@ -73,11 +72,10 @@ pub(crate) fn draw_patch(
                 }
             };
             let exposure = exposure.unwrap_or_else(|| exposure_for(exitance.iter()));
-            facts.insert("exposure".to_owned(), json!(exposure));
-            cpu::present(&exitance, whole.size, size, exposure)
+            (cpu::present(&exitance, whole.size, size, exposure), exposure)
         }
     };
-    Ok((image(&pixels, size[0]), facts))
+    Ok(Drawing { picture: image(&pixels, size[0]), exposure, facts })
 }
 
 fn no_splats() -> anyhow::Error {

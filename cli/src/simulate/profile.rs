@@ -72,7 +72,7 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
     let material = match &args.material {
         Some(name) => {
             let medium = Medium::measured(name).ok_or_else(|| bad_request(format!("no material is called {name}")))?;
-            Material::half_space(medium, args.eta.unwrap_or(if name == "marble" { 1.5 } else { 1.3 }))
+            Material::half_space(medium, args.eta.unwrap_or(Medium::measured_eta(name)))
         }
         None => layered(&args.layers)?,
     };

@@ -40,6 +40,12 @@ impl Medium {
         known.map(|(_, medium)| *medium)
     }
 
+    /// Refractive index η of the measured material of that name: 1.5 of marble, 1.3 of all others (Jensen et al. 2001, fig. 5).
+    #[must_use]
+    pub fn measured_eta(name: &str) -> f64 {
+        if name.eq_ignore_ascii_case("marble") { 1.5 } else { 1.3 }
+    }
+
     /// Σ w_k medium_k: coefficients of a mixture are linear in its parts.
     #[must_use]
     pub fn mix(parts: impl IntoIterator<Item = (f64, Self)>) -> Self {

@@ -4,12 +4,10 @@ use pulp::NullaryFnOnce;
 
 use super::lanes::{LANES, Lanes, NEVER, Phase};
 use super::request::{Request, Sums};
+use super::roulette::{EVENTS, LATE, LIGHT};
 use super::score::{Event, Quantity};
 use super::stack::Source;
 use crate::simulate::fresnel;
-
-/// Collisions that roulette waits for at most, whatever a packet weighs.
-const COLLISIONS: u32 = 16_384;
 
 /// Depth below which packets play roulette, in decay lengths of diffuse light: of what is deeper, little comes back.
 const DEEP: f32 = 2.0;
@@ -107,18 +105,17 @@ struct Roulette {
 }
 
 impl Roulette {
-    /// Where a^n falls below the threshold, and below a tenth of that each time that a packet survived, with MCML's chance of a
-    /// tenth. With so little absorption that this is late, whenever the collisions have doubled: 1/√2 of the packets come so far, so
-    /// that survivors neither cost more and more nor grow too heavy.
+    /// Where a^n falls below the threshold, and below a tenth of that each time that a packet survived; where so little is absorbed
+    /// that this is late, whenever the collisions have doubled.
     fn new(ln_albedo: f64, threshold: f64) -> Self {
-        const TENTH: f32 = 0.1;
-        if threshold.ln() > ln_albedo * f64::from(COLLISIONS) {
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to COLLISIONS")]
-            let collisions = |ln_weight: f64| (ln_weight / ln_albedo).clamp(1.0, f64::from(COLLISIONS)).ceil() as u32;
-            let step = collisions(f64::from(TENTH).ln());
-            return Self { first: collisions(threshold.ln()), step: Some(step), survival: TENTH };
+        #[allow(clippy::cast_possible_truncation, reason = "lanes are of single precision")]
+        let [light, late] = [LIGHT as f32, LATE as f32];
+        if threshold.ln() <= ln_albedo * f64::from(EVENTS) {
+            return Self { first: EVENTS, step: None, survival: late };
         }
-        Self { first: COLLISIONS, step: None, survival: std::f32::consts::FRAC_1_SQRT_2 }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to EVENTS")]
+        let collisions = |ln_weight: f64| (ln_weight / ln_albedo).clamp(1.0, f64::from(EVENTS)).ceil() as u32;
+        Self { first: collisions(threshold.ln()), step: Some(collisions(LIGHT.ln())), survival: light }
     }
 }
 

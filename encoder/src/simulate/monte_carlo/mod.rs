@@ -13,6 +13,7 @@ mod outcome;
 mod packet;
 pub mod profile;
 mod request;
+mod roulette;
 mod score;
 mod stack;
 

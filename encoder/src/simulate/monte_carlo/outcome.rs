@@ -1,7 +1,7 @@
 //! What a run found.
 
 use super::request::{Request, Sums};
-use super::score::{Quantity, Score, Tally, standard_error, units, weight};
+use super::score::{Score, Tally, standard_error, units, weight};
 
 /// A mean over packets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -92,11 +92,5 @@ impl Outcome {
     #[must_use]
     pub fn tally(&self, score: Score) -> Option<&Tally> {
         self.tallies.iter().find(|tally| tally.score == score)
-    }
-
-    /// Absorption where packets collided first, with the depths of [`Quantity::Absorbed`]; `None` if it is not apart.
-    #[must_use]
-    pub fn ballistic_absorption(&self) -> Option<&Tally> {
-        self.tallies.iter().find(|tally| tally.score.quantity == Quantity::BallisticAbsorbed)
     }
 }

@@ -5,16 +5,10 @@ use std::f64::consts::TAU;
 use rand::{Rng, RngExt};
 
 use super::request::{Request, Sums};
+use super::roulette;
 use super::score::{Event, Quantity};
 use super::stack::Source;
 use crate::simulate::fresnel;
-
-/// Chance to survive roulette; what survives is that much heavier.
-const SURVIVAL: f64 = 0.1;
-
-/// Events after which a packet plays roulette whatever it weighs, and whenever they have doubled: without absorption it would
-/// wander on and on. 1/√2 of them come so far, so that survivors neither cost more and more nor grow too heavy.
-const EVENTS: u64 = 1 << 14;
 
 /// Light in air goes this far in mm per ps.
 const C_MM_PER_PS: f64 = 0.299_792_458;
@@ -68,9 +62,9 @@ pub(super) fn trace(request: &Request, planes: &[f64], rng: &mut impl Rng, sums:
             packet.collide(request, rng, sums);
         }
         let survival = if packet.weight < request.threshold {
-            SURVIVAL
-        } else if events >= EVENTS && events.is_power_of_two() {
-            std::f64::consts::FRAC_1_SQRT_2
+            roulette::LIGHT
+        } else if events >= u64::from(roulette::EVENTS) && events.is_power_of_two() {
+            roulette::LATE
         } else {
             continue;
         };

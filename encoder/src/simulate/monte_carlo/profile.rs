@@ -119,7 +119,7 @@ impl Material {
                 seed: settings.seed.wrapping_mul(3).wrapping_add(c),
                 ballistic_apart: false,
             };
-            channels.push(Channel::new(&request.run(progress)?, stack.specular()));
+            channels.push(Channel::new(&request.run(progress)?));
         }
         let channels = channels.try_into().map_err(|_| Error::Request("a material has three channels".into()))?;
         Ok(Profiles { dr_mm: grid.dr_mm, channels })
@@ -151,7 +151,7 @@ impl Material {
 }
 
 impl Channel {
-    fn new(outcome: &Outcome, specular: f64) -> Self {
+    fn new(outcome: &Outcome) -> Self {
         let [by_radius, by_angle] =
             [BY_RADIUS, BY_ANGLE].map(|score| outcome.tally(score).expect("both were asked for"));
         let mut rd = by_radius.densities(outcome.packets);
@@ -169,7 +169,7 @@ impl Channel {
             reflected: outcome.reflected,
             transmitted: outcome.transmitted,
             absorbed: outcome.absorbed,
-            specular,
+            specular: outcome.specular,
             packets: outcome.packets,
         }
     }

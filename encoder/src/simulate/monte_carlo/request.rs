@@ -149,7 +149,7 @@ impl Request {
     }
 
     /// Seed of a packet: those of neighbours are mixed by whoever takes them, those of neighbouring runs are far apart (by another
-    /// odd multiplier than the mixers have: L'Ecuyer 1999).
+    /// odd multiplier than the mixers have, of Steele and Vigna 2021).
     pub(super) fn seed_of(&self, packet: u64) -> u64 {
         self.seed.wrapping_mul(0xd134_2543_de82_ef95).wrapping_add(packet)
     }

@@ -3,8 +3,7 @@
 mod irradiance;
 mod picture;
 mod reflections;
-mod stage;
-mod studio;
+mod room;
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -14,6 +13,7 @@ use crate::error::{Error, Result};
 use irradiance::project;
 use picture::Picture;
 use reflections::{level_size, reflect};
+use room::{Room, STAGE, STUDIO};
 
 pub use reflections::{REFLECTION_LEVELS, REFLECTION_SIZE};
 
@@ -48,7 +48,7 @@ impl Environment {
     /// Never: its radiances are finite.
     #[must_use]
     pub fn studio() -> Self {
-        Self::built_in(studio::radiance)
+        Self::built_in(&STUDIO)
     }
 
     /// Dark stage around one bright light: a cool, faint box overhead behind what is seen, a strip on the left, night around.
@@ -57,17 +57,17 @@ impl Environment {
     /// Never: its radiances are finite.
     #[must_use]
     pub fn stage() -> Self {
-        Self::built_in(stage::radiance)
+        Self::built_in(&STAGE)
     }
 
-    /// Environment of a radiance by its unit direction.
-    fn built_in(radiance: impl Fn(Vec3) -> Vec3) -> Self {
+    /// Environment of a room.
+    fn built_in(room: &Room) -> Self {
         const SIZE: [u32; 2] = [128, 64];
         let radiance = |x: u32, y: u32| {
             #[allow(clippy::cast_precision_loss, reason = "a hundred")]
             let (u, v) = ((x as f32 + 0.5) / SIZE[0] as f32, (y as f32 + 0.5) / SIZE[1] as f32);
             let (around, down) = (std::f32::consts::TAU * (u - 0.5), std::f32::consts::PI * v);
-            radiance(Vec3::new(down.sin() * around.sin(), down.cos(), down.sin() * around.cos())).into()
+            room.radiance(Vec3::new(down.sin() * around.sin(), down.cos(), down.sin() * around.cos())).into()
         };
         let pixels: Vec<_> =
             (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))).map(|(x, y)| radiance(x, y)).collect();

@@ -107,17 +107,15 @@ fn run_of_version_2(lines: &mut Lines, media: &[(String, Layer)]) -> Result<Run>
         layers.push((*layer, thickness_mm));
         names.push(name.to_owned());
     }
-    if layers.len() < 3 {
-        return Err(
-            lines.refuse(format!("{} media in the geometry of {output}", layers.len()), "one above, layers, one below")
-        );
-    }
-    let (Some((below, _)), Some((above, _))) = (layers.pop(), layers.first().map(|(layer, _)| (*layer, ()))) else {
-        return Err(lines.refuse("no layers".into(), "one above, layers, one below"));
+    let [(above, _), _, .., (below, _)] = &layers[..] else {
+        let found = format!("{} media in the geometry of {output}", layers.len());
+        return Err(lines.refuse(found, "one above, layers, one below"));
     };
+    let ([eta_above, eta_below], count) = ([above.eta, below.eta], layers.len() - 2);
+    let inside = layers.into_iter().skip(1).take(count);
     let inside: Result<Vec<Layer>> =
-        layers.into_iter().skip(1).map(|(layer, thickness)| Ok(Layer { thickness_mm: thickness?, ..layer })).collect();
-    let stack = Stack { eta_above: above.eta, layers: inside?, eta_below: below.eta };
+        inside.map(|(layer, thickness)| Ok(Layer { thickness_mm: thickness?, ..layer })).collect();
+    let stack = Stack { eta_above, layers: inside?, eta_below };
 
     let mut line = lines.next("the source: pencil or isotropic")?;
     let kind = line.word("the source: pencil or isotropic")?;
