@@ -13,6 +13,8 @@ pub use asset::{
     BssrdfPlanes, BtfImages, BtfMaterial, GatherMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial,
     SplatMaterial, VertexData, layout_of,
 };
+#[cfg(feature = "reference")]
+pub use asset::{LinsssMaterial, LinsssModel};
 pub use error::{Error, Result};
 pub use frame::{
     BACKGROUND, BACKGROUND_COLOUR, DepthTarget, Frame, Input, Object, PassTimes, PictureTarget, Plan, Renderer,

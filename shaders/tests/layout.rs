@@ -3,12 +3,12 @@
 use std::mem::{offset_of, size_of};
 
 use naga::TypeInner;
-use subsurf_shaders::passes::{Choice, table};
+use subsurf_shaders::passes::{ALL, Choice, table};
 use subsurf_shaders::{MaterialLayout, TargetFormat, uniform};
 
 /// Every variant of every pass for every target format: name and WGSL.
 fn all() -> Vec<(String, String)> {
-    let variants = table::ALL.into_iter().flat_map(|pass| pass.variants());
+    let variants = ALL.into_iter().flat_map(|pass| pass.variants());
     let texts = variants.flat_map(|variant| TargetFormat::ALL.map(|target| (variant.name(), variant.wgsl(target))));
     texts.collect()
 }
@@ -65,6 +65,8 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(BtfCodebooks: chains, merged, i2, i1, p2_bytes, p1, is_signed, colours, tints, tint_count, tint_at, i2_mask, last_i2, stages, is_relative, first, step, nodes, alpha_max, sin_beta_max, theta_max, cos_light_min, colour_encoding, white, octaves, last_word);
     assert_layout_of!(BtfImages: light_rings, view_rings, rings, size, tiles, white, cos_light_min);
     assert_layout_of!(BtfTexture: levels, count, filtering, samples);
+    assert_layout_of!(Linsss: sigmas_mm, gaussians, is_exact, turn);
+    assert_layout_of!(LinsssStage: sigma_mm, axis, size, focal_texels, middle_mm, perspective, levels, level);
     assert_layout_of!(ScreenDomain: size, focal_texels, middle_mm, pitch_mm, perspective);
 }
 

@@ -7,7 +7,7 @@ use naga::back::{glsl, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Block, Expression, Function, MathFunction, Module, ScalarKind, ShaderStage, Statement, TypeInner};
 use subsurf_shaders::TargetFormat;
-use subsurf_shaders::passes::table;
+use subsurf_shaders::passes::ALL;
 
 /// What a WebGL2-class device offers: nothing beyond the core of WGSL.
 const WEBGL2: Capabilities = Capabilities::empty();
@@ -17,7 +17,7 @@ const MAX_TEXTURES: usize = 16;
 
 /// Every variant of every pass for every target format: name and WGSL. Names for packed targets end in ", packed".
 fn all() -> Vec<(String, String)> {
-    let variants = table::ALL.into_iter().flat_map(|pass| pass.variants());
+    let variants = ALL.into_iter().flat_map(|pass| pass.variants());
     let both = variants.flat_map(|variant| {
         let [half, packed] = TargetFormat::ALL.map(|target| variant.wgsl(target));
         [(variant.name(), half), (format!("{}, packed", variant.name()), packed)]
@@ -211,6 +211,12 @@ fn texture_loads_are_accounted_for() {
             ("blur_screen_last, Terms(2)", 1),
             ("shade_separable, Terms(1)", 2),
             ("shade_separable, Terms(2)", 2),
+            // Taps clamped to what the maps hold; levels of the pyramid to what is left of it.
+            ("linsss_gbuffer", 5),
+            ("linsss_blur", 3),
+            ("linsss_reduce", 1),
+            ("linsss_lookup", 2),
+            ("shade_linsss", 4),
             // Words of a file, clamped to the last; lists at the texel of the target. Pixels of images clamped to their size,
             // tiles and layers to those of the texture.
             ("btf_query, Btf(Nested)", 4),

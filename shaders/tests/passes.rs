@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use naga::{AddressSpace, ImageClass, ImageDimension, Module, ScalarKind, ShaderStage, TypeInner};
 use subsurf_shaders::TargetFormat;
-use subsurf_shaders::passes::{Binding, Variant, table};
+use subsurf_shaders::passes::{ALL, Binding, Variant};
 
 /// A file or folder of the crate.
 fn at(path: &str) -> PathBuf {
@@ -32,7 +32,7 @@ fn files_under(folder: &str, extension: &str) -> BTreeSet<String> {
 
 /// Every variant of every pass, with its target formats.
 fn variants() -> impl Iterator<Item = (Variant, TargetFormat)> {
-    let variants = table::ALL.into_iter().flat_map(|pass| pass.variants());
+    let variants = ALL.into_iter().flat_map(|pass| pass.variants());
     variants.flat_map(|variant| TargetFormat::ALL.map(|target| (variant, target)))
 }
 
@@ -61,10 +61,10 @@ fn every_file_belongs_to_a_pass_and_says_what_it_is() {
 fn first_lines_of_passes_name_their_parts() {
     let folder: BTreeSet<String> = files_under("wgsl/pass", "wgsl");
     let rows: BTreeSet<String> =
-        table::ALL.iter().map(|pass| pass.file.path.strip_prefix("pass/").unwrap().to_owned()).collect();
+        ALL.iter().map(|pass| pass.file.path.strip_prefix("pass/").unwrap().to_owned()).collect();
     assert_eq!(rows, folder, "one row for each file of a pass");
-    assert_eq!(rows.len(), table::ALL.len(), "one file for each row");
-    for pass in table::ALL {
+    assert_eq!(rows.len(), ALL.len(), "one file for each row");
+    for pass in ALL {
         let parts: Vec<&str> = pass.parts.iter().map(|part| part.name()).collect();
         let first = pass.file.text.lines().next().unwrap();
         assert_eq!(first, format!("// Needs: {}.", parts.join(", ")), "{}", pass.name());
@@ -145,7 +145,7 @@ fn passes_have_a_twin_or_the_crate_says_why_not() {
     let excused: Vec<&str> = listed.flat_map(|line| line.split('`').skip(1).step_by(2)).collect();
     let twins = files_under("src/cpu", "rs");
     let (with, without): (Vec<&str>, Vec<&str>) =
-        table::ALL.iter().map(|pass| pass.name()).partition(|name| twins.contains(*name));
+        ALL.iter().map(|pass| pass.name()).partition(|name| twins.contains(*name));
     let sorted = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<String>>();
     assert_eq!(sorted(&excused), sorted(&without), "passes without a twin: the crate's text, and the files");
     assert_eq!(excused.len(), without.len(), "listed once");

@@ -241,7 +241,7 @@ pub unsafe extern "C" fn subsurf_material_info(
             Technique::Splat(_) => SubsurfTechnique::Splat,
             Technique::Separable(_) => SubsurfTechnique::Separable,
             Technique::Btf(_) => SubsurfTechnique::Btf,
-            Technique::Gather(_) => SubsurfTechnique::Automatic,
+            _ => SubsurfTechnique::Automatic,
         };
         let (materials, gpu_bytes) = (open.materials, open.material.gpu_bytes());
         // SAFETY: the caller's struct.

@@ -6,6 +6,8 @@ use subsurf_scene::{Mapping, Placement};
 
 use super::bssrdf::BssrdfPlanes;
 use super::btf::BtfMaterial;
+#[cfg(feature = "reference")]
+use super::linsss::LinsssMaterial;
 use super::mesh::GpuMesh;
 use super::points::GpuPoints;
 use super::separable::SeparableMaterial;
@@ -31,6 +33,9 @@ pub enum Material {
     Splat(Arc<SplatMaterial>),
     /// Material for separable blurs on the screen.
     Separable(Arc<SeparableMaterial>),
+    /// Material of LinSSS, a rival.
+    #[cfg(feature = "reference")]
+    Linsss(Arc<LinsssMaterial>),
     /// One material of a BTF, by its number in the file from 0 on.
     Btf(Arc<BtfMaterial>, usize),
 }
@@ -43,6 +48,8 @@ impl Material {
             Self::Gather(material) => Technique::Gather(material.planes.layout()),
             Self::Splat(material) => Technique::Splat(material.planes.layout()),
             Self::Separable(material) => Technique::Separable(material.terms()),
+            #[cfg(feature = "reference")]
+            Self::Linsss(_) => Technique::Linsss,
             Self::Btf(material, _) => Technique::Btf(material.layout()),
         }
     }
@@ -54,6 +61,8 @@ impl Material {
             Self::Gather(material) => material.planes.gpu_bytes(),
             Self::Splat(material) => material.gpu_bytes(),
             Self::Separable(material) => material.gpu_bytes(),
+            #[cfg(feature = "reference")]
+            Self::Linsss(material) => material.gpu_bytes(),
             Self::Btf(material, _) => material.gpu_bytes(),
         }
     }
@@ -64,6 +73,8 @@ impl Material {
             (Self::Gather(a), Self::Gather(b)) => Arc::ptr_eq(a, b),
             (Self::Splat(a), Self::Splat(b)) => Arc::ptr_eq(a, b),
             (Self::Separable(a), Self::Separable(b)) => Arc::ptr_eq(a, b),
+            #[cfg(feature = "reference")]
+            (Self::Linsss(a), Self::Linsss(b)) => Arc::ptr_eq(a, b),
             (Self::Btf(a, k), Self::Btf(b, l)) => Arc::ptr_eq(a, b) && k == l,
             _ => false,
         }
@@ -84,6 +95,8 @@ impl Material {
             }
             Self::Splat(material) => material.planes.header(),
             Self::Separable(material) => material.header(),
+            #[cfg(feature = "reference")]
+            Self::Linsss(material) => material.header(),
             Self::Btf(..) => {
                 mesh.expect_tangents()?;
                 if mapping == Mapping::Box {

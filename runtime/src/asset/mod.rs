@@ -3,6 +3,8 @@
 mod bssrdf;
 mod btf;
 mod btf_images;
+#[cfg(feature = "reference")]
+mod linsss;
 mod material;
 mod mesh;
 mod patch_layers;
@@ -13,6 +15,8 @@ mod splat;
 pub use bssrdf::{BssrdfPlanes, layout_of};
 pub use btf::BtfMaterial;
 pub use btf_images::BtfImages;
+#[cfg(feature = "reference")]
+pub use linsss::{LinsssMaterial, LinsssModel};
 pub use material::{GatherMaterial, Material};
 pub use mesh::{GpuMesh, VertexData};
 pub(crate) use mesh::{TANGENTS, VERTICES};

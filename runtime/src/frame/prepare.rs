@@ -12,6 +12,8 @@ use super::renderer::Renderer;
 use crate::asset::Material;
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
+#[cfg(feature = "reference")]
+use crate::technique::linsss;
 use crate::technique::{Bindings, Common, MapArea, TranslucentShadowMaps, reflection_sampler, separable, splat};
 
 /// How much finer or coarser than a view needs maps may be before others serve it better.
@@ -154,21 +156,36 @@ impl Renderer {
         let of_terms = terms_of(materials).into_iter();
         let of_terms = of_terms.map(|terms| separable::Maps::bytes_of(plan.blur_size, terms, &self.options));
         let splats = materials.iter().any(|material| matches!(material, Material::Splat(_)));
-        of_terms.sum::<u64>() + if splats { splat::Maps::bytes_of(plan, &self.options) } else { 0 }
+        #[cfg(feature = "reference")]
+        let of_rivals: u64 = materials
+            .iter()
+            .filter_map(|material| match material {
+                Material::Linsss(of) => {
+                    Some(linsss::Maps::bytes_of(plan.blur_size, of.gaussians(), of.is_shortcut()))
+                }
+                _ => None,
+            })
+            .sum();
+        #[cfg(not(feature = "reference"))]
+        let of_rivals = 0;
+        of_rivals + of_terms.sum::<u64>() + if splats { splat::Maps::bytes_of(plan, &self.options) } else { 0 }
     }
 
     /// Width and height of the maps of separable blurs: as many texels as their bytes for each pixel allow, in the shape of what the
     /// objects of a material cover.
     fn blur_size(&self, input: &Input<'_>, materials: &[&Material], divisor: f32, size: [u32; 2]) -> [u32; 2] {
-        let texels = terms_of(materials).into_iter();
-        let bytes: u64 = texels.map(|terms| separable::Maps::bytes_of([1, 1], terms, &self.options)).sum();
+        let mut terms = terms_of(materials);
+        if terms.is_empty() && materials.iter().any(|material| is_blurred(material)) {
+            terms.push(1);
+        }
+        let bytes: u64 = terms.into_iter().map(|terms| separable::Maps::bytes_of([1, 1], terms, &self.options)).sum();
         #[allow(clippy::cast_precision_loss, reason = "a few dozen")]
         let held = bytes as f32 / self.options.map_bytes_per_pixel;
         let covered = materials.iter().filter_map(|material| {
             let of_material = |object: &&Object<'_>| object.material.is(material);
             let bounds = input.objects.iter().filter(of_material).map(Object::bounds);
             let seen = bounds.filter(|bounds| input.view.sees(bounds)).reduce(|all, bounds| all.union(&bounds))?;
-            matches!(material, Material::Separable(_)).then(|| input.view.rectangle(&seen))
+            is_blurred(material).then(|| input.view.rectangle(&seen))
         });
         let covered = covered.map(|[low, high]| 0.5 * (high - low)).reduce(glam::Vec2::max);
         MapArea::shape(size, divisor, held.sqrt(), covered.unwrap_or(glam::Vec2::ONE))
@@ -200,6 +217,12 @@ impl Renderer {
                 let maps = shared.of_terms(terms, || separable::Maps::new(gpu, plan, &self.options, terms))?;
                 passes.bind(gpu, material, common, lights, &maps)
             }
+            #[cfg(feature = "reference")]
+            Material::Linsss(material) => {
+                let (count, depth) = (material.gaussians(), self.options.depth.format);
+                let maps = linsss::Maps::new(gpu, plan.blur_size, count, material.is_shortcut(), depth)?;
+                self.linsss.of(())?.bind(gpu, material, common, lights, maps)
+            }
             Material::Btf(material, number) => self.btf.of(material.layout())?.bind(gpu, material, *number),
         }
     }
@@ -228,10 +251,25 @@ impl Renderer {
                 Material::Splat(material) => {
                     Some(splat::divisor(material.planes.header(), radius_mm, light_texels, pixels_per_mm))
                 }
+                #[cfg(feature = "reference")]
+                Material::Linsss(material) => {
+                    Some(separable::divisor_of(material.narrowest_pixels(), material.header().pitch_mm, pixels_per_mm))
+                }
                 Material::Gather(_) | Material::Btf(..) => None,
             }
         });
         divisors.reduce(f32::min).unwrap_or(1.0)
+    }
+}
+
+/// Whether a material is drawn by blurs on the screen.
+fn is_blurred(material: &Material) -> bool {
+    match material {
+        Material::Separable(_) => true,
+        // A rival gets maps as fine as those of one term.
+        #[cfg(feature = "reference")]
+        Material::Linsss(_) => true,
+        _ => false,
     }
 }
 

@@ -9,6 +9,8 @@ use super::options::RuntimeOptions;
 use super::plan::LEAST_LIGHT_TEXELS;
 use crate::error::{Error, Result};
 use crate::gpu::{BLOCK_STRIDE, Gpu};
+#[cfg(feature = "reference")]
+use crate::technique::linsss;
 use crate::technique::{Technique, TsmPasses, btf, gather, separable, splat};
 
 /// Pipelines of the techniques that a host wants; made at load, never in a frame.
@@ -19,6 +21,8 @@ pub struct Renderer {
     pub(super) gather: Compiled<MaterialLayout, gather::Passes>,
     pub(super) splat: Compiled<MaterialLayout, splat::Passes>,
     pub(super) separable: Compiled<usize, separable::Passes>,
+    #[cfg(feature = "reference")]
+    pub(super) linsss: Compiled<(), linsss::Passes>,
     pub(super) btf: Compiled<BtfLayout, btf::Passes>,
 }
 
@@ -84,6 +88,8 @@ impl Renderer {
             gather: Compiled(Vec::new()),
             splat: Compiled(Vec::new()),
             separable: Compiled(Vec::new()),
+            #[cfg(feature = "reference")]
+            linsss: Compiled(Vec::new()),
             btf: Compiled(Vec::new()),
         })
     }
@@ -112,6 +118,8 @@ impl Renderer {
             Technique::Gather(layout) => self.gather.add(layout, || gather::Passes::new(gpu, layout, options)),
             Technique::Splat(layout) => self.splat.add(layout, || splat::Passes::new(gpu, layout, options)),
             Technique::Separable(terms) => self.separable.add(terms, || separable::Passes::new(gpu, terms, options)),
+            #[cfg(feature = "reference")]
+            Technique::Linsss => self.linsss.add((), || linsss::Passes::new(gpu, options)),
             Technique::Btf(layout) => self.btf.add(layout, || btf::Passes::new(gpu, layout, options)),
         }
     }

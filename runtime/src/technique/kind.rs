@@ -11,6 +11,9 @@ pub enum Technique {
     Splat(MaterialLayout),
     /// Separable blurs on the screen, of L weighted irradiance maps by shared Gaussians; L is 1 or 2.
     Separable(usize),
+    /// LinSSS, a rival: blurs of light and of weighted light, or its authors' shortcut.
+    #[cfg(feature = "reference")]
+    Linsss,
     /// BTF: light leaves where it enters, as the texture function says; nothing scatters between pixels.
     Btf(BtfLayout),
 }

@@ -11,6 +11,8 @@ mod common;
 pub(crate) mod gather;
 mod host_shadow;
 mod kind;
+#[cfg(feature = "reference")]
+pub(crate) mod linsss;
 mod mesh_pass;
 mod patch;
 pub(crate) mod separable;

@@ -57,7 +57,12 @@ struct Bound {
 
 /// Pixels of the picture to a side of a texel of the maps, when a mm of the material covers `pixels_per_mm`.
 pub(crate) fn divisor(material: &SeparableMaterial, pixels_per_mm: f32) -> f32 {
-    let narrowest = material.narrowest_pixels() * material.header().pitch_mm * pixels_per_mm;
+    divisor_of(material.narrowest_pixels(), material.header().pitch_mm, pixels_per_mm)
+}
+
+/// The same where the narrowest Gaussian has so many pixels of the material of a pitch in mm.
+pub(crate) fn divisor_of(narrowest_pixels: f32, pitch_mm: f32, pixels_per_mm: f32) -> f32 {
+    let narrowest = narrowest_pixels * pitch_mm * pixels_per_mm;
     let divisor = (narrowest / NARROWEST_TEXELS).floor().clamp(1.0, 4.0);
     // Of what is no number nothing is left.
     divisor.max(1.0)

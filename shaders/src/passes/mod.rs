@@ -1,14 +1,17 @@
 //! The passes: which WGSL files each is joined from, its entry points, its bindings.
 //!
-//! [`table`] has a row for each file under `wgsl/pass/`. A row may leave open how the material, the intermediate targets and so
+//! [`table`] has a row for each file under `wgsl/pass/`, [`linsss`] those of a rival. A row may leave open how the material, the intermediate targets and so
 //! on are stored; a [`Variant`] has chosen.
 
+mod all;
 mod binding;
 mod file;
 mod layout;
+pub mod linsss;
 mod pass;
 pub mod table;
 
+pub use all::ALL;
 pub use binding::Binding;
 pub use file::File;
 pub use layout::{BtfLayout, MaterialLayout, TargetFormat};

@@ -1,4 +1,4 @@
-//! The table of all passes.
+//! The table of passes; those of rivals are in [`linsss`](super::linsss).
 
 use super::binding::Binding::{
     self, Filtered, FilteredLayers, Float, FloatLayers, Nearest, Sampler, Target, TargetLayers, Uniform,
@@ -6,29 +6,29 @@ use super::binding::Binding::{
 use super::file::{File, wgsl};
 use super::pass::{Group, Part, Pass};
 
-const FULLSCREEN: Part = Part::File(wgsl!("lib/fullscreen"));
-const FRESNEL: Part = Part::File(wgsl!("lib/fresnel"));
-const OBJECT: Part = Part::File(wgsl!("lib/mesh/object"));
-const SCENE: Part = Part::File(wgsl!("lib/scene"));
-const COAT: Part = Part::File(wgsl!("lib/coat"));
-const TONE: Part = Part::File(wgsl!("lib/tone"));
-const DISPLAY: Part = Part::File(wgsl!("lib/display"));
-const MAPPING: Part = Part::File(wgsl!("lib/mesh/mapping"));
-const PATCH_LAYERS: Part = Part::File(wgsl!("lib/mesh/patch_layers"));
-const VERTEX: Part = Part::File(wgsl!("lib/mesh/vertex"));
-const VERTEX_NONE: Part = Part::File(wgsl!("lib/mesh/vertex_none"));
-const VISIBILITIES: Part = Part::File(wgsl!("lib/visibilities"));
+pub(super) const FULLSCREEN: Part = Part::File(wgsl!("lib/fullscreen"));
+pub(super) const FRESNEL: Part = Part::File(wgsl!("lib/fresnel"));
+pub(super) const OBJECT: Part = Part::File(wgsl!("lib/mesh/object"));
+pub(super) const SCENE: Part = Part::File(wgsl!("lib/scene"));
+pub(super) const COAT: Part = Part::File(wgsl!("lib/coat"));
+pub(super) const TONE: Part = Part::File(wgsl!("lib/tone"));
+pub(super) const DISPLAY: Part = Part::File(wgsl!("lib/display"));
+pub(super) const MAPPING: Part = Part::File(wgsl!("lib/mesh/mapping"));
+pub(super) const PATCH_LAYERS: Part = Part::File(wgsl!("lib/mesh/patch_layers"));
+pub(super) const VERTEX: Part = Part::File(wgsl!("lib/mesh/vertex"));
+pub(super) const VERTEX_NONE: Part = Part::File(wgsl!("lib/mesh/vertex_none"));
+pub(super) const VISIBILITIES: Part = Part::File(wgsl!("lib/visibilities"));
 const EXITANCE_VERTEX: Part = Part::File(wgsl!("lib/mesh/exitance_vertex"));
-const SHADING: Part = Part::File(wgsl!("lib/mesh/shading"));
+pub(super) const SHADING: Part = Part::File(wgsl!("lib/mesh/shading"));
 const BTF_VERTEX: Part = Part::File(wgsl!("lib/mesh/btf_vertex"));
 const BTF_TANGENTS: Part = Part::File(wgsl!("lib/mesh/btf_tangents"));
 const BTF_TEXTURE: Part = Part::File(wgsl!("material/btf/btf_texture"));
 const TSM: Part = Part::File(wgsl!("lib/screen/tsm"));
-const HOST_SHADOW: Part = Part::File(wgsl!("lib/screen/host_shadow"));
-const TSM_VISIBILITY: Part = Part::File(wgsl!("lib/screen/tsm_visibility"));
+pub(super) const HOST_SHADOW: Part = Part::File(wgsl!("lib/screen/host_shadow"));
+pub(super) const TSM_VISIBILITY: Part = Part::File(wgsl!("lib/screen/tsm_visibility"));
 const TRANSMISSION: Part = Part::File(wgsl!("lib/screen/transmission"));
-const NEIGHBOURS: Part = Part::File(wgsl!("lib/screen/neighbours"));
-const UPSAMPLING: Part = Part::File(wgsl!("lib/screen/upsampling"));
+pub(super) const NEIGHBOURS: Part = Part::File(wgsl!("lib/screen/neighbours"));
+pub(super) const UPSAMPLING: Part = Part::File(wgsl!("lib/screen/upsampling"));
 const SEPARABLE_BASIS: Part = Part::File(wgsl!("lib/blur/separable_basis"));
 const BLUR: Part = Part::File(wgsl!("lib/blur/blur"));
 const DOMAIN_PATCH: Part = Part::File(wgsl!("lib/blur/domain_patch"));
@@ -46,28 +46,28 @@ pub const TONE_MAP: &str = "TONE_MAP";
 pub const HOST_SHADOWS: &str = "HOST_SHADOWS";
 
 /// Bind group 0 of pictures of meshes: scene, positions of the translucent shadow maps, reflections and their sampler.
-const LIT: Group = Group::Fixed(&[Uniform, Target, Filtered, Sampler]);
+pub(super) const LIT: Group = Group::Fixed(&[Uniform, Target, Filtered, Sampler]);
 
 /// Bind group 2 of passes that draw meshes: the object.
-const OF_OBJECT: Group = Group::Fixed(&[Binding::Object]);
+pub(super) const OF_OBJECT: Group = Group::Fixed(&[Binding::Object]);
 
 /// Bind group 3 of passes that look up visibilities of lights: the host's shadow maps, and their sampler.
 pub const HOST_SHADOW_MAPS: &[Binding] = &[Float, Float, Float, Float, Float, Float, Float, Float, Nearest];
 
-const OF_HOST: Group = Group::Fixed(HOST_SHADOW_MAPS);
+pub(super) const OF_HOST: Group = Group::Fixed(HOST_SHADOW_MAPS);
 
 /// Row of a pass without overrides.
-const fn pass(file: File, parts: &'static [Part], vertex: &'static str, groups: &'static [Group]) -> Pass {
+pub(super) const fn pass(file: File, parts: &'static [Part], vertex: &'static str, groups: &'static [Group]) -> Pass {
     Pass { file, parts, vertex, groups, overrides: &[] }
 }
 
 /// Row of a full-screen pass.
-const fn fullscreen(file: File, parts: &'static [Part], groups: &'static [Group]) -> Pass {
+pub(super) const fn fullscreen(file: File, parts: &'static [Part], groups: &'static [Group]) -> Pass {
     pass(file, parts, "fullscreen", groups)
 }
 
 /// Row of a picture of a mesh whose lights have shadow maps.
-const fn shaded(file: File, parts: &'static [Part], groups: &'static [Group]) -> Pass {
+pub(super) const fn shaded(file: File, parts: &'static [Part], groups: &'static [Group]) -> Pass {
     Pass { overrides: &[TONE_MAP, ENCODE_SRGB, HOST_SHADOWS], ..pass(file, parts, "project", groups) }
 }
 
@@ -337,32 +337,3 @@ pub static SHADE_BTF: Pass = shaded(
     ],
     &[LIT, Group::Btf(&[Uniform]), OF_OBJECT, OF_HOST],
 );
-
-/// All passes.
-pub static ALL: [&Pass; 25] = [
-    &GATHER,
-    &PRESENT,
-    &HOMOGENEOUS,
-    &BLUR_PATCH_FIRST,
-    &BLUR_PATCH,
-    &SUM_PATCH,
-    &BLUR_PATCH_LAST,
-    &PROFILE_SUMS,
-    &PATCH_REDUCE,
-    &IRRADIANCE,
-    &SURFACE_GATHER,
-    &SHADE_VERTEX,
-    &TSM_RENDER,
-    &TSM_REDUCE,
-    &SURFACE_GBUFFER,
-    &SPLAT,
-    &SPLAT_RESOLVE,
-    &SHADE_SPLAT,
-    &SEPARABLE_GBUFFER,
-    &BLUR_SCREEN,
-    &SUM_SCREEN,
-    &BLUR_SCREEN_LAST,
-    &SHADE_SEPARABLE,
-    &BTF_QUERY,
-    &SHADE_BTF,
-];

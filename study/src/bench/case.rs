@@ -9,7 +9,7 @@ use subsurf_decoder::Bssrdf;
 use subsurf_encoder::Progress as _;
 use subsurf_runtime::{Gpu, Purpose, RuntimeOptions};
 use subsurf_scene::{LightShape, Mesh, Scene};
-use subsurf_viewer::{Asset, RenderRequest, RenderSession};
+use subsurf_viewer::{Asset, GpuAsset, RenderRequest, RenderSession};
 
 /// Case of a benchmark: one technique on one mesh, on a device.
 pub(super) struct BenchCase {
@@ -49,10 +49,20 @@ impl BenchCase {
         mesh: &Mesh,
         size: [u32; 2],
     ) -> anyhow::Result<Self> {
+        Self::of(gpu, mesh, size, || Ok(asset.upload(gpu, material, mesh)?))
+    }
+
+    /// Case of what `upload` brings to the device.
+    pub(super) fn of(
+        gpu: &Gpu,
+        mesh: &Mesh,
+        size: [u32; 2],
+        upload: impl FnOnce() -> anyhow::Result<GpuAsset>,
+    ) -> anyhow::Result<Self> {
         let options = RuntimeOptions::default();
         let of = |purpose| gpu.ledger().bytes_of(purpose);
         let before = Purpose::ALL.map(of);
-        let asset = asset.upload(gpu, material, mesh)?;
+        let asset = upload()?;
         let session = RenderSession::new(gpu, asset, &RenderRequest::usual(size).scene(mesh), size, options)?;
         let times = Times {
             frames: Vec::new(),

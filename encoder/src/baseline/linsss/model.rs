@@ -40,6 +40,22 @@ impl LinSss {
         (2 * self.size[0] * self.size[1] * self.sigmas.len() * 16) as u64
     }
 
+    /// Weights of Gaussians whose sum over all pixels is 1, by which a renderer draws: those of a fit are of Gaussians at whole pixels,
+    /// of which the window shows a part. Linear Rec. 709, shape `[h][pixel]`.
+    #[must_use]
+    pub fn weights_of_unit_gaussians(&self) -> Vec<Vec<[f32; 3]>> {
+        let of = |(h, planes): (usize, &[Vec<f32>; 3])| {
+            let masses = self.sigmas[h].map(|sigma| {
+                let kernel = gaussian(sigma.into(), self.radius);
+                #[allow(clippy::cast_possible_truncation, reason = "about 1")]
+                let mass = (2.0 * kernel.iter().sum::<f64>() - kernel[0]).powi(2) as f32;
+                mass
+            });
+            (0..planes[0].len()).map(|pixel| [0, 1, 2].map(|c| masses[c] * planes[c][pixel])).collect()
+        };
+        self.weights.iter().enumerate().map(of).collect()
+    }
+
     /// Exitance under an irradiance of every pixel, by all pairs within the window:
     /// M = ½ Σ_h (W_h (G_h * E) + G_h * (W_h E)), row by row.
     ///

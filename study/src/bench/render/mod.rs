@@ -2,6 +2,7 @@
 
 mod page;
 mod reference;
+mod rivals;
 
 use std::path::PathBuf;
 
@@ -19,6 +20,7 @@ use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scatter
 
 use self::page::{Page, Row};
 use self::reference::{Reference, case_of, reference};
+use self::rivals::Rival;
 use super::case::{self, BenchCase};
 use super::devices::to_compare;
 use super::meshes::{EXTENT_MM, named};
@@ -43,6 +45,9 @@ pub(crate) struct Args {
     /// Folder for the page
     #[arg(long, short, value_name = "DIR")]
     output: PathBuf,
+    /// Draw LinSSS, too, from the fits that `subsurf-study linsss` left in this folder
+    #[arg(long, value_name = "DIR")]
+    linsss: Option<PathBuf>,
     /// Pixels of the pictures
     #[arg(long, default_value = "1280x720", value_name = "WxH")]
     size: Size,
@@ -89,6 +94,11 @@ fn compare(
     let separable = compute(Scattering::Separable, splat.sky().cloned())?;
     let homogeneous = compute(Scattering::Homogeneous, splat.sky().cloned())?;
     let paths = [("splat", &splat), ("separable", &separable), ("homogeneous", &homogeneous)];
+    let rivals = match &args.linsss {
+        Some(folder) => Rival::all(folder, material_name, material)?,
+        None => Vec::new(),
+    };
+    let sky = splat.sky().map(|sky| sky.as_slice());
     let (first, gpu) = &gpus[0];
     let session = |gpu, asset: &Asset, scene: &Scene| {
         RenderSession::new(gpu, asset.upload(gpu, material, mesh)?, scene, size, RuntimeOptions::default())
@@ -114,11 +124,15 @@ fn compare(
                 Some(median(&cases[0].times.frames))
             }
         };
-        let mut cases = paths.iter().map(|(_, path)| case(path)).collect::<anyhow::Result<Vec<_>>>()?;
+        let of_rivals = rivals
+            .iter()
+            .map(|rival| BenchCase::of(gpu, mesh, size, || rival.upload(gpu, mesh, mapping, sky)));
+        let mut cases = paths.iter().map(|(_, path)| case(path)).chain(of_rivals).collect::<anyhow::Result<Vec<_>>>()?;
+        let names = paths.iter().map(|(name, _)| (*name).to_owned()).chain(rivals.iter().map(|rival| rival.name.clone()));
         if args.frames > 0 {
             case::run(gpu, &mut cases, mesh, size, args.frames)?;
         }
-        for ((path, _), mut case) in paths.into_iter().zip(cases) {
+        for (path, mut case) in names.zip(cases) {
             let found = case.picture(gpu, &scene)?;
             let times = case.times;
             let [material_bytes, buffer_bytes] = times.bytes_of_material_and_buffers();

@@ -18,7 +18,7 @@ use crate::page::CSS;
 pub(super) struct Row {
     pub(super) material: String,
     pub(super) mesh: String,
-    pub(super) path: &'static str,
+    pub(super) path: String,
     pub(super) backend: Backend,
     pub(super) psnr_db: f64,
     pub(super) ssim: f64,
@@ -133,7 +133,7 @@ impl Page<'_> {
         );
         self.rows.iter().for_each(|row| out.push_str(&row.cells()));
         out.push_str(
-            "</table><p class=\"note\">Pictures: reference, splat, separable, homogeneous; below each its difference from \
+            "</table><p class=\"note\">Pictures: reference, splat, separable, homogeneous, LinSSS where asked for; below each its difference from \
              the reference, ten times.</p>",
         );
         for line in self.summary() {

@@ -1,0 +1,113 @@
+//! Passes of LinSSS of one material in a frame.
+
+use std::sync::Arc;
+
+use subsurf_shaders::uniform::LinsssStage;
+use wgpu::{BindGroup, Buffer, Color, CommandEncoder};
+
+use super::maps::Maps;
+use super::passes::Passes;
+use crate::asset::LinsssMaterial;
+use crate::gpu::{Gpu, Rows, Tracked};
+use crate::technique::area::MapArea;
+use crate::technique::bindings::{Bindings, Group, Lap};
+use crate::technique::mesh_pass::{Attachments, MeshPass, SharedGroups, Viewport, cleared};
+
+/// Block and bind group of one pass over the maps.
+#[derive(Debug)]
+pub(super) struct Turn {
+    pub(super) block: Tracked<Buffer>,
+    pub(super) group: BindGroup,
+}
+
+/// Blocks and bind groups of one material.
+#[derive(Debug)]
+pub(super) struct Bound {
+    pub(super) passes: Arc<Passes>,
+    pub(super) material: Arc<LinsssMaterial>,
+    pub(super) maps: Maps,
+    pub(super) scene: BindGroup,
+    /// One for every Gaussian whose weighted light is drawn.
+    pub(super) gbuffers: Vec<BindGroup>,
+    /// Passes of every Gaussian.
+    pub(super) gaussians: Vec<Vec<Turn>>,
+    /// Passes to the levels of the pyramid but the finest.
+    pub(super) reductions: Vec<Turn>,
+    pub(super) upsampling: Tracked<Buffer>,
+    pub(super) shade: BindGroup,
+    pub(super) area: MapArea,
+    /// What maps hold where nothing is seen.
+    pub(super) far: Color,
+}
+
+impl Bindings for Bound {
+    /// Tells the passes how large things are on the screen.
+    fn update(&mut self, gpu: &Gpu, group: &Group<'_>) {
+        let (view, plan) = (&group.input.view, group.plan);
+        self.area = MapArea::over(view, &group.bounds, plan.size, plan.blur_size, plan.divisor);
+        let of_screen = LinsssStage {
+            size: self.area.size.map(|side| i32::try_from(side).unwrap_or(i32::MAX)),
+            focal_texels: self.area.texels_per_tangent(view),
+            middle_mm: group.middle_mm(),
+            perspective: if view.is_parallel() { 0.0 } else { 1.0 },
+            levels: u32::try_from(self.maps.levels.len()).unwrap_or(1),
+            ..LinsssStage::default()
+        };
+        let write = |turn: &Turn, stage: LinsssStage| gpu.queue.write_buffer(&turn.block, 0, bytemuck::bytes_of(&stage));
+        for (turns, sigma_mm) in self.gaussians.iter().zip(self.material.block.sigmas_mm) {
+            for (turn, axis) in turns.iter().zip([[1, 0], [0, 1]]) {
+                write(turn, LinsssStage { sigma_mm, axis, ..of_screen });
+            }
+        }
+        for (turn, level) in self.reductions.iter().zip(1..) {
+            write(turn, LinsssStage { level, ..of_screen });
+        }
+        gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&group.upsampling(&self.area)));
+    }
+
+    fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, shared: SharedGroups<'_>, lap: Lap<'_>) {
+        let (passes, maps) = (&*self.passes, &self.maps);
+        let MapArea { whole, first, size } = self.area;
+        let colours = [&maps.levels[0], &maps.weighted.view, &maps.through.view].map(|view| cleared(view, self.far));
+        let attachments = Attachments {
+            colours: &colours,
+            depth: &maps.depth.view,
+            depth_ops: passes.depth.own(),
+            viewport: Some(Viewport {
+                origin: first.map(|texel| -i64::from(texel)),
+                size: whole,
+                scissor: [[0; 2], size],
+            }),
+        };
+        // The first Gaussian comes last: with it, what comes through from behind.
+        for (h, gbuffer) in self.gbuffers.iter().enumerate().rev() {
+            passes.gbuffer.record(encoder, &attachments, [&self.scene, gbuffer], shared, group.draws());
+            lap(passes.gbuffer.name(), encoder);
+            if let (Some([light, weighted]), [rows, columns]) = (&maps.between, &self.gaussians[h][..]) {
+                let layers = [&maps.layers[0][h], &maps.layers[1][h]];
+                for (turn, targets) in [(rows, [&light.view, &weighted.view]), (columns, layers)] {
+                    passes.blur.record(encoder, &targets, &[&turn.group], Rows::all(size));
+                    lap(passes.blur.name(), encoder);
+                }
+            }
+        }
+        if maps.between.is_some() {
+            return;
+        }
+        let most = [maps.light.texture.width(), maps.light.texture.height()];
+        for ((turn, level), k) in self.reductions.iter().zip(&maps.levels[1..]).zip(1_u32..) {
+            // Half texels at the end have none of their own where the map ends.
+            let texels = [0, 1].map(|axis| size[axis].div_ceil(1 << k).min((most[axis] >> k).max(1)));
+            passes.reduce.record(encoder, &[level], &[&turn.group], Rows::all(texels));
+            lap(passes.reduce.name(), encoder);
+        }
+        for (turns, layer) in self.gaussians.iter().zip(&maps.layers[0]) {
+            passes.lookup.record(encoder, &[layer], &[&turns[0].group], Rows::all(size));
+            lap(passes.lookup.name(), encoder);
+        }
+    }
+
+    fn shade(&self) -> (&MeshPass, &BindGroup) {
+        (&self.passes.shade, &self.shade)
+    }
+}
