@@ -215,7 +215,7 @@ fn texture_loads_are_accounted_for() {
             ("linsss_gbuffer", 5),
             ("linsss_blur", 3),
             ("linsss_reduce", 1),
-            ("linsss_lookup", 2),
+            ("linsss_lookup", 4),
             ("shade_linsss", 4),
             // Words of a file, clamped to the last; lists at the texel of the target. Pixels of images clamped to their size,
             // tiles and layers to those of the texture.

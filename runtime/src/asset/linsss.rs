@@ -112,7 +112,8 @@ fn doubled(plane: &[[f32; 3]], header: &BssrdfHeader, sigma_px: [f32; 3]) -> Vec
         let total: f32 = (-radius..=radius).map(weight).sum();
         let along = |from: &dyn Fn(i32, i32) -> f32, [dx, dy]: [i32; 2]| -> Vec<f32> {
             let pixels = (0..size[1].cast_signed()).flat_map(|y| (0..size[0].cast_signed()).map(move |x| [x, y]));
-            let sum = |[x, y]: [i32; 2]| (-radius..=radius).map(|d| weight(d) * from(x + d * dx, y + d * dy)).sum::<f32>();
+            let sum =
+                |[x, y]: [i32; 2]| (-radius..=radius).map(|d| weight(d) * from(x + d * dx, y + d * dy)).sum::<f32>();
             pixels.map(|pixel| sum(pixel) / total).collect()
         };
         let rows = along(&|x, y| at(x, y)[c], [1, 0]);
@@ -135,7 +136,8 @@ fn fill(gpu: &Gpu, layers: &PatchLayers, layer: u32, plane: &[[f32; 3]], size: [
         let next = size.map(|side| (side / 2).max(1));
         let texel = |x: usize, y: usize| plane[y.min(size[1] - 1) * size[0] + x.min(size[0] - 1)];
         let mean = |x: usize, y: usize| {
-            let four = [texel(2 * x, 2 * y), texel(2 * x + 1, 2 * y), texel(2 * x, 2 * y + 1), texel(2 * x + 1, 2 * y + 1)];
+            let four =
+                [texel(2 * x, 2 * y), texel(2 * x + 1, 2 * y), texel(2 * x, 2 * y + 1), texel(2 * x + 1, 2 * y + 1)];
             [0, 1, 2].map(|c| 0.25 * four.iter().map(|rgb| rgb[c]).sum::<f32>())
         };
         let halved = (0..next[1]).flat_map(|y| (0..next[0]).map(move |x| [x, y])).map(|[x, y]| mean(x, y)).collect();

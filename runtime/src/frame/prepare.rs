@@ -160,9 +160,7 @@ impl Renderer {
         let of_rivals: u64 = materials
             .iter()
             .filter_map(|material| match material {
-                Material::Linsss(of) => {
-                    Some(linsss::Maps::bytes_of(plan.blur_size, of.gaussians(), of.is_shortcut()))
-                }
+                Material::Linsss(of) => Some(linsss::Maps::bytes_of(plan.blur_size, of.gaussians(), of.is_shortcut())),
                 _ => None,
             })
             .sum();

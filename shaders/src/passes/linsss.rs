@@ -4,8 +4,9 @@ use super::binding::Binding::{FilteredLayers, Sampler, Target, TargetLayers, Uni
 use super::file::wgsl;
 use super::pass::{Group, Part, Pass};
 use super::table::{
-    COAT, DISPLAY, FRESNEL, FULLSCREEN, HOST_SHADOW, HOST_SHADOWS, LIT, MAPPING, NEIGHBOURS, OBJECT, OF_HOST, OF_OBJECT,
-    PATCH_LAYERS, SCENE, SHADING, TONE, TSM_VISIBILITY, UPSAMPLING, VERTEX, VERTEX_NONE, VISIBILITIES, fullscreen, pass, shaded,
+    COAT, DISPLAY, FRESNEL, FULLSCREEN, HOST_SHADOW, HOST_SHADOWS, LIT, MAPPING, NEIGHBOURS, OBJECT, OF_HOST,
+    OF_OBJECT, PATCH_LAYERS, SCENE, SHADING, TONE, TSM_VISIBILITY, UPSAMPLING, VERTEX, VERTEX_NONE, VISIBILITIES,
+    fullscreen, pass, shaded,
 };
 
 const LINSSS: Part = Part::File(wgsl!("lib/linsss"));
@@ -58,7 +59,7 @@ pub static LINSSS_REDUCE: Pass = fullscreen(
 pub static LINSSS_LOOKUP: Pass = fullscreen(
     wgsl!("pass/linsss/linsss_lookup"),
     &[Part::TargetFormat, FULLSCREEN, LINSSS_STAGE],
-    &[Group::Fixed(&[Uniform, Target])],
+    &[Group::Fixed(&[Uniform, Target, Target, Target])],
 );
 
 /// Picture of a mesh by LinSSS.

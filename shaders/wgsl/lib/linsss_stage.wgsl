@@ -35,3 +35,17 @@ fn nearness_of(apart_mm: f32, sigma_mm: vec3<f32>) -> vec3<f32> {
     let d = vec3<f32>(apart_mm) / sigma_mm;
     return exp(-0.5 * min(d * d, vec3<f32>(80.0)));
 }
+
+// Variance with which a level of the pyramid shows the light, in texels of the finest; 1/6 of a texel of its own for interpolation.
+fn variance_of(level: u32) -> f32 {
+    if level < 3u {
+        return 0.25 * f32(level * level);
+    }
+    let side = f32(1u << (level - 2u));
+    return side * side * 7.0 / 6.0;
+}
+
+// Last texel of a level that holds anything. Levels 0, 1 and 2 are of the same size.
+fn last_of(level: u32) -> vec2<i32> {
+    return (stage.size - 1) >> vec2<u32>(max(level, 2u) - 2u);
+}

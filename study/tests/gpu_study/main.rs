@@ -4,3 +4,4 @@ mod bench;
 mod bssrdf;
 mod btf;
 mod common;
+mod linsss;

@@ -1,7 +1,7 @@
 //! A fitted material, and the patch under a light.
 
 use super::convolve::{convolve, gaussian, of_ones};
-use super::pyramid::Pyramid;
+use super::pyramid::{Pyramid, sampled_variance};
 use crate::capture::Capture;
 
 /// Material as weights of Gaussians. Lengths are in pixels of the patch, colours linear Rec. 709.
@@ -40,20 +40,21 @@ impl LinSss {
         (2 * self.size[0] * self.size[1] * self.sigmas.len() * 16) as u64
     }
 
-    /// Weights of Gaussians whose sum over all pixels is 1, by which a renderer draws: those of a fit are of Gaussians at whole pixels,
-    /// of which the window shows a part. Linear Rec. 709, shape `[h][pixel]`.
+    /// Standard deviations in pixels and weights of Gaussians on the plane, of the integral 1, by which a renderer draws: those of a
+    /// fit are at whole pixels, of which the window shows a part, and have a smaller variance where σ is below a pixel. Weights
+    /// are linear Rec. 709, shape `[h][pixel]`.
     #[must_use]
-    pub fn weights_of_unit_gaussians(&self) -> Vec<Vec<[f32; 3]>> {
-        let of = |(h, planes): (usize, &[Vec<f32>; 3])| {
-            let masses = self.sigmas[h].map(|sigma| {
+    pub fn on_the_plane(&self) -> (Vec<[f32; 3]>, Vec<Vec<[f32; 3]>>) {
+        #[allow(clippy::cast_possible_truncation, reason = "single precision")]
+        let of = |(sigmas, planes): (&[f32; 3], &[Vec<f32>; 3])| {
+            let masses = sigmas.map(|sigma| {
                 let kernel = gaussian(sigma.into(), self.radius);
-                #[allow(clippy::cast_possible_truncation, reason = "about 1")]
-                let mass = (2.0 * kernel.iter().sum::<f64>() - kernel[0]).powi(2) as f32;
-                mass
+                (2.0 * kernel.iter().sum::<f64>() - kernel[0]).powi(2) as f32
             });
-            (0..planes[0].len()).map(|pixel| [0, 1, 2].map(|c| masses[c] * planes[c][pixel])).collect()
+            let weights = (0..planes[0].len()).map(|pixel| [0, 1, 2].map(|c| masses[c] * planes[c][pixel])).collect();
+            (sigmas.map(|sigma| sampled_variance(sigma.into()).sqrt() as f32), weights)
         };
-        self.weights.iter().enumerate().map(of).collect()
+        self.sigmas.iter().zip(&self.weights).map(of).unzip()
     }
 
     /// Exitance under an irradiance of every pixel, by all pairs within the window:

@@ -92,7 +92,7 @@ fn halved(plane: &[f32], [width, height]: [usize; 2]) -> Vec<f32> {
 }
 
 /// Variance of a Gaussian of σ pixels at whole pixels, as the fit has it: less than σ² where σ is below a pixel.
-fn sampled_variance(sigma: f64) -> f64 {
+pub(super) fn sampled_variance(sigma: f64) -> f64 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few dozen pixels")]
     let kernel = gaussian(sigma, (6.0 * sigma).ceil() as usize + 1);
     #[allow(clippy::cast_precision_loss, reason = "a few dozen pixels")]

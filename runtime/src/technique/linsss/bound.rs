@@ -5,7 +5,7 @@ use std::sync::Arc;
 use subsurf_shaders::uniform::LinsssStage;
 use wgpu::{BindGroup, Buffer, Color, CommandEncoder};
 
-use super::maps::Maps;
+use super::maps::{Maps, Means};
 use super::passes::Passes;
 use crate::asset::LinsssMaterial;
 use crate::gpu::{Gpu, Rows, Tracked};
@@ -53,7 +53,8 @@ impl Bindings for Bound {
             levels: u32::try_from(self.maps.levels.len()).unwrap_or(1),
             ..LinsssStage::default()
         };
-        let write = |turn: &Turn, stage: LinsssStage| gpu.queue.write_buffer(&turn.block, 0, bytemuck::bytes_of(&stage));
+        let write =
+            |turn: &Turn, stage: LinsssStage| gpu.queue.write_buffer(&turn.block, 0, bytemuck::bytes_of(&stage));
         for (turns, sigma_mm) in self.gaussians.iter().zip(self.material.block.sigmas_mm) {
             for (turn, axis) in turns.iter().zip([[1, 0], [0, 1]]) {
                 write(turn, LinsssStage { sigma_mm, axis, ..of_screen });
@@ -83,7 +84,7 @@ impl Bindings for Bound {
         for (h, gbuffer) in self.gbuffers.iter().enumerate().rev() {
             passes.gbuffer.record(encoder, &attachments, [&self.scene, gbuffer], shared, group.draws());
             lap(passes.gbuffer.name(), encoder);
-            if let (Some([light, weighted]), [rows, columns]) = (&maps.between, &self.gaussians[h][..]) {
+            if let (Means::Blurs([light, weighted]), [rows, columns]) = (&maps.by, &self.gaussians[h][..]) {
                 let layers = [&maps.layers[0][h], &maps.layers[1][h]];
                 for (turn, targets) in [(rows, [&light.view, &weighted.view]), (columns, layers)] {
                     passes.blur.record(encoder, &targets, &[&turn.group], Rows::all(size));
@@ -91,13 +92,14 @@ impl Bindings for Bound {
                 }
             }
         }
-        if maps.between.is_some() {
+        if matches!(maps.by, Means::Blurs(_)) {
             return;
         }
         let most = [maps.light.texture.width(), maps.light.texture.height()];
         for ((turn, level), k) in self.reductions.iter().zip(&maps.levels[1..]).zip(1_u32..) {
-            // Half texels at the end have none of their own where the map ends.
-            let texels = [0, 1].map(|axis| size[axis].div_ceil(1 << k).min((most[axis] >> k).max(1)));
+            // Levels 0, 1 and 2 are of the same size. Half texels at the end have none of their own where the map ends.
+            let halvings = k.max(2) - 2;
+            let texels = [0, 1].map(|axis| size[axis].div_ceil(1 << halvings).min((most[axis] >> halvings).max(1)));
             passes.reduce.record(encoder, &[level], &[&turn.group], Rows::all(texels));
             lap(passes.reduce.name(), encoder);
         }

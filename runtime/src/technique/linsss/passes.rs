@@ -7,7 +7,7 @@ use subsurf_shaders::uniform::{Linsss, LinsssStage, Upsampling};
 use wgpu::{BindingResource, Color, TextureView};
 
 use super::bound::{Bound, Turn};
-use super::maps::Maps;
+use super::maps::{Maps, Means};
 use crate::asset::LinsssMaterial;
 use crate::error::Result;
 use crate::frame::RuntimeOptions;
@@ -74,13 +74,19 @@ impl Passes {
         });
         let gbuffers = gbuffers.collect::<Result<Vec<_>>>()?;
         // One look-up for every Gaussian, or two blurs: along rows and along columns.
-        let gaussians = (0..count).map(|_| match &maps.between {
-            None => {
+        let gaussians = (0..count).map(|_| match &maps.by {
+            Means::Pyramid([slight, pyramid]) => {
                 let block = stage();
-                let group = self.lookup.bind(gpu, 0, &[block.as_entire_binding(), texture(&maps.light.view)])?;
+                let of_lookup = [
+                    block.as_entire_binding(),
+                    texture(&maps.light.view),
+                    texture(&slight.view),
+                    texture(&pyramid.view),
+                ];
+                let group = self.lookup.bind(gpu, 0, &of_lookup)?;
                 Ok(vec![Turn { block, group }])
             }
-            Some([light, weighted]) => {
+            Means::Blurs([light, weighted]) => {
                 let sources = [[&maps.light, &maps.weighted], [light, weighted]];
                 let bind = |[light, weighted]: [&crate::gpu::Surface2d; 2]| {
                     let block = stage();

@@ -9,7 +9,6 @@ use std::path::PathBuf;
 use image::RgbImage;
 use subsurf_cli::info::parse;
 use subsurf_cli::options::Size;
-use subsurf_cli::outln;
 use subsurf_cli::picture::{image, montage, write_picture};
 use subsurf_cli::program::failure::bad_request;
 use subsurf_decoder::Bssrdf;
@@ -21,7 +20,7 @@ use subsurf_viewer::{Asset, MappingChoice, RenderRequest, RenderSession, Scatter
 use self::page::{Page, Row};
 use self::reference::{Reference, case_of, reference};
 use self::rivals::Rival;
-use super::case::{self, BenchCase};
+use super::case::{self, BenchCase, Times};
 use super::devices::to_compare;
 use super::meshes::{EXTENT_MM, named};
 use super::timing::{median, quantile};
@@ -69,7 +68,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let material = parse(file, &bytes)?;
         for (mesh_name, mesh) in &meshes {
             let case = case_of(&bytes, mesh, args.size.0);
-            compare(args, &gpus, (&stem(file), &material), (mesh_name, mesh), case, &mut page)?;
+            let of_file = (stem(file), bytes.len() as u64, &material);
+            compare(args, &gpus, &of_file, (mesh_name, mesh), case, &mut page)?;
         }
     }
     page.write(&gpus, args.size.0)?;
@@ -80,7 +80,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 fn compare(
     args: &Args,
     gpus: &[(Backend, Gpu)],
-    (material_name, material): (&str, &Bssrdf<'_>),
+    (material_name, file_bytes, material): &(String, u64, &Bssrdf<'_>),
     (mesh_name, mesh): (&str, &Mesh),
     case: u64,
     page: &mut Page<'_>,
@@ -115,42 +115,46 @@ fn compare(
     let mut shown = vec![image(&reference, size[0])];
     for (backend, gpu) in gpus {
         let case = |asset: &Asset| BenchCase::new(gpu, asset, material, mesh, size);
+        let row = |path: String, similarity, times: &Times, gather_ms, file_bytes| {
+            let [material_bytes, buffer_bytes] = times.bytes_of_material_and_buffers();
+            Row {
+                material: material_name.clone(),
+                mesh: mesh_name.to_owned(),
+                path,
+                backend: *backend,
+                similarity,
+                frame_ms: (args.frames > 0).then(|| [0.5, 0.95].map(|share| quantile(&times.frames, share))),
+                gather_ms,
+                file_bytes,
+                material_bytes,
+                buffer_bytes,
+            }
+        };
         let gather_ms = match args.frames {
             0 => None,
             _ => {
                 let gather = compute(Scattering::Gather, None)?;
                 let mut cases = [case(&gather)?];
                 case::run(gpu, &mut cases, mesh, size, 0)?;
-                Some(median(&cases[0].times.frames))
+                let times = &cases[0].times;
+                let gather_ms = Some(median(&times.frames));
+                page.add(row("gather".to_owned(), None, times, gather_ms, *file_bytes));
+                gather_ms
             }
         };
-        let of_rivals = rivals
-            .iter()
-            .map(|rival| BenchCase::of(gpu, mesh, size, || rival.upload(gpu, mesh, mapping, sky)));
-        let mut cases = paths.iter().map(|(_, path)| case(path)).chain(of_rivals).collect::<anyhow::Result<Vec<_>>>()?;
-        let names = paths.iter().map(|(name, _)| (*name).to_owned()).chain(rivals.iter().map(|rival| rival.name.clone()));
+        let of_rivals =
+            rivals.iter().map(|rival| BenchCase::of(gpu, mesh, size, || rival.upload(gpu, mesh, mapping, sky)));
+        let mut cases =
+            paths.iter().map(|(_, path)| case(path)).chain(of_rivals).collect::<anyhow::Result<Vec<_>>>()?;
+        let names = paths.iter().map(|(name, _)| ((*name).to_owned(), *file_bytes));
+        let names = names.chain(rivals.iter().map(|rival| (rival.name.clone(), rival.file_bytes)));
         if args.frames > 0 {
             case::run(gpu, &mut cases, mesh, size, args.frames)?;
         }
-        for (path, mut case) in names.zip(cases) {
+        for ((path, file_bytes), mut case) in names.zip(cases) {
             let found = case.picture(gpu, &scene)?;
-            let times = case.times;
-            let [material_bytes, buffer_bytes] = times.bytes_of_material_and_buffers();
-            let (psnr_db, ssim) = similarity(&reference, &found, size[0]);
-            let row = Row {
-                material: material_name.to_owned(),
-                mesh: mesh_name.to_owned(),
-                path,
-                backend: *backend,
-                psnr_db,
-                ssim,
-                frame_ms: (args.frames > 0).then(|| [0.5, 0.95].map(|share| quantile(&times.frames, share))),
-                gather_ms,
-                material_bytes,
-                buffer_bytes,
-            };
-            outln!("{}", row.line());
-            page.rows.push(row);
+            let similarity = Some(similarity(&reference, &found, size[0]));
+            page.add(row(path, similarity, &case.times, gather_ms, file_bytes));
             if backend == first {
                 shown.push(image(&found, size[0]));
                 shown.push(image(&differences(&reference, &found), size[0]));
@@ -173,7 +177,7 @@ fn compare(
 }
 
 /// PSNR over covered pixels, and SSIM of the whole picture, of display values.
-fn similarity(reference: &[[u8; 3]], found: &[[u8; 3]], width: u32) -> (f64, f64) {
+fn similarity(reference: &[[u8; 3]], found: &[[u8; 3]], width: u32) -> [f64; 2] {
     let values = |pixels: &[[u8; 3]]| -> Vec<[f64; 3]> {
         pixels.iter().map(|pixel| pixel.map(|value| f64::from(value) / 255.0)).collect()
     };
@@ -181,7 +185,7 @@ fn similarity(reference: &[[u8; 3]], found: &[[u8; 3]], width: u32) -> (f64, f64
     let is_covered = |k: &usize| reference[*k] != [BACKGROUND; 3] || found[*k] != [BACKGROUND; 3];
     let covered: Vec<usize> = (0..a.len()).filter(is_covered).collect();
     let of = |pixels: &[[f64; 3]]| -> Vec<[f64; 3]> { covered.iter().map(|&k| pixels[k]).collect() };
-    (psnr_db(&of(&a), &of(&b)), ssim(&a, &b, width as usize).unwrap_or(0.0))
+    [psnr_db(&of(&a), &of(&b)), ssim(&a, &b, width as usize).unwrap_or(0.0)]
 }
 
 /// Ten times the difference of two pictures.

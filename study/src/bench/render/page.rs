@@ -20,31 +20,35 @@ pub(super) struct Row {
     pub(super) mesh: String,
     pub(super) path: String,
     pub(super) backend: Backend,
-    pub(super) psnr_db: f64,
-    pub(super) ssim: f64,
+    /// PSNR in dB and SSIM; none of the reference itself.
+    pub(super) similarity: Option<[f64; 2]>,
     /// Median and 95th percentile of frames in ms.
     pub(super) frame_ms: Option<[f64; 2]>,
     /// Time of a frame of the reference in the same run, in ms.
     pub(super) gather_ms: Option<f64>,
+    pub(super) file_bytes: u64,
     pub(super) material_bytes: u64,
     pub(super) buffer_bytes: u64,
 }
 
 impl Row {
     pub(super) fn line(&self) -> String {
+        let similarity =
+            self.similarity.map_or("reference".to_owned(), |[psnr, ssim]| format!("{psnr:.1} dB, SSIM {ssim:.3}"));
         let time = self.frame_ms.map_or(String::new(), |[median, p95]| format!(", {median:.1} ms (p95 {p95:.1})"));
         let ratio = match (self.frame_ms, self.gather_ms) {
-            (Some([median, _]), Some(gather)) => format!(", gather {gather:.0} ms = {:.1} ×", gather / median),
+            (Some([median, _]), Some(gather)) if self.similarity.is_some() => {
+                format!(", gather {gather:.0} ms = {:.1} ×", gather / median)
+            }
             _ => String::new(),
         };
         format!(
-            "{}, {}, {}: {:<11} {:.1} dB, SSIM {:.3}{time}{ratio}; material {}, buffers {}",
+            "{}, {}, {}: {:<18} {similarity}{time}{ratio}; file {}, material {}, buffers {}",
             self.material,
             self.mesh,
             self.backend,
             self.path,
-            self.psnr_db,
-            self.ssim,
+            human(self.file_bytes),
             human(self.material_bytes),
             human(self.buffer_bytes),
         )
@@ -53,26 +57,28 @@ impl Row {
     fn json(&self) -> Value {
         json!({
             "material": self.material, "mesh": self.mesh, "path": self.path, "backend": self.backend.to_string(),
-            "psnr_db": self.psnr_db, "ssim": self.ssim, "frame_median_ms": self.frame_ms.map(|times| times[0]),
-            "frame_p95_ms": self.frame_ms.map(|times| times[1]), "gather_ms": self.gather_ms,
+            "psnr_db": self.similarity.map(|both| both[0]), "ssim": self.similarity.map(|both| both[1]), "frame_median_ms": self.frame_ms.map(|times| times[0]),
+            "frame_p95_ms": self.frame_ms.map(|times| times[1]), "gather_ms": self.gather_ms, "file_bytes": self.file_bytes,
             "material_bytes": self.material_bytes, "buffer_bytes": self.buffer_bytes,
         })
     }
 
     fn cells(&self) -> String {
-        let time = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1}"));
+        let digits = |value: Option<f64>, count| value.map_or("–".to_owned(), |value| format!("{value:.count$}"));
+        let time = |value| digits(value, 1);
         format!(
-            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.1}</td><td>{:.3}</td><td>{}</td><td>{}</td>\
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
              <td>{}</td><td>{}</td><td>{}</td></tr>",
             self.material,
             self.mesh,
             self.path,
             self.backend,
-            self.psnr_db,
-            self.ssim,
+            digits(self.similarity.map(|both| both[0]), 1),
+            digits(self.similarity.map(|both| both[1]), 3),
             time(self.frame_ms.map(|times| times[0])),
             time(self.frame_ms.map(|times| times[1])),
             time(self.gather_ms),
+            human(self.file_bytes),
             human(self.material_bytes),
             human(self.buffer_bytes),
         )
@@ -88,19 +94,26 @@ pub(super) struct Page<'a> {
 }
 
 impl Page<'_> {
+    /// Adds a row, and prints it.
+    pub(super) fn add(&mut self, row: Row) {
+        outln!("{}", row.line());
+        self.rows.push(row);
+    }
+
     /// Worst and median PSNR of each technique on each device, if there are several pictures of each.
     fn summary(&self) -> Vec<String> {
-        let mut of: BTreeMap<(String, &str), Vec<&Row>> = BTreeMap::new();
+        let mut of: BTreeMap<(String, &str), Vec<(f64, &Row)>> = BTreeMap::new();
         for row in &self.rows {
-            of.entry((row.backend.to_string(), row.path)).or_default().push(row);
+            if let Some([psnr_db, _]) = row.similarity {
+                of.entry((row.backend.to_string(), &row.path)).or_default().push((psnr_db, row));
+            }
         }
-        let line = |((backend, path), mut rows): ((String, &str), Vec<&Row>)| {
-            rows.sort_by(|a, b| a.psnr_db.total_cmp(&b.psnr_db));
-            let worst = rows[0];
-            let values: Vec<f64> = rows.iter().map(|row| row.psnr_db).collect();
+        let line = |((backend, path), mut rows): ((String, &str), Vec<(f64, &Row)>)| {
+            rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let (least_db, worst) = rows[0];
+            let values: Vec<f64> = rows.iter().map(|(psnr_db, _)| *psnr_db).collect();
             format!(
-                "{backend}: {path:<11} {:.1} dB at worst ({}, {}), {:.1} dB median of {}",
-                worst.psnr_db,
+                "{backend}: {path:<18} {least_db:.1} dB at worst ({}, {}), {:.1} dB median of {}",
                 worst.material,
                 worst.mesh,
                 median(&values),
@@ -129,7 +142,7 @@ impl Page<'_> {
         );
         out.push_str(
             "<table><thead><tr><th>material</th><th>mesh</th><th>path</th><th>device</th><th>PSNR, dB</th><th>SSIM</th>\
-             <th>frame, ms</th><th>p95</th><th>gather, ms</th><th>material</th><th>buffers</th></tr></thead>",
+             <th>frame, ms</th><th>p95</th><th>gather, ms</th><th>file</th><th>material</th><th>buffers</th></tr></thead>",
         );
         self.rows.iter().for_each(|row| out.push_str(&row.cells()));
         out.push_str(

@@ -13,6 +13,7 @@ use subsurf_viewer::GpuAsset;
 /// Name and model of a rival.
 pub(super) struct Rival {
     pub(super) name: String,
+    pub(super) file_bytes: u64,
     model: LinsssModel,
 }
 
@@ -28,29 +29,41 @@ impl Rival {
             let Ok(bytes) = std::fs::read(&path) else {
                 continue;
             };
-            let fit = LinSss::parse(&bytes, header.pitch_mm).filter(|fit| fit.size == [header.width as usize, header.height as usize]);
-            let fit = fit.ok_or_else(|| bad_request(format!("{}: no fit of this material; run subsurf-study linsss", path.display())))?;
+            let fit = LinSss::parse(&bytes, header.pitch_mm)
+                .filter(|fit| fit.size == [header.width as usize, header.height as usize]);
+            let fit = fit.ok_or_else(|| {
+                bad_request(format!("{}: no fit of this material; run subsurf-study linsss", path.display()))
+            })?;
+            let (sigmas_px, weights) = fit.on_the_plane();
             for is_shortcut in [false, true] {
                 let model = LinsssModel {
                     header: *header,
-                    sigmas_px: fit.sigmas.clone(),
-                    weights: fit.weights_of_unit_gaussians(),
+                    sigmas_px: sigmas_px.clone(),
+                    weights: weights.clone(),
                     albedo: albedo.clone().unwrap_or_default(),
                     is_shortcut,
                 };
                 let how = if is_shortcut { ", shortcut" } else { "" };
-                rivals.push(Self { name: format!("LinSSS {count}{how}"), model });
+                rivals.push(Self { name: format!("LinSSS {count}{how}"), file_bytes: bytes.len() as u64, model });
             }
         }
         if rivals.is_empty() {
             let folder = folder.display();
-            return Err(bad_request(format!("{folder}: no fit of {name}; run subsurf-study linsss, which leaves {name}-linsss4.sss")));
+            return Err(bad_request(format!(
+                "{folder}: no fit of {name}; run subsurf-study linsss, which leaves {name}-linsss4.sss"
+            )));
         }
         Ok(rivals)
     }
 
     /// Brings it and a mesh to a device.
-    pub(super) fn upload(&self, gpu: &Gpu, mesh: &Mesh, mapping: Mapping, sky: Option<&[AmbientTransfer]>) -> anyhow::Result<GpuAsset> {
+    pub(super) fn upload(
+        &self,
+        gpu: &Gpu,
+        mesh: &Mesh,
+        mapping: Mapping,
+        sky: Option<&[AmbientTransfer]>,
+    ) -> anyhow::Result<GpuAsset> {
         let known = VertexData { ambient: sky, ..Default::default() };
         Ok(GpuAsset {
             mesh: GpuMesh::upload(gpu, mesh, known)?,
