@@ -54,6 +54,7 @@ mod detect;
 mod error;
 mod family;
 mod file;
+pub mod kernel;
 mod section;
 
 pub use bssrdf::Bssrdf;

@@ -1,0 +1,5 @@
+//! Kernels: homogeneous diffusion profiles as sums of few separable ones.
+
+mod method;
+
+pub use method::KernelMethod;
