@@ -20,10 +20,7 @@ impl File {
 /// The [`File`] of a path under `wgsl/`.
 macro_rules! wgsl {
     ($path:literal) => {
-        $crate::passes::File {
-            path: $path,
-            text: include_str!(concat!(env!("OUT_DIR"), "/wgsl/", $path, ".wgsl")),
-        }
+        $crate::passes::File { path: $path, text: include_str!(concat!(env!("OUT_DIR"), "/wgsl/", $path, ".wgsl")) }
     };
 }
 pub(super) use wgsl;
