@@ -6,6 +6,7 @@
 //! | [`simulate`] | captures where nothing was measured: diffusion in a slab, rays on a relief |
 //! | [`bssrdf`] | fits of K-BMPP to captures of subsurface scattering |
 //! | [`btf`] | nested codebooks and factors of BTFs, and the presets of both |
+//! | [`kernel`] | separable kernels of homogeneous diffusion profiles |
 //! | [`rate`] | the smallest file of a quality, or the best of a size |
 //! | [`metrics`] | the one judge of files: albedo error, PSNR, SSIM, MSSIM |
 //! | [`baseline`] | earlier methods that only comparisons need, named by their papers |
@@ -47,6 +48,7 @@ pub mod btf;
 pub mod capture;
 mod error;
 mod file;
+pub mod kernel;
 mod math;
 pub mod memory;
 pub mod metrics;

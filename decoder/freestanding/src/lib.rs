@@ -128,5 +128,5 @@ fn sum_up(kernel: &Kernel<'_>, probe: &mut Probe) {
     probe.albedo = kernel.tail_at(probe.r_mm);
     probe.log_profile = kernel.weight(probe.material, usize::from(probe.level));
     probe.sum = kernel.sign(probe.material)[0] + kernel.energy()[0] + kernel.offsets().iter().sum::<f32>();
-    probe.sum += kernel.two_gaussians().map_or(0.0, |gaussians| gaussians.w[0]);
+    probe.sum += kernel.two_gaussians().map_or(0.0, |gaussians| gaussians.weight[0]);
 }

@@ -1,5 +1,6 @@
 //! The `KERN` header and the sizes of the sections that follow from it.
 
+use super::method::KernelMethod;
 use crate::container::record::{Field, record};
 use crate::container::sections::SectionBytes;
 use crate::error::ReadError;
@@ -27,55 +28,6 @@ pub const MAX_WEIGHT: f32 = 16.0;
 pub const ENERGY_TOLERANCE: f32 = 1.0 / 1024.0;
 /// Code of linear Rec. 709, the one colour space there is.
 pub const LINEAR_REC709: u8 = 1;
-
-/// Way in which a kernel was made from its profile. Nothing depends on it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum KernelMethod {
-    /// Singular value decomposition, cut to a low rank (Jimenez et al. 2015, eq. S.4).
-    Svd,
-    /// Profile integrated along an axis (eq. S.6).
-    PreIntegrated,
-    /// Fit with a guide function (eq. S.7).
-    Guided,
-    /// Two Gaussians that an artist chose (section E).
-    TwoGaussians,
-    /// Sum of Gaussians (d'Eon et al. 2007).
-    Gaussians,
-}
-
-impl KernelMethod {
-    /// All of them, by their code, from 1.
-    const ALL: [Self; 5] = [Self::Svd, Self::PreIntegrated, Self::Guided, Self::TwoGaussians, Self::Gaussians];
-
-    /// Code in the header.
-    #[must_use]
-    pub const fn code(self) -> u8 {
-        match self {
-            Self::Svd => 1,
-            Self::PreIntegrated => 2,
-            Self::Guided => 3,
-            Self::TwoGaussians => 4,
-            Self::Gaussians => 5,
-        }
-    }
-
-    fn from_code(code: u8) -> Option<Self> {
-        Self::ALL.into_iter().find(|method| method.code() == code)
-    }
-
-    /// Name, as the command has it.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Svd => "svd",
-            Self::PreIntegrated => "pre-integrated",
-            Self::Guided => "guided",
-            Self::TwoGaussians => "two-gaussians",
-            Self::Gaussians => "gaussians",
-        }
-    }
-}
 
 record! {
     /// The `KERN` section (`FORMAT.md`, section 6.1).

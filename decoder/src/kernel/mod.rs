@@ -1,9 +1,10 @@
-//! Separable kernels: the diffusion profile of a homogeneous material, and the products of 1-D kernels that stand for it
-//! (`FORMAT.md`, section 6).
+//! Kernels: homogeneous diffusion profiles as sums of few separable ones (`FORMAT.md`, section 6).
 
 mod evaluate;
 pub mod layout;
+mod method;
 mod reader;
 
-pub use layout::{KernelHeader, KernelMethod};
+pub use layout::KernelHeader;
+pub use method::KernelMethod;
 pub use reader::{Kernel, TwoGaussians};

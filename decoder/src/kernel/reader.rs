@@ -29,11 +29,11 @@ pub struct Kernel<'a> {
     two_gaussians: Option<TwoGaussians>,
 }
 
-/// Two Gaussians that a kernel was made of: a(x) = w G(x; τ_near) + (1 − w) G(x; τ_far) for each colour channel.
+/// Two Gaussians in one dimension that a kernel was made of: a(x) = w G(x; τ_near) + (1 − w) G(x; τ_far) for each colour channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoGaussians {
-    /// Share of the narrow one, 0 to 1.
-    pub w: [f32; 3],
+    /// Share w of the narrow one, 0 to 1.
+    pub weight: [f32; 3],
     /// Variance of the narrow one in mm², 10⁻¹² to 10¹².
     pub tau_near: [f32; 3],
     /// Variance of the wide one in mm², `tau_near` to 10¹².
@@ -148,19 +148,19 @@ fn tail(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
 impl TwoGaussians {
     /// The section as it stands in the file: w, τ_near, τ_far.
     pub fn to_bytes(&self) -> impl Iterator<Item = u8> {
-        [self.w, self.tau_near, self.tau_far].into_iter().flatten().flat_map(f32::to_le_bytes)
+        [self.weight, self.tau_near, self.tau_far].into_iter().flatten().flat_map(f32::to_le_bytes)
     }
 
     /// Reads and checks the section.
     fn parse(section: SectionBytes<'_>) -> Result<Self, ReadError> {
         let values = F32Le::new(section.bytes);
-        let [w, tau_near, tau_far] = [0, RGB, RGB.wrapping_add(RGB)].map(|at| values.rgb_at(at));
+        let [weight, tau_near, tau_far] = [0, RGB, RGB.wrapping_add(RGB)].map(|at| values.rgb_at(at));
         let [least, most] = VARIANCES;
         let ranges = tau_near.map(|near| [near, most]);
         let ranges = [[[0.0, 1.0]; RGB], [[least, most]; RGB], ranges];
         for (k, (value, range)) in values.iter().zip(ranges.into_iter().flatten()).enumerate() {
             section.origin.at_item(k, size_of::<f32>()).number(0, value, range)?;
         }
-        Ok(Self { w, tau_near, tau_far })
+        Ok(Self { weight, tau_near, tau_far })
     }
 }
