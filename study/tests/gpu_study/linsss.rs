@@ -13,7 +13,8 @@ use subsurf_tests::{drawable, shape};
 use subsurf_viewer::{GpuAsset, RenderSession, light_of};
 
 /// Pixels of the patch to a side, and of pictures to a pixel of the patch.
-const SIDE: usize = 32;
+const WIDTH: u32 = 32;
+const SIDE: usize = WIDTH as usize;
 const SCALE: usize = 3;
 const PITCH_MM: f32 = 0.5;
 
@@ -37,7 +38,7 @@ fn plate(shape: LightShape) -> (Mesh, Scene) {
 
 /// Linear light at the middles of the patch's pixels, row by row.
 fn picture(gpu: &Gpu, material: Material, mesh: &Mesh, scene: &Scene) -> Vec<[f64; 3]> {
-    let size = [(SIDE * SCALE) as u32; 2];
+    let size = [WIDTH * u32::try_from(SCALE).unwrap(); 2];
     let mesh = GpuMesh::upload(gpu, mesh, VertexData::default()).unwrap();
     let asset = GpuAsset { mesh, material, mapping: Mapping::Uv([1.0; 2]) };
     let options = RuntimeOptions { map_bytes_per_pixel: 1e3, ..RuntimeOptions::default() };
@@ -62,7 +63,7 @@ fn psnr(reference: &[[f64; 3]], found: &[[f64; 3]], border: usize) -> f64 {
 }
 
 fn model(sigmas_px: Vec<[f32; 3]>, weights: Vec<Vec<[f32; 3]>>, is_shortcut: bool) -> LinsssModel {
-    let header = shape([SIDE as u32; 2], 6, Addressing::Clamp).header();
+    let header = shape([WIDTH; 2], 6, Addressing::Clamp).header();
     LinsssModel { header, sigmas_px, weights, albedo: vec![[0.5; 3]; SIDE * SIDE], is_shortcut }
 }
 
@@ -108,7 +109,7 @@ fn blurs_of_a_texture_are_its_sums_over_pairs() {
 /// Where the material is the same everywhere, the shortcut leaves out nothing but what the pyramid does.
 #[test]
 fn one_profile_everywhere_is_drawn_as_the_homogeneous_technique_draws_it() {
-    let file = drawable([SIDE as u32; 2], 6, Addressing::Clamp);
+    let file = drawable([WIDTH; 2], 6, Addressing::Clamp);
     let material = Bssrdf::parse(&file).unwrap();
     let basis = ProjectedBasis::of(&material).unwrap().homogeneous();
     let numbers: &BasisNumbers = basis.numbers();
