@@ -12,9 +12,10 @@ use subsurf_tests::frames::device;
 use subsurf_tests::{drawable, shape};
 use subsurf_viewer::{GpuAsset, RenderSession, light_of};
 
-/// Pixels of the patch to a side, and of pictures to a pixel of the patch.
+/// Pixels of the patch to a side.
 const WIDTH: u32 = 32;
 const SIDE: usize = WIDTH as usize;
+/// Pixels of pictures to a pixel of the patch.
 const SCALE: usize = 3;
 const PITCH_MM: f32 = 0.5;
 
