@@ -24,7 +24,7 @@ pub struct RuntimeOptions {
     /// Texels to a side of what each light sees: a power of two, at least 128. Fewer where the textures of a device have no room for
     /// as many beside and below each other: those of 2,048 texels to a side hold eight views of 512.
     pub light_texels: u32,
-    /// Most bytes of the maps of separable blurs for each pixel of the picture, more than 0: maps become coarser until they keep to them.
+    /// Most bytes of the maps of blurs on the screen for each pixel of the picture, more than 0: maps become coarser until they keep to them.
     pub map_bytes_per_pixel: f32,
     /// Most objects of a frame.
     pub objects: u32,
