@@ -26,6 +26,9 @@ pub struct RuntimeOptions {
     pub light_texels: u32,
     /// Most bytes of the maps of blurs on the screen for each pixel of the picture, more than 0: maps become coarser until they keep to them.
     pub map_bytes_per_pixel: f32,
+    /// Whether a third of the taps of separable kernels are turned, by an angle of each pixel's own: faint noise in place of bands and of the
+    /// axes of the kernel (Jimenez et al. 2015, supplement, figures S.6 and S.7).
+    pub jittered_taps: bool,
     /// Most objects of a frame.
     pub objects: u32,
     /// Filtering and sampling of BTFs.
@@ -43,6 +46,7 @@ impl Default for RuntimeOptions {
             host_shadow_maps: false,
             light_texels: 512,
             map_bytes_per_pixel: 8.75,
+            jittered_taps: true,
             objects: 16,
             btf: BtfOptions::default(),
         }

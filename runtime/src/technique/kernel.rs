@@ -22,6 +22,7 @@ use crate::gpu::{FullscreenPass, Gpu, HALF, Purpose, Rows, Surface2d, TextureSpe
 #[derive(Debug)]
 pub(crate) struct Passes {
     depth: DepthFormat,
+    is_jittered: bool,
     gbuffer: MeshPass,
     rows: FullscreenPass,
     columns: FullscreenPass,
@@ -98,6 +99,7 @@ impl Passes {
         let map = gpu.target_texture_format();
         Ok(Self {
             depth: options.depth,
+            is_jittered: options.jittered_taps,
             gbuffer: MeshPass::lit(gpu, table::KERNEL_GBUFFER.only(), &[map; 2], options)?,
             rows: FullscreenPass::new(gpu, table::BLUR_KERNEL.only(), &[map])?,
             columns: FullscreenPass::new(gpu, table::SUM_KERNEL.only(), &[map])?,
@@ -153,7 +155,7 @@ impl Bindings for Bound {
             middle_mm: group.middle_mm(),
             pitch_mm: 1.0,
             perspective: if view.is_parallel() { 0.0 } else { 1.0 },
-            pad: 0,
+            is_jittered: u32::from(self.passes.is_jittered),
         };
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&group.upsampling(&self.area)));

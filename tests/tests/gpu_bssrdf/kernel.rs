@@ -23,7 +23,7 @@ const KERNEL_TOLERANCE: u8 = 2;
 
 /// Options of all pictures here: maps of a texel to a pixel.
 fn fine() -> RuntimeOptions {
-    RuntimeOptions { map_bytes_per_pixel: 100.0, ..RuntimeOptions::default() }
+    RuntimeOptions { map_bytes_per_pixel: 100.0, jittered_taps: false, ..RuntimeOptions::default() }
 }
 
 fn light(towards: Vec3, irradiance: [f32; 3]) -> Light {
@@ -47,7 +47,7 @@ fn drawn(gpu: &Gpu, of: &[(&Mesh, &[u8])], scene: &Scene, size: [u32; 2], option
 }
 
 /// The same by the twins of the passes, of one mesh.
-fn by_twins(kernel: &Kernel<'_>, mesh: &Mesh, scene: &Scene, size: [u32; 2]) -> Vec<[u8; 3]> {
+fn by_twins(kernel: &Kernel<'_>, is_jittered: bool, mesh: &Mesh, scene: &Scene, size: [u32; 2]) -> Vec<[u8; 3]> {
     let bounds = mesh.bounding_sphere();
     let placement = Placement::of_homogeneous_within(bounds, kernel.header().eta);
     let blocks = Blocks::new(scene, &placement, size, 512);
@@ -59,7 +59,7 @@ fn by_twins(kernel: &Kernel<'_>, mesh: &Mesh, scene: &Scene, size: [u32; 2]) -> 
         middle_mm: (bounds.centre_mm - view.eye_mm()).dot(view.forward()),
         pitch_mm: 1.0,
         perspective: 1.0,
-        pad: 0,
+        is_jittered: u32::from(is_jittered),
     };
     let triangles = cpu::KernelMesh { positions: &mesh.positions, normals: &mesh.normals, triangles: &mesh.triangles };
     let gbuffer = cpu::kernel_gbuffer(&triangles, &blocks, size);
@@ -76,19 +76,26 @@ fn by_twins(kernel: &Kernel<'_>, mesh: &Mesh, scene: &Scene, size: [u32; 2]) -> 
 fn balls(backend: Backend) {
     let gpus = [open(backend), open(backend).with_target_format(TargetFormat::Packed)];
     let (mesh, size) = (sphere(5.0, 24), [120, 90]);
-    let scene = Scene {
-        lights: vec![light(Vec3::new(0.9, 1.0, 0.3), [3.0, 2.8, 2.5]), light(Vec3::NEG_X, [0.2, 0.3, 0.6])],
-        environment: Environment::uniform([0.2, 0.25, 0.3]),
-        roughness: 0.3,
-        camera: Camera { eye_mm: Vec3::new(3.0, 4.0, 22.0), target_mm: Vec3::ZERO, fov_y_rad: 0.6, exposure: 0.5 },
-    };
-    for (name, model) in [("skin", skin(17)), ("difference", difference(11))] {
+    let far = Vec3::new(3.0, 4.0, 22.0);
+    // Turned taps where the ball covers the picture: then the first texel of the maps is that of the picture.
+    let cases = [
+        ("skin", skin(17), far, false),
+        ("difference", difference(11), far, false),
+        ("skin, jittered", skin(17), 0.42 * far, true),
+    ];
+    for (name, model, eye_mm, jittered_taps) in cases {
+        let scene = Scene {
+            lights: vec![light(Vec3::new(0.9, 1.0, 0.3), [3.0, 2.8, 2.5]), light(Vec3::NEG_X, [0.2, 0.3, 0.6])],
+            environment: Environment::uniform([0.2, 0.25, 0.3]),
+            roughness: 0.3,
+            camera: Camera { eye_mm, target_mm: Vec3::ZERO, fov_y_rad: 0.6, exposure: 0.5 },
+        };
         let file = model.to_bytes().unwrap();
-        let expected = by_twins(&Kernel::parse(&file).unwrap(), &mesh, &scene, size);
+        let expected = by_twins(&Kernel::parse(&file).unwrap(), jittered_taps, &mesh, &scene, size);
         let covered = expected.iter().filter(|pixel| **pixel != [BACKGROUND; 3]).count();
         assert!(covered * 5 > expected.len(), "{name}: the ball is in the picture");
         for gpu in &gpus {
-            let found = drawn(gpu, &[(&mesh, &file)], &scene, size, fine());
+            let found = drawn(gpu, &[(&mesh, &file)], &scene, size, RuntimeOptions { jittered_taps, ..fine() });
             let (count, format) = (different(&found, &expected, KERNEL_TOLERANCE), gpu.target_format());
             println!("{backend}, {format:?}, {name}: {count} of {} pixels differ, {covered} are covered", found.len());
             assert!(count as f64 <= EDGE_PIXELS * found.len() as f64, "{backend}, {name}: {count} pixels differ");

@@ -11,7 +11,8 @@ struct ScreenDomain {
     pitch_mm: f32,
     // 1 in perspective, where things further away are smaller; 0 where the projection is parallel.
     perspective: f32,
-    pad: u32,
+    // 1 if a third of the taps of a separable kernel are turned, by an angle of each texel's own; not looked at by cascades.
+    is_jittered: u32,
 }
 
 @group(0) @binding(1) var<uniform> domain: ScreenDomain;
