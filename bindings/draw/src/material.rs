@@ -143,8 +143,7 @@ fn begin<'a>(gpu: &'a OpenGpu, file: &File<'a>, technique: SubsurfTechnique) -> 
     let wrong = |expected| Fault::from(Failure::Family { found: file.content().family(), expected });
     let load = match (technique, file.content()) {
         (_, Content::FactoredBtf(_)) => return Err(wrong("BSSRDF, nested BTF or kernel")),
-        (SubsurfTechnique::Automatic | SubsurfTechnique::Kernel, Content::Kernel(_)) => Load::new(&gpu.gpu, file),
-        (SubsurfTechnique::Kernel, _) => return Err(wrong("kernel")),
+        (SubsurfTechnique::Kernel, Content::Bssrdf(_) | Content::NestedBtf(_)) => return Err(wrong("kernel")),
         (SubsurfTechnique::Btf, Content::Bssrdf(_) | Content::Kernel(_)) => return Err(wrong("nested BTF")),
         (SubsurfTechnique::Splat | SubsurfTechnique::Separable, Content::NestedBtf(_) | Content::Kernel(_)) => {
             return Err(wrong("BSSRDF"));
