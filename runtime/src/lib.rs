@@ -10,8 +10,8 @@ mod load;
 mod technique;
 
 pub use asset::{
-    BssrdfPlanes, BtfImages, BtfMaterial, GatherMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial,
-    SplatMaterial, VertexData, layout_of,
+    BssrdfPlanes, BtfImages, BtfMaterial, GatherMaterial, GpuMesh, GpuPoints, KernelMaterial, Material,
+    SeparableMaterial, SplatMaterial, VertexData, layout_of,
 };
 #[cfg(feature = "reference")]
 pub use asset::{LinsssMaterial, LinsssModel};

@@ -211,6 +211,11 @@ fn texture_loads_are_accounted_for() {
             ("blur_screen_last, Terms(2)", 1),
             ("shade_separable, Terms(1)", 2),
             ("shade_separable, Terms(2)", 2),
+            // Nodes of the tail up to the last; maps and translucent shadow maps as above.
+            ("kernel_gbuffer", 5),
+            ("blur_kernel", 1),
+            ("sum_kernel", 2),
+            ("shade_kernel", 2),
             // Taps clamped to what the maps hold; levels of the pyramid to what is left of it.
             ("linsss_gbuffer", 5),
             ("linsss_blur", 3),

@@ -6,6 +6,7 @@ use subsurf_scene::{Mapping, Placement};
 
 use super::bssrdf::BssrdfPlanes;
 use super::btf::BtfMaterial;
+use super::kernel::KernelMaterial;
 #[cfg(feature = "reference")]
 use super::linsss::LinsssMaterial;
 use super::mesh::GpuMesh;
@@ -38,6 +39,8 @@ pub enum Material {
     Linsss(Arc<LinsssMaterial>),
     /// One material of a BTF, by its number in the file from 0 on.
     Btf(Arc<BtfMaterial>, usize),
+    /// Homogeneous material for its separable kernel on the screen.
+    Kernel(Arc<KernelMaterial>),
 }
 
 impl Material {
@@ -51,6 +54,7 @@ impl Material {
             #[cfg(feature = "reference")]
             Self::Linsss(_) => Technique::Linsss,
             Self::Btf(material, _) => Technique::Btf(material.layout()),
+            Self::Kernel(_) => Technique::Kernel,
         }
     }
 
@@ -64,6 +68,7 @@ impl Material {
             #[cfg(feature = "reference")]
             Self::Linsss(material) => material.gpu_bytes(),
             Self::Btf(material, _) => material.gpu_bytes(),
+            Self::Kernel(material) => material.gpu_bytes(),
         }
     }
 
@@ -76,6 +81,7 @@ impl Material {
             #[cfg(feature = "reference")]
             (Self::Linsss(a), Self::Linsss(b)) => Arc::ptr_eq(a, b),
             (Self::Btf(a, k), Self::Btf(b, l)) => Arc::ptr_eq(a, b) && k == l,
+            (Self::Kernel(a), Self::Kernel(b)) => Arc::ptr_eq(a, b),
             _ => false,
         }
     }
@@ -85,10 +91,11 @@ impl Material {
     /// # Errors
     /// [`Error::Mesh`] or [`Error::Usage`] if the mesh lacks what the material needs.
     pub(crate) fn placement(&self, mesh: &GpuMesh, mapping: Mapping) -> Result<Placement> {
-        if let Mapping::Uv(_) = mapping {
-            mesh.expect_uvs()?;
-        }
         let header = match self {
+            // What is the same everywhere is looked up nowhere.
+            Self::Kernel(material) => {
+                return Ok(Placement::of_homogeneous_within(mesh.bounds, material.header().eta));
+            }
             Self::Gather(material) => {
                 material.points.expect(mesh)?;
                 material.planes.header()
@@ -98,6 +105,9 @@ impl Material {
             #[cfg(feature = "reference")]
             Self::Linsss(material) => material.header(),
             Self::Btf(..) => {
+                if let Mapping::Uv(_) = mapping {
+                    mesh.expect_uvs()?;
+                }
                 mesh.expect_tangents()?;
                 if mapping == Mapping::Box {
                     return Err(Error::Usage("BTFs lie on meshes by texture coordinates, not by a box".to_owned()));
@@ -105,6 +115,9 @@ impl Material {
                 return Ok(Placement::of_btf_within(mesh.bounds, mapping));
             }
         };
+        if let Mapping::Uv(_) = mapping {
+            mesh.expect_uvs()?;
+        }
         Ok(Placement::within(mesh.bounds, mapping, header))
     }
 }
@@ -124,5 +137,11 @@ impl From<Arc<SplatMaterial>> for Material {
 impl From<Arc<SeparableMaterial>> for Material {
     fn from(material: Arc<SeparableMaterial>) -> Self {
         Self::Separable(material)
+    }
+}
+
+impl From<Arc<KernelMaterial>> for Material {
+    fn from(material: Arc<KernelMaterial>) -> Self {
+        Self::Kernel(material)
     }
 }

@@ -3,6 +3,7 @@
 mod bssrdf;
 mod btf;
 mod btf_images;
+mod kernel;
 #[cfg(feature = "reference")]
 mod linsss;
 mod material;
@@ -15,6 +16,7 @@ mod splat;
 pub use bssrdf::{BssrdfPlanes, layout_of};
 pub use btf::BtfMaterial;
 pub use btf_images::BtfImages;
+pub use kernel::KernelMaterial;
 #[cfg(feature = "reference")]
 pub use linsss::{LinsssMaterial, LinsssModel};
 pub use material::{GatherMaterial, Material};

@@ -14,7 +14,9 @@ use crate::error::{Error, Result};
 use crate::gpu::Gpu;
 #[cfg(feature = "reference")]
 use crate::technique::linsss;
-use crate::technique::{Bindings, Common, MapArea, TranslucentShadowMaps, reflection_sampler, separable, splat};
+use crate::technique::{
+    Bindings, Common, MapArea, TranslucentShadowMaps, kernel, reflection_sampler, separable, splat,
+};
 
 /// How much finer or coarser than a view needs maps may be before others serve it better.
 const FINENESS: f32 = 1.25;
@@ -53,6 +55,8 @@ pub(super) struct Slot {
 struct Shared {
     separable: Vec<(usize, Arc<separable::Maps>)>,
     splat: Option<Arc<splat::Maps>>,
+    /// By whether they are for several terms.
+    kernel: Vec<(bool, Arc<kernel::Maps>)>,
 }
 
 impl Shared {
@@ -67,6 +71,20 @@ impl Shared {
         }
         let maps = Arc::new(make()?);
         self.separable.push((terms, maps.clone()));
+        Ok(maps)
+    }
+
+    /// Maps for kernels of one term or of several, made by the first material that wants them.
+    fn of_kernel(
+        &mut self,
+        has_several: bool,
+        make: impl FnOnce() -> Result<kernel::Maps>,
+    ) -> Result<Arc<kernel::Maps>> {
+        if let Some((_, maps)) = self.kernel.iter().find(|(of, _)| *of == has_several) {
+            return Ok(maps.clone());
+        }
+        let maps = Arc::new(make()?);
+        self.kernel.push((has_several, maps.clone()));
         Ok(maps)
     }
 }
@@ -153,8 +171,6 @@ impl Renderer {
 
     /// Bytes of the maps of some materials.
     fn map_bytes(&self, materials: &[&Material], plan: &Plan) -> u64 {
-        let of_terms = terms_of(materials).into_iter();
-        let of_terms = of_terms.map(|terms| separable::Maps::bytes_of(plan.blur_size, terms, &self.options));
         let splats = materials.iter().any(|material| matches!(material, Material::Splat(_)));
         #[cfg(feature = "reference")]
         let of_rivals: u64 = materials
@@ -166,17 +182,31 @@ impl Renderer {
             .sum();
         #[cfg(not(feature = "reference"))]
         let of_rivals = 0;
-        of_rivals + of_terms.sum::<u64>() + if splats { splat::Maps::bytes_of(plan, &self.options) } else { 0 }
+        of_rivals
+            + self.blur_bytes(materials, plan.blur_size)
+            + if splats { splat::Maps::bytes_of(plan, &self.options) } else { 0 }
     }
 
-    /// Width and height of the maps of separable blurs: as many texels as their bytes for each pixel allow, in the shape of what the
+    /// Bytes of the maps of blurs on the screen, of so many texels.
+    fn blur_bytes(&self, materials: &[&Material], size: [u32; 2]) -> u64 {
+        let of_terms = terms_of(materials).into_iter();
+        let of_terms = of_terms.map(|terms| separable::Maps::bytes_of(size, terms, &self.options));
+        let has_kernel = |has_several| {
+            let of = |material: &&Material| matches!(material, Material::Kernel(of) if (of.terms() > 1) == has_several);
+            materials.iter().any(of)
+        };
+        let of_kernels = [false, true].into_iter().filter(|several| has_kernel(*several));
+        let of_kernels = of_kernels.map(|several| kernel::Maps::bytes_of(size, several, &self.options));
+        of_terms.chain(of_kernels).sum()
+    }
+
+    /// Width and height of the maps of blurs on the screen: as many texels as their bytes for each pixel allow, in the shape of what the
     /// objects of a material cover.
     fn blur_size(&self, input: &Input<'_>, materials: &[&Material], divisor: f32, size: [u32; 2]) -> [u32; 2] {
-        let mut terms = terms_of(materials);
-        if terms.is_empty() && materials.iter().any(|material| is_blurred(material)) {
-            terms.push(1);
+        let mut bytes = self.blur_bytes(materials, [1, 1]);
+        if bytes == 0 && materials.iter().any(|material| is_blurred(material)) {
+            bytes = separable::Maps::bytes_of([1, 1], 1, &self.options);
         }
-        let bytes: u64 = terms.into_iter().map(|terms| separable::Maps::bytes_of([1, 1], terms, &self.options)).sum();
         #[allow(clippy::cast_precision_loss, reason = "a few dozen")]
         let held = bytes as f32 / self.options.map_bytes_per_pixel;
         let covered = materials.iter().filter_map(|material| {
@@ -221,6 +251,12 @@ impl Renderer {
                 let maps = linsss::Maps::new(gpu, plan.blur_size, count, material.is_shortcut(), depth)?;
                 self.linsss.of(())?.bind(gpu, material, common, lights, maps)
             }
+            Material::Kernel(material) => {
+                let (passes, has_several) = (self.kernel.of(())?, material.terms() > 1);
+                let maps =
+                    shared.of_kernel(has_several, || kernel::Maps::new(gpu, plan, &self.options, has_several))?;
+                passes.bind(gpu, material, common, lights, &maps)
+            }
             Material::Btf(material, number) => self.btf.of(material.layout())?.bind(gpu, material, *number),
         }
     }
@@ -253,6 +289,7 @@ impl Renderer {
                 Material::Linsss(material) => {
                     Some(separable::divisor_of(material.narrowest_pixels(), material.header().pitch_mm, pixels_per_mm))
                 }
+                Material::Kernel(material) => Some(kernel::divisor(material, pixels_per_mm)),
                 Material::Gather(_) | Material::Btf(..) => None,
             }
         });
@@ -263,7 +300,7 @@ impl Renderer {
 /// Whether a material is drawn by blurs on the screen.
 fn is_blurred(material: &Material) -> bool {
     match material {
-        Material::Separable(_) => true,
+        Material::Separable(_) | Material::Kernel(_) => true,
         // A rival gets maps as fine as those of one term.
         #[cfg(feature = "reference")]
         Material::Linsss(_) => true,

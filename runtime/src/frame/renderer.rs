@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::gpu::{BLOCK_STRIDE, Gpu};
 #[cfg(feature = "reference")]
 use crate::technique::linsss;
-use crate::technique::{Technique, TsmPasses, btf, gather, separable, splat};
+use crate::technique::{Technique, TsmPasses, btf, gather, kernel, separable, splat};
 
 /// Pipelines of the techniques that a host wants; made at load, never in a frame.
 #[derive(Debug)]
@@ -24,6 +24,7 @@ pub struct Renderer {
     #[cfg(feature = "reference")]
     pub(super) linsss: Compiled<(), linsss::Passes>,
     pub(super) btf: Compiled<BtfLayout, btf::Passes>,
+    pub(super) kernel: Compiled<(), kernel::Passes>,
 }
 
 /// Pipelines of one technique, by what they depend on.
@@ -91,6 +92,7 @@ impl Renderer {
             #[cfg(feature = "reference")]
             linsss: Compiled(Vec::new()),
             btf: Compiled(Vec::new()),
+            kernel: Compiled(Vec::new()),
         })
     }
 
@@ -121,6 +123,7 @@ impl Renderer {
             #[cfg(feature = "reference")]
             Technique::Linsss => self.linsss.add((), || linsss::Passes::new(gpu, options)),
             Technique::Btf(layout) => self.btf.add(layout, || btf::Passes::new(gpu, layout, options)),
+            Technique::Kernel => self.kernel.add((), || kernel::Passes::new(gpu, options)),
         }
     }
 

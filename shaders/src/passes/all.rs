@@ -4,7 +4,7 @@ use super::pass::Pass;
 use super::{linsss, table};
 
 /// All passes.
-pub static ALL: [&Pass; 30] = [
+pub static ALL: [&Pass; 34] = [
     &table::GATHER,
     &table::PRESENT,
     &table::HOMOGENEOUS,
@@ -28,6 +28,10 @@ pub static ALL: [&Pass; 30] = [
     &table::SUM_SCREEN,
     &table::BLUR_SCREEN_LAST,
     &table::SHADE_SEPARABLE,
+    &table::KERNEL_GBUFFER,
+    &table::BLUR_KERNEL,
+    &table::SUM_KERNEL,
+    &table::SHADE_KERNEL,
     &linsss::LINSSS_GBUFFER,
     &linsss::LINSSS_BLUR,
     &linsss::LINSSS_REDUCE,

@@ -2,6 +2,7 @@
 
 mod blur;
 mod btf;
+mod kernel;
 mod linsss;
 mod material;
 mod object;
@@ -11,6 +12,7 @@ mod splat;
 
 pub use blur::{BlurStage, MOST_TAPS, ScreenDomain, Transmission, Upsampling};
 pub use btf::{BtfCodebooks, BtfFiltering, BtfImages, BtfTable, BtfTexture, MAX_LEVELS, MAX_RINGS_OF_DIRECTIONS};
+pub use kernel::{KernelProfile, KernelTerm};
 pub use linsss::{Linsss, LinsssStage, MAX_LINSSS_GAUSSIANS};
 pub use material::{BASE_ROWS, Material, ROW};
 pub use object::{Blocks, Object};

@@ -114,7 +114,7 @@ fn compare(
     scene.camera.exposure = exposure;
     let mut shown = vec![image(&reference, size[0])];
     for (backend, gpu) in gpus {
-        let case = |asset: &Asset| BenchCase::new(gpu, asset, material, mesh, size);
+        let case = |asset: &Asset| BenchCase::new(gpu, || asset.upload(gpu, material, mesh), mesh, size);
         let row = |path: String, similarity, times: &Times, gather_ms, file_bytes| {
             let [material_bytes, buffer_bytes] = times.bytes_of_material_and_buffers();
             Row {
@@ -143,7 +143,7 @@ fn compare(
             }
         };
         let of_rivals =
-            rivals.iter().map(|rival| BenchCase::of(gpu, mesh, size, || rival.upload(gpu, mesh, mapping, sky)));
+            rivals.iter().map(|rival| BenchCase::new(gpu, || rival.upload(gpu, mesh, mapping, sky), mesh, size));
         let mut cases =
             paths.iter().map(|(_, path)| case(path)).chain(of_rivals).collect::<anyhow::Result<Vec<_>>>()?;
         let names = paths.iter().map(|(name, _)| ((*name).to_owned(), *file_bytes));

@@ -63,7 +63,7 @@ impl Rival {
         mesh: &Mesh,
         mapping: Mapping,
         sky: Option<&[AmbientTransfer]>,
-    ) -> anyhow::Result<GpuAsset> {
+    ) -> subsurf_viewer::Result<GpuAsset> {
         let known = VertexData { ambient: sky, ..Default::default() };
         Ok(GpuAsset {
             mesh: GpuMesh::upload(gpu, mesh, known)?,
