@@ -36,19 +36,26 @@ fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
         return sums;
     }
     let taps = taps_at(centre);
+    let next = taps.stride * stage.axis;
+    var before = depth_at(x - (taps.count + 1) * next);
     var weights = 0.0;
+    var stretch = 1.0;
     for (var k = -taps.count; k <= taps.count; k++) {
-        let step = k * taps.stride;
-        var light = maps_at(x + step * stage.axis);
-        let distance = f32(step) / taps.sigma;
-        let weight = exp(-0.5 * distance * distance) * nearness(centre, light[0]);
+        let at = x + k * next;
+        var light = maps_at(at);
+        let arc = arc_of(taps, vec3<f32>(before, light[0].w, depth_at(at + next)));
+        before = light[0].w;
+        stretch = select(stretch, arc, k == 0);
+        let distance = f32(k * taps.stride) / taps.sigma;
+        let weight = exp(-0.5 * distance * distance) * nearness(centre, light[0]) * arc;
         weights += weight;
         for (var l = 0u; l < TERMS; l++) {
             sums[l] += weight * light[l];
         }
     }
+    let whole = whole_of(taps, weights, stretch);
     for (var l = 0u; l < TERMS; l++) {
-        sums[l] = vec4<f32>(sums[l].xyz / weights, centre.w);
+        sums[l] = vec4<f32>(sums[l].xyz / whole, centre.w);
     }
     return sums;
 }

@@ -22,6 +22,21 @@ fn nearness(centre: vec4<f32>, other: vec4<f32>) -> f32 {
     return 1.0;
 }
 
+// Depth, of which a plane has none.
+fn depth_at(x: vec2<i32>) -> f32 {
+    return 0.0;
+}
+
+// Length of the line that a tap stands for, by its length across the view: nothing is slanted.
+fn arc_of(taps: Taps, depths: vec3<f32>) -> f32 {
+    return 1.0;
+}
+
+// What to divide a weighted sum by.
+fn whole_of(taps: Taps, weights: f32, stretch: f32) -> f32 {
+    return weights;
+}
+
 // Whether there is a sum to add to: not at the first stage.
 fn has_sum() -> bool {
     return stage.has_sum != 0u;

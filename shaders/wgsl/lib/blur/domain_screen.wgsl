@@ -20,6 +20,8 @@ struct ScreenDomain {
 
 // Most taps to one side, close to the eye.
 const MOST_TAPS: f32 = 16.0;
+// Most that a slope makes a tap count: steeper ones are seen by chance.
+const MOST_STRETCH: f32 = 5.0;
 
 // Taps of the stage at the distance of a texel, whose depth in mm is in the fourth channel.
 fn taps_at(centre: vec4<f32>) -> Taps {
@@ -37,6 +39,33 @@ fn taps_at(centre: vec4<f32>) -> Taps {
 fn nearness(centre: vec4<f32>, other: vec4<f32>) -> f32 {
     let d = (other.w - centre.w) / (stage.step * domain.pitch_mm);
     return exp(-0.5 * min(d * d, 80.0));
+}
+
+// Depth at texel x in mm, clamped to the maps.
+fn depth_at(x: vec2<i32>) -> f32 {
+    return load_map(maps, clamp(x, vec2<i32>(0), vec2<i32>(domain.size) - 1), 0u).w;
+}
+
+// Length of the curve that a tap stands for, along which the surface lies, by its length across the view; of the depths of the tap
+// before, of this one and of the next. Where the surface ends, the change to one side tells nothing of its slope: it is the mean of
+// both, at most twice the smaller (van Leer 1977).
+fn arc_of(taps: Taps, depths: vec3<f32>) -> f32 {
+    let change = depths.yz - depths.xy;
+    let smaller = min(abs(change.x), abs(change.y));
+    let texel_mm = stage.step * domain.pitch_mm / taps.sigma;
+    let slope = min(0.5 * abs(change.x + change.y), 2.0 * smaller) / (f32(taps.stride) * texel_mm);
+    return min(sqrt(1.0 + slope * slope), MOST_STRETCH);
+}
+
+// What to divide a weighted sum by. The weights of a plane as steep as the middle tap, `stretch`, add up to `of_plane`; those of a
+// surface that curves away to less: what the eye does not see of it is taken to be half as bright. The narrowest Gaussian does not
+// reach around anything.
+fn whole_of(taps: Taps, weights: f32, stretch: f32) -> f32 {
+    // Of taps that are far apart only the middle one and its neighbours count; of others the sum is close to the integral.
+    let distances = taps.sigma / (f32(taps.stride) * stretch);
+    let few = 1.0 + 2.0 * exp(-0.5 * min(1.0 / (distances * distances), 80.0));
+    let of_plane = stretch * select(2.5066283 * distances, few, distances < 0.6);
+    return select(sqrt(weights * of_plane), weights, stage.has_sum == 0u);
 }
 
 // Whether there is a sum to add to: always, it begins with the transmitted light.
