@@ -41,11 +41,6 @@ fn nearness(centre: vec4<f32>, other: vec4<f32>) -> f32 {
     return exp(-0.5 * min(d * d, 80.0));
 }
 
-// Depth at texel x in mm, clamped to the maps.
-fn depth_at(x: vec2<i32>) -> f32 {
-    return load_map(maps, clamp(x, vec2<i32>(0), vec2<i32>(domain.size) - 1), 0u).w;
-}
-
 // Length of the curve that a tap stands for, along which the surface lies, by its length across the view; of the depths of the tap
 // before, of this one and of the next. Where the surface ends, the change to one side tells nothing of its slope: it is the mean of
 // both, at most twice the smaller (van Leer 1977).
@@ -68,14 +63,55 @@ fn whole_of(taps: Taps, weights: f32, stretch: f32) -> f32 {
     return select(sqrt(weights * of_plane), weights, stage.has_sum == 0u);
 }
 
+// All maps, blurred at texel x; the fourth channel keeps its depth.
+fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
+    let centre = maps_at(x)[0];
+    var sums: array<vec4<f32>, TERMS>;
+    // Depth of the background is beyond everything.
+    if centre.w > 50000.0 {
+        sums[0].w = centre.w;
+        return sums;
+    }
+    let taps = taps_at(centre);
+    let next = taps.stride * stage.axis;
+    let first = x - taps.count * next;
+    var before = load_map(maps, within(first - next), 0u).w;
+    var light = maps_at(first);
+    var weights = 0.0;
+    var stretch = 1.0;
+    for (var k = -taps.count; k <= taps.count; k++) {
+        var after = maps_at(x + (k + 1) * next);
+        let arc = arc_of(taps, vec3<f32>(before, light[0].w, after[0].w));
+        stretch = select(stretch, arc, k == 0);
+        let distance = f32(k * taps.stride) / taps.sigma;
+        let weight = exp(-0.5 * distance * distance) * nearness(centre, light[0]) * arc;
+        weights += weight;
+        for (var l = 0u; l < TERMS; l++) {
+            sums[l] += weight * light[l];
+        }
+        before = light[0].w;
+        light = after;
+    }
+    let whole = whole_of(taps, weights, stretch);
+    for (var l = 0u; l < TERMS; l++) {
+        sums[l] = vec4<f32>(sums[l].xyz / whole, centre.w);
+    }
+    return sums;
+}
+
 // Whether there is a sum to add to: always, it begins with the transmitted light.
 fn has_sum() -> bool {
     return true;
 }
 
+// Texel x, clamped to the maps.
+fn within(x: vec2<i32>) -> vec2<i32> {
+    return clamp(x, vec2<i32>(0), vec2<i32>(domain.size) - 1);
+}
+
 // All maps at texel x, clamped to their size.
 fn maps_at(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
-    let texel = clamp(x, vec2<i32>(0), vec2<i32>(domain.size) - 1);
+    let texel = within(x);
     var all: array<vec4<f32>, TERMS>;
     for (var l = 0u; l < TERMS; l++) {
         all[l] = load_map(maps, texel, l);
