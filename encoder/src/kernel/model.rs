@@ -2,6 +2,8 @@
 
 use subsurf_decoder::kernel::KernelMethod;
 
+use crate::error::{Error, Result};
+
 /// Separable kernel of a homogeneous material, in taps.
 ///
 /// What leaves at (x, y) is M_e(x, y) = Σ_t s_t Σ_i Σ_j w_{t,i} w_{t,j} E(x + o_i, y + o_j), channel by channel, over the taps
@@ -47,4 +49,20 @@ pub struct TwoGaussians {
     pub tau_near: [f32; 3],
     /// Variances τ_far `[rgb]` in mm².
     pub tau_far: [f32; 3],
+}
+
+impl TwoGaussians {
+    /// # Errors
+    ///
+    /// [`Error::Request`] for shares outside 0 to 1 and variances that are not positive.
+    pub(super) fn check(&self) -> Result<()> {
+        if let Some(wrong) = self.weight.iter().find(|w| !(0.0..=1.0).contains(*w)) {
+            return Err(Error::Request(format!("a share of {wrong} for the near Gaussian; expected 0 to 1")));
+        }
+        let taus = || self.tau_near.iter().chain(&self.tau_far);
+        match taus().find(|tau| !(1e-8..=1e8).contains(*tau)) {
+            Some(wrong) => Err(Error::Request(format!("a variance of {wrong} mm²; expected 1e-8 to 1e8"))),
+            None => Ok(()),
+        }
+    }
 }
