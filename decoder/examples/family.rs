@@ -15,6 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         Content::Bssrdf(material) => println!("BSSRDF, {:?}", material.header()),
         Content::NestedBtf(btf) => println!("nested BTF, {:?}", btf.header()),
         Content::FactoredBtf(btf) => println!("factored BTF, {:?}", btf.shape()),
+        Content::Kernel(kernel) => println!("kernel, {:?}", kernel.header()),
         other => println!("{}", other.family()),
     }
     for entry in file.container().entries() {

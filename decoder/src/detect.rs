@@ -12,6 +12,8 @@ pub(crate) fn family(sections: &Sections<'_>) -> Result<Family, ReadError> {
         Ok(BtfHeader::parse(sections.any(Section::BtfHeader)?)?.model.family())
     } else if sections.has(Section::BssrdfHeader) {
         Ok(Family::Bssrdf)
+    } else if sections.has(Section::KernelHeader) {
+        Ok(Family::Kernel)
     } else {
         Err(ReadError::UnknownContent)
     }

@@ -12,6 +12,8 @@ pub enum Family {
     NestedBtf,
     /// Bidirectional texture functions as a Tucker decomposition, read by [`FactoredBtf`](crate::FactoredBtf).
     FactoredBtf,
+    /// Diffusion profile and separable kernel of a homogeneous material, read by [`Kernel`](crate::Kernel).
+    Kernel,
 }
 
 impl fmt::Display for Family {
@@ -20,6 +22,7 @@ impl fmt::Display for Family {
             Self::Bssrdf => "BSSRDF",
             Self::NestedBtf => "nested BTF",
             Self::FactoredBtf => "factored BTF",
+            Self::Kernel => "kernel",
         })
     }
 }

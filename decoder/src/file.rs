@@ -7,6 +7,7 @@ use crate::container::{Container, Crc};
 use crate::detect::family;
 use crate::error::ReadError;
 use crate::family::Family;
+use crate::kernel::Kernel;
 
 /// Checked file of any family.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +27,8 @@ pub enum Content<'a> {
     NestedBtf(NestedBtf<'a>),
     /// Bidirectional texture functions as a Tucker decomposition.
     FactoredBtf(FactoredBtf<'a>),
+    /// Diffusion profile and separable kernel of a homogeneous material.
+    Kernel(Kernel<'a>),
 }
 
 impl<'a> File<'a> {
@@ -47,6 +50,7 @@ impl<'a> File<'a> {
             Family::Bssrdf => Content::Bssrdf(Bssrdf::read(&sections)?),
             Family::NestedBtf => Content::NestedBtf(NestedBtf::read(&sections)?),
             Family::FactoredBtf => Content::FactoredBtf(FactoredBtf::read(&sections)?),
+            Family::Kernel => Content::Kernel(Kernel::read(&sections)?),
         };
         Ok(Self { container: sections.container, content })
     }
@@ -72,6 +76,7 @@ impl Content<'_> {
             Self::Bssrdf(_) => Family::Bssrdf,
             Self::NestedBtf(_) => Family::NestedBtf,
             Self::FactoredBtf(_) => Family::FactoredBtf,
+            Self::Kernel(_) => Family::Kernel,
         }
     }
 }

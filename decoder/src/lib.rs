@@ -1,8 +1,8 @@
-//! Reads `.subsurf` files: measured, heterogeneous, translucent materials in 48 bits per pixel, and the bidirectional
-//! texture functions of rough ones in a few hundred kilobytes.
+//! Reads `.subsurf` files: measured, heterogeneous, translucent materials in 48 bits per pixel, the bidirectional
+//! texture functions of rough ones in a few hundred kilobytes, and the separable kernels of even ones in a few thousand bytes.
 //!
 //! [`File::parse`] checks a file of any family once and borrows it; after that nothing can fail. Who knows the family
-//! calls [`Bssrdf::parse`], [`NestedBtf::parse`] or [`FactoredBtf::parse`]. No `std`, no allocation, no `unsafe`, no panic:
+//! calls [`Bssrdf::parse`], [`NestedBtf::parse`], [`FactoredBtf::parse`] or [`Kernel::parse`]. No `std`, no allocation, no `unsafe`, no panic:
 //! any byte string yields a value or a [`ReadError`]. The input needs no alignment, and the host may be of either
 //! endianness. Files are described byte by byte in `FORMAT.md`.
 //!
@@ -62,4 +62,5 @@ pub use btf::{Evaluate, FactoredBtf, NestedBtf};
 pub use error::ReadError;
 pub use family::Family;
 pub use file::{Content, File};
+pub use kernel::Kernel;
 pub use section::Section;

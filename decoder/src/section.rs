@@ -85,6 +85,16 @@ sections! {
     LocalProfiles = b"LSPP", "local scattering profiles";
     /// `SEPB`: separable basis.
     SeparableBasis = b"SEPB", "separable basis";
+    /// `KERN`: sizes, signs and units of a kernel.
+    KernelHeader = b"KERN", "kernel header";
+    /// `KOFF`: offsets of taps.
+    KernelOffsets = b"KOFF", "offsets of taps";
+    /// `KWGT`: weights of taps.
+    KernelWeights = b"KWGT", "weights of taps";
+    /// `TAIL`: tail of a diffusion profile.
+    KernelTail = b"TAIL", "tail of the profile";
+    /// `TWOG`: the two Gaussians that a kernel was made of.
+    TwoGaussians = b"TWOG", "two Gaussians";
     /// `BTFH`: model, colour encoding and grid of a BTF.
     BtfHeader = b"BTFH", "BTF header";
     /// `MATS`: names and sizes of a BTF's materials.

@@ -8,7 +8,7 @@ use core::panic::PanicInfo;
 use subsurf_decoder::bssrdf::BssrdfModel;
 use subsurf_decoder::btf::factored::ExpansionBuffers;
 use subsurf_decoder::container::Crc;
-use subsurf_decoder::{Bssrdf, Content, Evaluate, FactoredBtf, File, NestedBtf, ReadError};
+use subsurf_decoder::{Bssrdf, Content, Evaluate, FactoredBtf, File, Kernel, NestedBtf, ReadError};
 
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
@@ -72,6 +72,7 @@ fn decode(file: &[u8], probe: &mut Probe) -> Result<(), ReadError> {
         Content::Bssrdf(material) => evaluate(&material, probe),
         Content::NestedBtf(btf) => look_at(&btf, probe),
         Content::FactoredBtf(btf) => expand(&btf, probe),
+        Content::Kernel(kernel) => sum_up(&kernel, probe),
         _ => {}
     }
     Ok(())
@@ -119,4 +120,13 @@ fn expand(btf: &FactoredBtf<'_>, probe: &mut Probe) {
     let view = expanded.catalog().grid().view(probe.view);
     probe.value = expanded.eval(texel, probe.light, probe.view);
     probe.linear = expanded.eval_for(texel, probe.light, &view);
+}
+
+/// Every accessor of a kernel.
+fn sum_up(kernel: &Kernel<'_>, probe: &mut Probe) {
+    probe.rd = kernel.rd(probe.r_mm);
+    probe.albedo = kernel.tail_at(probe.r_mm);
+    probe.log_profile = kernel.weight(probe.material, usize::from(probe.level));
+    probe.sum = kernel.sign(probe.material)[0] + kernel.energy()[0] + kernel.offsets().iter().sum::<f32>();
+    probe.sum += kernel.two_gaussians().map_or(0.0, |gaussians| gaussians.weight[0]);
 }

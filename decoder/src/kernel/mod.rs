@@ -1,5 +1,10 @@
-//! Kernels: homogeneous diffusion profiles as sums of few separable ones.
+//! Kernels: homogeneous diffusion profiles as sums of few separable ones (`FORMAT.md`, section 6).
 
+mod evaluate;
+pub mod layout;
 mod method;
+mod reader;
 
+pub use layout::KernelHeader;
 pub use method::KernelMethod;
+pub use reader::{Kernel, TwoGaussians};

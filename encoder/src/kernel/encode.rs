@@ -1,20 +1,17 @@
 //! From a profile to a kernel.
 
 use rayon::prelude::*;
-use subsurf_decoder::kernel::KernelMethod;
+use subsurf_decoder::kernel::layout::{MAX_ETA, MAX_TERMS, TAPS};
+use subsurf_decoder::kernel::{KernelMethod, TwoGaussians};
 
 use super::grid::{Grid, Separable};
 use super::method::{fit_two_gaussians, gaussians, guided, pre_integrated, svd, two_gaussians};
-use super::profile::{Profile, Radial};
+use super::profile::{Profile, Radial, check_two_gaussians};
 use super::taps::Taps;
-use super::{Kernel, Term, TwoGaussians};
+use super::{Kernel, Term};
 use crate::error::{Error, Result};
 use crate::metrics::kernel::{KernelErrors, Truth};
 
-/// Terms of a kernel, at most.
-pub const MAX_TERMS: usize = 6;
-/// Fewest and most taps.
-pub const TAPS: [usize; 2] = [5, 65];
 /// Entries of the table T(d).
 const TAIL: usize = 64;
 /// Share of a channel's light that may leave beyond the kernel's radius; it is moved within.
@@ -35,12 +32,14 @@ pub struct Options {
     pub guide: f64,
     /// Gaussians of [`KernelMethod::TwoGaussians`]; `None`: fitted to the profile.
     pub two_gaussians: Option<TwoGaussians>,
+    /// Refractive index of the material against air, 1 to 4.
+    pub eta: f32,
 }
 
 impl Default for Options {
-    /// Pre-integrated, 25 taps; k = 1.55, which is close to it (section D).
+    /// Pre-integrated, 25 taps; k = 1.55, which is close to it (section D); η = 1.3.
     fn default() -> Self {
-        Self { method: KernelMethod::PreIntegrated, terms: 1, taps: 25, guide: 1.55, two_gaussians: None }
+        Self { method: KernelMethod::PreIntegrated, terms: 1, taps: 25, guide: 1.55, two_gaussians: None, eta: 1.3 }
     }
 }
 
@@ -94,6 +93,7 @@ pub fn encode(profile: &Profile, options: &Options) -> Result<Encoded> {
         radius: single(radius),
         reflectance: profile.reflectance().map(single),
         depth_variance,
+        eta: options.eta,
         offsets: taps.offsets.iter().map(|offset| single(*offset)).collect(),
         terms,
         tail: tail(&profile, radius),
@@ -135,7 +135,8 @@ fn prepared(profile: &Profile) -> Result<Profile> {
 impl Options {
     fn check(&self) -> Result<()> {
         let refuse = |text: String| Err(Error::Request(text));
-        if !(1..=MAX_TERMS).contains(&self.terms) {
+        let [fewest, most] = TAPS.map(usize::from);
+        if !(1..=usize::from(MAX_TERMS)).contains(&self.terms) {
             return refuse(format!("{} terms; expected 1 to {MAX_TERMS}", self.terms));
         }
         if self.terms > 1 && !matches!(self.method, KernelMethod::Svd | KernelMethod::Gaussians) {
@@ -145,13 +146,16 @@ impl Options {
                 self.method.name()
             ));
         }
-        if !(TAPS[0]..=TAPS[1]).contains(&self.taps) || self.taps % 2 == 0 {
-            return refuse(format!("{} taps; expected an odd number from {} to {}", self.taps, TAPS[0], TAPS[1]));
+        if !(fewest..=most).contains(&self.taps) || self.taps % 2 == 0 {
+            return refuse(format!("{} taps; expected an odd number from {fewest} to {most}", self.taps));
         }
         if !(0.0..=4.0).contains(&self.guide) {
             return refuse(format!("a guide of {}; expected 0, near scattering, to 4, far scattering", self.guide));
         }
-        self.two_gaussians.as_ref().map_or(Ok(()), TwoGaussians::check)
+        if !(1.0..=MAX_ETA).contains(&self.eta) {
+            return refuse(format!("a refractive index of {}; expected 1 to {MAX_ETA}", self.eta));
+        }
+        self.two_gaussians.as_ref().map_or(Ok(()), check_two_gaussians)
     }
 
     /// Terms of channel `c`, and its two Gaussians, which mean nothing for other methods.

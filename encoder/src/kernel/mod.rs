@@ -9,8 +9,10 @@ mod method;
 mod model;
 pub mod profile;
 mod taps;
+mod write;
 
-pub use encode::{Encoded, MAX_TERMS, Options, TAPS, compare, encode};
-pub use model::{Kernel, Term, TwoGaussians};
+pub use encode::{Encoded, Options, compare, encode};
+pub use model::{Kernel, Term};
 pub use profile::Profile;
-pub use subsurf_decoder::kernel::KernelMethod;
+pub use subsurf_decoder::kernel::layout::{MAX_TERMS, TAPS};
+pub use subsurf_decoder::kernel::{KernelMethod, TwoGaussians};

@@ -1,8 +1,6 @@
 //! Kernels as they are written to files.
 
-use subsurf_decoder::kernel::KernelMethod;
-
-use crate::error::{Error, Result};
+use subsurf_decoder::kernel::{KernelMethod, TwoGaussians};
 
 /// Separable kernel of a homogeneous material, in taps.
 ///
@@ -18,6 +16,8 @@ pub struct Kernel {
     pub reflectance: [f32; 3],
     /// Variance τ_max in mm² of exp(−d_z²/(2 τ_max)), by which taps fade with the difference in depth d_z in mm (section E).
     pub depth_variance: f32,
+    /// Refractive index of the material against air, 1 to 4.
+    pub eta: f32,
     /// Offsets o_i of one side in mm: `(taps + 1) / 2` of them, the first 0, ascending.
     pub offsets: Vec<f32>,
     /// Terms, the largest first: 1 to 6.
@@ -38,31 +38,4 @@ pub struct Term {
     pub sign: [i8; 3],
     /// Weights w_i `[tap][rgb]` of the taps of one side: ∫ a over the interval of the tap, which for the first is both sides of 0.
     pub weights: Vec<[f32; 3]>,
-}
-
-/// An artist's profile w G(τ_near) + (1 − w) G(τ_far) in one dimension, per channel (section E).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TwoGaussians {
-    /// Share w `[rgb]` of the near Gaussian, 0 to 1.
-    pub weight: [f32; 3],
-    /// Variances τ_near `[rgb]` in mm².
-    pub tau_near: [f32; 3],
-    /// Variances τ_far `[rgb]` in mm².
-    pub tau_far: [f32; 3],
-}
-
-impl TwoGaussians {
-    /// # Errors
-    ///
-    /// [`Error::Request`] for shares outside 0 to 1 and variances that are not positive.
-    pub(super) fn check(&self) -> Result<()> {
-        if let Some(wrong) = self.weight.iter().find(|w| !(0.0..=1.0).contains(*w)) {
-            return Err(Error::Request(format!("a share of {wrong} for the near Gaussian; expected 0 to 1")));
-        }
-        let taus = || self.tau_near.iter().chain(&self.tau_far);
-        match taus().find(|tau| !(1e-8..=1e8).contains(*tau)) {
-            Some(wrong) => Err(Error::Request(format!("a variance of {wrong} mm²; expected 1e-8 to 1e8"))),
-            None => Ok(()),
-        }
-    }
 }

@@ -1,5 +1,6 @@
 //! Diffuse reflectance profiles R_d(r) of homogeneous materials, in three channels.
 
+mod artist;
 mod base;
 mod csv;
 mod points;
@@ -8,21 +9,18 @@ pub mod shipped;
 
 use std::path::Path;
 
+use subsurf_decoder::kernel::TwoGaussians;
+
+pub(super) use artist::check as check_two_gaussians;
 pub use base::of_base;
 pub use radial::Radial;
 
 use crate::error::{Error, Result};
-use crate::kernel::TwoGaussians;
 use crate::simulate::monte_carlo::mcml;
 use crate::simulate::monte_carlo::profile::Profiles;
 
 /// Width of rings by their inner radius: finer ones hold more noise than shape.
 const GROWTH: f64 = 0.05;
-
-/// Variances of a Gaussian's rings: as far as 7 standard deviations, 2·10⁻¹¹ of its light is beyond.
-const GAUSSIAN_REACH: f64 = 7.0;
-/// Rings of a Gaussian.
-const GAUSSIAN_RINGS: usize = 1_024;
 
 /// R_d(r) in mm⁻² of red, green and blue.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,25 +86,8 @@ impl Profile {
     ///
     /// [`Error::Request`] for numbers that are none.
     pub fn of_two_gaussians(two: &TwoGaussians, reflectance: [f32; 3]) -> Result<Self> {
-        two.check()?;
-        let channel = |c: usize| {
-            let [w, near, far, total] =
-                [two.weight[c], two.tau_near[c], two.tau_far[c], reflectance[c]].map(f64::from);
-            let reach = GAUSSIAN_REACH * near.max(far).sqrt();
-            #[allow(clippy::cast_precision_loss, reason = "rings are few")]
-            let edges: Vec<f64> =
-                (0..=GAUSSIAN_RINGS).map(|k| reach * (k as f64 / GAUSSIAN_RINGS as f64).powi(2)).collect();
-            let beyond = |r: f64| {
-                let gaussian = |tau: f64| (-r * r / (2.0 * tau)).exp();
-                total * (w * gaussian(near) + (1.0 - w) * gaussian(far))
-            };
-            let ring = |edges: &[f64]| {
-                let area = std::f64::consts::PI * (edges[1] * edges[1] - edges[0] * edges[0]);
-                (beyond(edges[0]) - beyond(edges[1])) / area
-            };
-            let rd = edges.windows(2).map(ring).collect();
-            Radial::new(edges, rd)
-        };
+        artist::check(two)?;
+        let channel = |c: usize| artist::radial(two, reflectance, c);
         Self { channels: std::array::from_fn(channel) }.checked(&|found, expected| {
             Error::Request(format!("two Gaussians and a reflectance: {found}; expected {expected}"))
         })

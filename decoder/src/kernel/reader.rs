@@ -1,0 +1,166 @@
+//! Reads and checks a kernel file once; afterwards its tables are borrowed and nothing can fail.
+
+use super::layout::{ENERGY_TOLERANCE, KernelHeader, MAX_WEIGHT, VARIANCES};
+use crate::container::Crc;
+use crate::container::bytes::F32Le;
+use crate::container::sections::{SectionBytes, Sections};
+use crate::detect;
+use crate::error::ReadError;
+use crate::family::Family;
+use crate::section::Section;
+
+/// Colour channels.
+pub(super) const RGB: usize = 3;
+
+/// Checked kernel file: a homogeneous diffusion profile R_d(r) and its separable kernel.
+///
+/// A_c(x, y) = Σ_t s_tc a_tc(x) a_tc(y) for each colour channel c, linear Rec. 709. Light E becomes the exitance
+/// M(x, y) = Σ_t s_t Σ_i Σ_j w_ti w_tj E(x + o_i, y + o_j), with even kernels: o_−i = −o_i and w_t,−i = w_ti
+/// (Jimenez et al. 2015, Separable Subsurface Scattering).
+#[derive(Clone, Copy, Debug)]
+pub struct Kernel<'a> {
+    header: KernelHeader,
+    /// o_i in mm, shape `[side]`.
+    offsets: F32Le<'a>,
+    /// w, shape `[terms][side][rgb]`.
+    weights: F32Le<'a>,
+    /// T, shape `[tail_nodes][rgb]`.
+    tail: F32Le<'a>,
+    two_gaussians: Option<TwoGaussians>,
+}
+
+/// Two Gaussians in one dimension that a kernel was made of: a(x) = w G(x; τ_near) + (1 − w) G(x; τ_far) for each colour channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoGaussians {
+    /// Share w of the narrow one, 0 to 1.
+    pub weight: [f32; 3],
+    /// Variance of the narrow one in mm², 10⁻¹² to 10¹².
+    pub tau_near: [f32; 3],
+    /// Variance of the wide one in mm², `tau_near` to 10¹².
+    pub tau_far: [f32; 3],
+}
+
+impl<'a> Kernel<'a> {
+    /// Reads and checks a file: structure, sizes, every value, and all CRCs.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with section, offset and numbers.
+    pub fn parse(file: &'a [u8]) -> Result<Self, ReadError> {
+        Self::parse_with(file, Crc::Check)
+    }
+
+    /// [`Kernel::parse`] with a choice about the sections' CRC-32.
+    ///
+    /// # Errors
+    /// As [`Kernel::parse`].
+    pub fn parse_with(file: &'a [u8], crc: Crc) -> Result<Self, ReadError> {
+        Self::read(&Sections::parse(file, crc)?)
+    }
+
+    /// Reads and checks all sections.
+    pub(crate) fn read(sections: &Sections<'a>) -> Result<Self, ReadError> {
+        let header = KernelHeader::parse(detect::header(sections, Section::KernelHeader, Family::Kernel)?)?;
+        let sized = |section| sections.sized(section, header.section_bytes(section));
+        let weights = sized(Section::KernelWeights)?;
+        let kernel = Self {
+            header,
+            offsets: offsets(sized(Section::KernelOffsets)?, header.radius_mm)?,
+            weights: within(weights, [-MAX_WEIGHT, MAX_WEIGHT])?,
+            tail: tail(sized(Section::KernelTail)?)?,
+            two_gaussians: if sections.has(Section::TwoGaussians) {
+                Some(TwoGaussians::parse(sized(Section::TwoGaussians)?)?)
+            } else {
+                None
+            },
+        };
+        // ||A_c||_1 = ||R_d||_1: the kernel neither makes light nor loses it.
+        for (reflectance, energy) in kernel.reflectance().into_iter().zip(kernel.energy()) {
+            let range = [reflectance - ENERGY_TOLERANCE, reflectance + ENERGY_TOLERANCE];
+            weights.origin.number(0, energy, range)?;
+        }
+        Ok(kernel)
+    }
+
+    /// Sizes, signs and units.
+    #[must_use]
+    pub fn header(&self) -> &KernelHeader {
+        &self.header
+    }
+
+    /// Offsets o_i in mm from the centre on: 0 first, rising, less than the radius; shape `[side]`.
+    #[must_use]
+    pub fn offsets(&self) -> F32Le<'a> {
+        self.offsets
+    }
+
+    /// Weights w_ti, integrals of a_t over the interval of tap i, from the centre on; −16 to 16; shape `[terms][side][rgb]`.
+    #[must_use]
+    pub fn weights(&self) -> F32Le<'a> {
+        self.weights
+    }
+
+    /// Nodes of the tail T, 0 to 1, falling to 0; node k is at radius (k / (tail_nodes − 1))² mm; shape `[tail_nodes][rgb]`.
+    #[must_use]
+    pub fn tail(&self) -> F32Le<'a> {
+        self.tail
+    }
+
+    /// The two Gaussians that the kernel was made of, where the file has them.
+    #[must_use]
+    pub fn two_gaussians(&self) -> Option<&TwoGaussians> {
+        self.two_gaussians.as_ref()
+    }
+}
+
+/// Offsets that begin with 0, rise and stay within the radius.
+fn offsets(section: SectionBytes<'_>, radius_mm: f32) -> Result<F32Le<'_>, ReadError> {
+    let values = F32Le::new(section.bytes);
+    let mut range = [0.0, 0.0];
+    for (k, offset) in values.iter().enumerate() {
+        section.origin.at_item(k, size_of::<f32>()).number(0, offset, range)?;
+        range = [offset.next_up(), radius_mm.next_down()];
+    }
+    Ok(values)
+}
+
+/// Values that are all in a range.
+fn within(section: SectionBytes<'_>, range: [f32; 2]) -> Result<F32Le<'_>, ReadError> {
+    let values = F32Le::new(section.bytes);
+    for (k, value) in values.iter().enumerate() {
+        section.origin.at_item(k, size_of::<f32>()).number(0, value, range)?;
+    }
+    Ok(values)
+}
+
+/// Rows of rgb that begin within 0 to 1, never rise and end with 0.
+fn tail(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
+    let values = F32Le::new(section.bytes);
+    let last = values.len().saturating_sub(RGB);
+    let mut most = [1.0; RGB];
+    for (k, (value, channel)) in values.iter().zip((0..RGB).cycle()).enumerate() {
+        let Some(most) = most.get_mut(channel) else { continue };
+        let range = [0.0, if k < last { *most } else { 0.0 }];
+        *most = section.origin.at_item(k, size_of::<f32>()).number(0, value, range)?;
+    }
+    Ok(values)
+}
+
+impl TwoGaussians {
+    /// The section as it stands in the file: w, τ_near, τ_far.
+    pub fn to_bytes(&self) -> impl Iterator<Item = u8> {
+        [self.weight, self.tau_near, self.tau_far].into_iter().flatten().flat_map(f32::to_le_bytes)
+    }
+
+    /// Reads and checks the section.
+    fn parse(section: SectionBytes<'_>) -> Result<Self, ReadError> {
+        let values = F32Le::new(section.bytes);
+        let [weight, tau_near, tau_far] = [0, RGB, RGB.wrapping_add(RGB)].map(|at| values.rgb_at(at));
+        let [least, most] = VARIANCES;
+        let ranges = tau_near.map(|near| [near, most]);
+        let ranges = [[[0.0, 1.0]; RGB], [[least, most]; RGB], ranges];
+        for (k, (value, range)) in values.iter().zip(ranges.into_iter().flatten()).enumerate() {
+            section.origin.at_item(k, size_of::<f32>()).number(0, value, range)?;
+        }
+        Ok(Self { weight, tau_near, tau_far })
+    }
+}
