@@ -48,7 +48,9 @@ impl Default for Options {
 pub struct Encoded {
     /// The kernel in taps.
     pub kernel: Kernel,
-    /// Errors of the terms before they become taps, against the exact profile in the plane.
+    /// Terms of red, green and blue before they become taps.
+    pub separable: [Separable; 3],
+    /// Errors of these terms against the exact profile in the plane.
     pub errors: KernelErrors,
 }
 
@@ -99,7 +101,8 @@ pub fn encode(profile: &Profile, options: &Options) -> Result<Encoded> {
         tail: tail(&profile, radius),
         two_gaussians,
     };
-    Ok(Encoded { kernel, errors: KernelErrors::mean(fitted.iter().map(|(_, errors, _)| *errors)) })
+    let errors = KernelErrors::mean(fitted.iter().map(|(_, errors, _)| *errors));
+    Ok(Encoded { kernel, separable: std::array::from_fn(|c| fitted[c].0.clone()), errors })
 }
 
 /// Errors of methods and numbers of terms on one profile, without taps.
@@ -146,7 +149,7 @@ impl Options {
                 self.method.name()
             ));
         }
-        if !(fewest..=most).contains(&self.taps) || self.taps % 2 == 0 {
+        if !(fewest..=most).contains(&self.taps) || self.taps.is_multiple_of(2) {
             return refuse(format!("{} taps; expected an odd number from {fewest} to {most}", self.taps));
         }
         if !(0.0..=4.0).contains(&self.guide) {

@@ -73,14 +73,24 @@ impl Grid {
 }
 
 /// Sum of separable terms A(x, y) = Σ s a(x) a(y) of one channel, each a even and constant in the cells of half an axis.
-#[derive(Clone, Debug)]
-pub(crate) struct Separable {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Separable {
     pub(crate) grid: Grid,
     /// Signs s, and a in mm⁻¹ of the cells; the largest first.
     pub(crate) terms: Vec<(f64, Vec<f64>)>,
 }
 
 impl Separable {
+    /// A(x, y) in mm⁻²; 0 beyond the radius along either axis.
+    #[must_use]
+    pub fn at(&self, x_mm: f64, y_mm: f64) -> f64 {
+        let edges = self.grid.edges_mm();
+        let cell =
+            |x: f64| edges.partition_point(|edge| *edge <= x.abs()).checked_sub(1).filter(|i| *i < self.grid.cells());
+        let (Some(i), Some(j)) = (cell(x_mm), cell(y_mm)) else { return 0.0 };
+        self.terms.iter().map(|(sign, a)| sign * a[i] * a[j]).sum()
+    }
+
     /// ∫ a over the whole axis, of each term.
     pub(crate) fn integrals(&self) -> Vec<f64> {
         let widths = self.grid.widths();

@@ -12,6 +12,7 @@ mod taps;
 mod write;
 
 pub use encode::{Encoded, Options, compare, encode};
+pub use grid::Separable;
 pub use model::{Kernel, Term};
 pub use profile::Profile;
 pub use subsurf_decoder::kernel::layout::{MAX_TERMS, TAPS};

@@ -17,14 +17,20 @@ impl Kernel {
     pub fn to_bytes(&self) -> Result<Vec<u8>> {
         let side = self.offsets.len();
         let lengths = [self.terms.len(), side, self.tail.len()];
-        let refuse = || Error::Request(format!("a kernel of {lengths:?} terms, taps of one side and nodes of the tail; a file has up to 6, 33 and 1,024"));
+        let refuse = || {
+            Error::Request(format!(
+                "a kernel of {lengths:?} terms, taps of one side and nodes of the tail; a file has up to 6, 33 and 1,024"
+            ))
+        };
         let [terms, taps] = [self.terms.len(), (2 * side).saturating_sub(1)].map(|count| u8::try_from(count).ok());
         let (Some(terms), Some(taps), Ok(tail_nodes)) = (terms, taps, u16::try_from(self.tail.len())) else {
             return Err(refuse());
         };
         if let Some(term) = self.terms.iter().find(|term| term.weights.len() != side) {
             let found = term.weights.len();
-            return Err(Error::Request(format!("a kernel of {side} taps on one side has a term of {found}; all need the same number")));
+            return Err(Error::Request(format!(
+                "a kernel of {side} taps on one side has a term of {found}; all need the same number"
+            )));
         }
         let minus = self.terms.iter().flat_map(|term| term.sign).enumerate().filter(|(_, sign)| *sign < 0);
         let header = KernelHeader {
@@ -32,7 +38,9 @@ impl Kernel {
             terms,
             taps,
             tail_nodes,
-            signs: minus.fold(0, |signs, (bit, _)| signs | 1_u32.checked_shl(u32::try_from(bit).unwrap_or(u32::MAX)).unwrap_or(0)),
+            signs: minus.fold(0, |signs, (bit, _)| {
+                signs | 1_u32.checked_shl(u32::try_from(bit).unwrap_or(u32::MAX)).unwrap_or(0)
+            }),
             radius_mm: self.radius,
             depth_variance: self.depth_variance,
             eta: self.eta,

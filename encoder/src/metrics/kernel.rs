@@ -96,8 +96,7 @@ impl<'a> Truth<'a> {
             let exact: f64 = self.radial.discs().map(|(r, fall)| fall * lens(r, rho, distance)).sum();
             for [x, y] in [[distance, 0.0], [distance * 0.5_f64.sqrt(); 2]] {
                 let terms = separable.terms.iter().enumerate();
-                let a: f64 =
-                    terms.map(|(t, (sign, _))| sign * disc(separable, t, &sums[t], [x, y], rho)).sum();
+                let a: f64 = terms.map(|(t, (sign, _))| sign * disc(separable, t, &sums[t], [x, y], rho)).sum();
                 worst = worst.max((a - exact).abs());
             }
         }

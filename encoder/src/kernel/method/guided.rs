@@ -6,6 +6,8 @@ use crate::math::lbfgs::{Bounds, Limits, Objective, minimise};
 
 /// b of the guide function, with x and y in −1 .. 1 (section D).
 const SUPPRESSION: f64 = 50.0;
+/// Share of the light beyond x, y = ±1: what is seen of a profile lies within.
+const BEYOND: f64 = 0.1;
 /// Numbers of even cells along half an axis, one search after the other.
 ///
 /// More would not see more: the guide function vanishes towards the axes, within a seventh of the radius. There, ever narrower
@@ -26,12 +28,13 @@ fn guide(x: f64, y: f64, k: f64) -> f64 {
 ///
 /// a = a_p f is the profile along an axis times a factor: so it keeps its peak, which even cells do not resolve. f = e^q is positive
 /// and a is scaled to its energy, whatever q is, so that the search is free. It begins with q = 0, and on every finer grid with
-/// what the last found.
+/// what the last found. Beyond x = 1 the factor stays as it is there.
 pub(in crate::kernel) fn guided(radial: &Radial, grid: &Grid, k: f64) -> Separable {
-    let mut level = Grid::even(grid.radius_mm(), LEVELS[0]);
+    let radius = radial.radius_of(BEYOND);
+    let mut level = Grid::even(radius, LEVELS[0]);
     let mut q = vec![0.0; LEVELS[0]];
     for cells in LEVELS {
-        let finer = Grid::even(grid.radius_mm(), cells);
+        let finer = Grid::even(radius, cells);
         q = finer.middles().iter().map(|x| interpolated(&level.middles(), &q, *x)).collect();
         level = finer;
         let problem = Problem::new(radial, &level, k);
@@ -40,7 +43,9 @@ pub(in crate::kernel) fn guided(radial: &Radial, grid: &Grid, k: f64) -> Separab
         q = minimise(&problem, &free, q, &limits);
     }
     let along = grid.means(|x| radial.along_axis_to(x));
-    let factor = |x: &f64| interpolated(&level.middles(), &q, *x).exp();
+    let middles = level.middles();
+    let largest = q.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let factor = |x: &f64| (interpolated(&middles, &q, *x) - largest).exp();
     let a = along.iter().zip(&grid.middles()).map(|(a, x)| a * factor(x)).collect();
     let mut separable = Separable { grid: grid.clone(), terms: vec![(1.0, a)] };
     separable.rescale(radial.energy());
@@ -56,8 +61,8 @@ fn interpolated(xs: &[f64], values: &[f64], x: f64) -> f64 {
 
 /// Eq. S.7 on a grid, in q.
 struct Problem {
-    /// √‖R_d‖₁.
-    root: f64,
+    /// ‖a‖₁ within the grid: that of a_p / √‖R_d‖₁.
+    norm: f64,
     /// h of the cells.
     widths: Vec<f64>,
     /// a_p in mm⁻¹.
@@ -79,16 +84,17 @@ impl Problem {
         let total: f64 = guide.iter().zip(&plane).map(|(g, r)| g * r * r).sum();
         guide.iter_mut().for_each(|g| *g /= total);
         let along = grid.means(|x| radial.along_axis_to(x));
-        Self { root: radial.energy().sqrt(), widths, along, guide, plane }
+        let norm = 2.0 * radial.along_axis_to(grid.radius_mm()) / radial.energy().sqrt();
+        Self { norm, widths, along, guide, plane }
     }
 
-    /// a = √‖R_d‖₁ a_p e^q / ‖a_p e^q‖₁ in mm⁻¹ of the cells.
+    /// a = ‖a‖₁ a_p e^q / ‖a_p e^q‖₁ in mm⁻¹ of the cells.
     fn profile(&self, q: &[f64]) -> Vec<f64> {
         // The largest factor is 1, so that none overflows.
         let largest = q.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let a: Vec<f64> = q.iter().zip(&self.along).map(|(q, along)| along * (q - largest).exp()).collect();
-        let norm = 2.0 * a.iter().zip(&self.widths).map(|(a, h)| a * h).sum::<f64>();
-        a.iter().map(|a| self.root * a / norm).collect()
+        let own = 2.0 * a.iter().zip(&self.widths).map(|(a, h)| a * h).sum::<f64>();
+        a.iter().map(|a| self.norm * a / own).collect()
     }
 }
 
@@ -108,8 +114,8 @@ impl Objective for Problem {
             // ∂/∂a_i of both Γ_ij and Γ_ji.
             by_a[i] = 4.0 * sum;
         }
-        // Σ 2 h a = √‖R_d‖₁: ∂a_i/∂q_j = a_i δ_ij − a_i 2 h_j a_j / √‖R_d‖₁.
-        let mean: f64 = by_a.iter().zip(&a).map(|(slope, a)| slope * a).sum::<f64>() / self.root;
+        // Σ 2 h a = ‖a‖₁: ∂a_i/∂q_j = a_i δ_ij − a_i 2 h_j a_j / ‖a‖₁.
+        let mean: f64 = by_a.iter().zip(&a).map(|(slope, a)| slope * a).sum::<f64>() / self.norm;
         let slope = |j: usize| a[j] * (by_a[j] - 2.0 * self.widths[j] * mean);
         (cost, (0..n).map(slope).collect())
     }

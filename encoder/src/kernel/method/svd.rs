@@ -25,3 +25,25 @@ pub(in crate::kernel) fn svd(plane: &[f64], grid: &Grid, terms: usize) -> Separa
     };
     Separable { grid: grid.clone(), terms: order.iter().take(terms).map(term).collect() }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::kernel::method::gaussians;
+    use crate::kernel::profile::shipped;
+    use crate::metrics::kernel::Truth;
+
+    /// Eckart and Young: before energies are rescaled, no sum of as many products is closer.
+    #[test]
+    fn nothing_of_that_rank_is_closer() {
+        for name in shipped::names() {
+            let radial = &shipped::profile(name).unwrap().channels[1];
+            let radial = radial.cut(radial.radius_of(1e-3));
+            let truth = Truth::new(&radial, 64);
+            for terms in 1..=6 {
+                let svd = truth.errors(&super::svd(&truth.plane, &truth.grid, terms)).frobenius;
+                let gaussians = truth.errors(&gaussians(&radial, &truth.grid, terms)).frobenius;
+                assert!(svd < gaussians, "{name}, {terms} terms: {svd}, Gaussians {gaussians}");
+            }
+        }
+    }
+}

@@ -1,7 +1,5 @@
 //! Profiles of an artist's two Gaussians.
 
-use std::f64::consts::PI;
-
 use subsurf_decoder::kernel::TwoGaussians;
 
 use super::Radial;
@@ -10,7 +8,7 @@ use crate::error::{Error, Result};
 /// Standard deviations that rings reach: 2·10⁻¹¹ of the light is beyond.
 const REACH: f64 = 7.0;
 /// Rings.
-const RINGS: usize = 1_024;
+const RINGS: u32 = 1_024;
 /// Smallest and largest variance in mm².
 const VARIANCES: [f32; 2] = [1e-8, 1e8];
 
@@ -40,18 +38,10 @@ pub(in crate::kernel) fn check(two: &TwoGaussians) -> Result<()> {
 /// Profile w G(τ_near) + (1 − w) G(τ_far) in the plane, of channel `c`: along an axis it is the artist's (section E).
 pub(super) fn radial(two: &TwoGaussians, reflectance: [f32; 3], c: usize) -> Radial {
     let [w, near, far, total] = [two.weight[c], two.tau_near[c], two.tau_far[c], reflectance[c]].map(f64::from);
-    let reach = REACH * far.sqrt();
-    #[allow(clippy::cast_precision_loss, reason = "rings are few")]
-    let edges: Vec<f64> = (0..=RINGS).map(|k| reach * (k as f64 / RINGS as f64).powi(2)).collect();
     // T(r) of both.
-    let beyond = |r: f64| {
+    let tail = |r: f64| {
         let gaussian = |tau: f64| (-r * r / (2.0 * tau)).exp();
         total * (w * gaussian(near) + (1.0 - w) * gaussian(far))
     };
-    let ring = |edges: &[f64]| {
-        let area = PI * (edges[1] * edges[1] - edges[0] * edges[0]);
-        (beyond(edges[0]) - beyond(edges[1])) / area
-    };
-    let rd = edges.windows(2).map(ring).collect();
-    Radial::new(edges, rd)
+    Radial::of_tail(REACH * far.sqrt(), RINGS, tail)
 }

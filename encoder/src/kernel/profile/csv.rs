@@ -34,9 +34,8 @@ pub(super) fn read(path: &Path) -> Result<Profile> {
 /// The profile of a table's text; `path` is what errors name.
 pub(super) fn parse(path: &Path, text: &str) -> Result<Profile> {
     let (has_rings, rows) = rows(path, text)?;
-    let place = |row: &Row, found: String, expected: &str| {
-        Error::input(path, format!("{found} in line {}", row.0), expected)
-    };
+    let place =
+        |row: &Row, found: String, expected: &str| Error::input(path, format!("{found} in line {}", row.0), expected);
     let radii = if has_rings { 2 } else { 1 };
     let Some(first) = rows.first() else {
         return Err(Error::input(path, "no row of numbers", COLUMNS));

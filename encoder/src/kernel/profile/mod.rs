@@ -3,6 +3,7 @@
 mod artist;
 mod base;
 mod csv;
+mod models;
 mod points;
 mod radial;
 pub mod shipped;

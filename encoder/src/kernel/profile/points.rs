@@ -36,9 +36,8 @@ pub(super) fn rings(points: &[(f64, f64)]) -> Radial {
             // ∫ R_d 2πr dr by its middles, over the area they have.
             let width = (outer - inner) / f64::from(PLACES);
             let middles = (0..PLACES).map(|k| inner + (f64::from(k) + 0.5) * width);
-            let (energy, area) = middles.fold((0.0, 0.0), |(energy, area), r| {
-                (energy + between(r) * TAU * r * width, area + TAU * r * width)
-            });
+            let (energy, area) = middles
+                .fold((0.0, 0.0), |(energy, area), r| (energy + between(r) * TAU * r * width, area + TAU * r * width));
             edges.push(outer);
             values.push(energy / area);
             ring += 1.0;

@@ -21,6 +21,17 @@ impl Radial {
         Self { edges_mm, rd, falls }
     }
 
+    /// Profile of which T(d), given as `tail`, is known: `rings` rings as far as `radius_mm`, narrow near 0.
+    pub(crate) fn of_tail(radius_mm: f64, rings: u32, tail: impl Fn(f64) -> f64) -> Self {
+        let edges: Vec<f64> = (0..=rings).map(|k| radius_mm * (f64::from(k) / f64::from(rings)).powi(2)).collect();
+        let ring = |edges: &[f64]| {
+            let area = PI * (edges[1] * edges[1] - edges[0] * edges[0]);
+            (tail(edges[0]) - tail(edges[1])) / area
+        };
+        let rd = edges.windows(2).map(ring).collect();
+        Self::new(edges, rd)
+    }
+
     /// Radii between rings in mm, from 0 to [`Self::radius_mm`].
     #[must_use]
     pub fn edges_mm(&self) -> &[f64] {
@@ -31,6 +42,13 @@ impl Radial {
     #[must_use]
     pub fn rd(&self) -> &[f64] {
         &self.rd
+    }
+
+    /// R_d in mm⁻² at a distance.
+    #[must_use]
+    pub fn at(&self, r_mm: f64) -> f64 {
+        let ring = self.edges_mm.partition_point(|edge| *edge <= r_mm);
+        ring.checked_sub(1).and_then(|ring| self.rd.get(ring)).copied().unwrap_or(0.0)
     }
 
     /// Radius in mm beyond which there is nothing.

@@ -23,7 +23,17 @@ macro_rules! shipped {
 }
 
 shipped!(
-    "apple", "chicken1", "chicken2", "cream", "ketchup", "marble", "potato", "skimmilk", "skin1", "skin2", "wholemilk"
+    "apple",
+    "chicken1",
+    "chicken2",
+    "cream",
+    "ketchup",
+    "marble",
+    "potato",
+    "skimmilk",
+    "skin1",
+    "skin2",
+    "wholemilk"
 );
 
 /// Names of the materials whose profiles come with the library: those of Jimenez et al. 2015, section G.
@@ -38,22 +48,23 @@ pub fn profile(name: &str) -> Option<Profile> {
     Some(csv::parse(Path::new(name), text).expect("a table that the tests read"))
 }
 
-/// Simulates a measured material as the shipped profiles were: section F's photons and width of rings, rings that reach 32 of the
+/// Simulates a measured material of refractive index `eta` as the shipped profiles were: section F's photons and width of rings, rings that reach 32 of the
 /// largest mean free paths or eight of the longest decay lengths. Returns the profile and its table.
 ///
 /// # Errors
 ///
 /// [`Error::Request`] if no material has that name, or light in it never decays; those of [`Material::simulate`].
-pub fn simulate(name: &str, packets: u64, progress: &dyn Progress) -> Result<(Profile, String)> {
+pub fn simulate(name: &str, eta: f64, packets: u64, progress: &dyn Progress) -> Result<(Profile, String)> {
     let medium = Medium::measured(name).ok_or_else(|| Error::Request(format!("no material is called {name}")))?;
     let decay = (0..3).map(|c| medium.decay_length_mm(c)).fold(0.0, f64::max);
     if decay.is_infinite() {
-        return Err(Error::Request(format!("{name} does not absorb: light in it goes any distance, and no kernel has it")));
+        return Err(Error::Request(format!(
+            "{name} does not absorb: light in it goes any distance, and no kernel has it"
+        )));
     }
     let path = (0..3).map(|c| medium.mean_free_path_mm(c)).fold(0.0, f64::max);
     let reach_mm = (DECAY_LENGTHS * decay).max(PATHS * path);
     let settings = Settings { packets, reach_mm: Some(reach_mm), ..Settings::default() };
-    let eta = Medium::measured_eta(name);
     let simulated = Material::half_space(medium, eta).simulate(&settings, progress)?;
     let profile = Profile::simulated(&simulated)?.condensed();
     let traced = simulated.channels.each_ref().map(|channel| channel.packets.to_string());
