@@ -71,7 +71,7 @@ val cargoNdk =
     tasks.register<Exec>("cargoNdk") {
         description = "Builds libsubsurf.so with cargo-ndk (cargo install cargo-ndk --version 4.1.2)"
         // As scripts/android has it, for size.
-        val small = listOf("--icf=all", "--pack-dyn-relocs=android").flatMap { listOf("-C", "link-arg=-Wl,$it") }
+        val small = listOf("--icf=all", "--pack-dyn-relocs=android", "--hash-style=gnu").flatMap { listOf("-C", "link-arg=-Wl,$it") }
         val library = arrayOf("--package", "subsurf-c-runtime", "--crate-type", "cdylib", "--", *small.toTypedArray())
         val output = jniLibs.get().asFile.path
         runCargoNdk("--output-dir", output, "rustc", "--locked", "--profile", "bindings", *library)

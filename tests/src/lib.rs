@@ -2,6 +2,7 @@
 
 pub mod fits;
 pub mod frames;
+pub mod kernels;
 pub mod meshes;
 pub mod mutate;
 pub mod nested;
@@ -13,7 +14,7 @@ use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
 use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, Coding};
 use subsurf_decoder::container::crc32;
-use subsurf_decoder::{Bssrdf, Section};
+use subsurf_decoder::{Content, File, Section};
 use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, FittedBasis, add_basis};
 use subsurf_encoder::bssrdf::write_file;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
@@ -148,10 +149,15 @@ pub fn format_basis() -> FittedBasis {
 }
 
 /// CRC-32 of what reading a file gives: its header, the albedo of every pixel, Rd between pixels in and around the
-/// patch, and of a separable basis coefficients, weights and taps, as little-endian bytes. `None` if it is refused.
+/// patch, and of a separable basis coefficients, weights and taps, as little-endian bytes; of a kernel those of
+/// [`kernels::values`]. `None` if it is refused.
 #[must_use]
 pub fn fingerprint(bytes: &[u8]) -> Option<u32> {
-    let material = Bssrdf::parse(bytes).ok()?;
+    let material = match File::parse(bytes).ok()?.content() {
+        Content::Bssrdf(material) => material,
+        Content::Kernel(kernel) => return Some(crc32(&kernels::values(&kernel))),
+        _ => return None,
+    };
     let mut found = material.header().to_bytes().to_vec();
     let [width, height] = [material.header().width, material.header().height].map(u32::cast_signed);
     let mut add = |rgb: [f32; 3]| found.extend(rgb.iter().flat_map(|value| value.to_le_bytes()));

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use subsurf_decoder::container::Crc;
-use subsurf_decoder::{Bssrdf, ReadError, Section};
+use subsurf_decoder::{Bssrdf, File, Kernel, ReadError, Section};
+use subsurf_tests::kernels::format_kernel;
 use subsurf_tests::{fingerprint, format_example};
 
 fn folder() -> &'static Path {
@@ -24,7 +25,7 @@ fn every_file_reads_as_recorded() {
         let bytes = std::fs::read(folder().join(&name)).unwrap();
         let found = fingerprint(&bytes).map_or("refused".to_owned(), |crc| format!("{crc:08x}"));
         assert_eq!(recorded.get(&name[..]).copied(), Some(&found[..]), "{name}");
-        assert_eq!(found == "refused", name.starts_with('x'), "{name}: {:?}", Bssrdf::parse(&bytes).err());
+        assert_eq!(found == "refused", name.starts_with('x'), "{name}: {:?}", File::parse(&bytes).err());
         seen += 1;
     }
     assert_eq!(seen, recorded.len(), "all of results.txt is there");
@@ -51,6 +52,37 @@ fn broken_files_are_refused_for_what_is_broken() {
         assert!(matches!(found, ReadError::BadNumber { section: Section::SeparableBasis, .. }), "{name}: {found}");
     }
     assert!(matches!(error("x_basis_terms.subsurf"), ReadError::BadField { value: 3, .. }), "terms");
+}
+
+#[test]
+fn broken_kernels_are_refused_for_what_is_broken() {
+    let error = |name: &str| {
+        let bytes = std::fs::read(folder().join(format!("x_kernel_{name}.subsurf"))).unwrap();
+        Kernel::parse(&bytes).unwrap_err()
+    };
+    for (name, value) in [("method", 6), ("taps_even", 4), ("signs", 8)] {
+        assert!(matches!(error(name), ReadError::BadField { value: found, .. } if found == value), "{name}");
+    }
+    let numbers = [
+        ("offset_first", Section::KernelOffsets),
+        ("offsets_fall", Section::KernelOffsets),
+        ("offset_radius", Section::KernelOffsets),
+        ("weight_nan", Section::KernelWeights),
+        ("energy", Section::KernelWeights),
+        ("tail_rises", Section::KernelTail),
+        ("tail_end", Section::KernelTail),
+    ];
+    for (name, expected) in numbers {
+        let found = error(name);
+        assert!(matches!(found, ReadError::BadNumber { section, .. } if section == expected), "{name}: {found}");
+    }
+}
+
+#[test]
+fn the_kernel_of_the_specification_is_the_file() {
+    let file = std::fs::read(folder().join("kernel_example.subsurf")).unwrap();
+    assert_eq!(file, format_kernel().to_bytes().unwrap());
+    assert_eq!(file.len(), 232);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use subsurf_decoder::container::bits::index_bits;
 use subsurf_decoder::{Content, Family, File, NestedBtf, ReadError};
 
-use super::{Args, read_error};
+use super::{Args, print_sections, read_error};
 use crate::outln;
 use subsurf_viewer::human;
 
@@ -19,7 +19,6 @@ pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>) -> anyhow::Result
         other => return Err(not_a_btf(&args.file, other)),
     };
     let parts = Parts::of_content(&args.file, &content)?;
-    let container = file.container();
     let (header, grid) = (catalog.header(), catalog.grid());
     let nodes = [grid.n_alpha, grid.n_beta, grid.n_theta, grid.n_phi];
     if args.json {
@@ -46,9 +45,7 @@ pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>) -> anyhow::Result
     );
     outln!("  {:?}", header.encoding);
     parts.print();
-    for entry in container.entries() {
-        outln!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
-    }
+    print_sections(file.container());
     Ok(())
 }
 

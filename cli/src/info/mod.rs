@@ -1,6 +1,7 @@
 //! `subsurf info`: what is in a file.
 
 mod btf;
+mod kernel;
 mod source;
 
 use std::path::PathBuf;
@@ -9,6 +10,7 @@ use anyhow::Context;
 use serde_json::json;
 use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_decoder::bssrdf::{BssrdfModel, Coding, Profiles, SeparableBasis};
+use subsurf_decoder::container::Container;
 use subsurf_decoder::{Bssrdf, Content, File};
 use subsurf_encoder::capture::is_btf;
 use subsurf_viewer::read;
@@ -35,8 +37,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let bytes = read(&args.file)?;
     let file = File::parse(&bytes).map_err(|error| read_error(&args.file, error)).context("not a usable material")?;
+    let material = match file.content() {
+        Content::Bssrdf(material) => material,
+        Content::Kernel(of) => {
+            kernel::info(args, &bytes, &file, &of);
+            return Ok(());
+        }
+        _ => return btf::info(args, &bytes, &file),
+    };
     let container = file.container();
-    let Content::Bssrdf(material) = file.content() else { return btf::info(args, &bytes, &file) };
     let header = material.header();
     let model = match material.model() {
         BssrdfModel::BaseMaterials(planes) => {
@@ -84,10 +93,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Some(basis) => outln!("  {}", basis_line(basis)),
         None => outln!("  no separable basis: `subsurf encode --add-basis FILE` adds one"),
     }
+    print_sections(container);
+    Ok(())
+}
+
+/// Kinds, lengths and places of all sections.
+fn print_sections(container: &Container<'_>) {
     for entry in container.entries() {
         outln!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
     }
-    Ok(())
 }
 
 /// A separable basis in a line.

@@ -1,11 +1,11 @@
 //! WGSL files of the crate.
 
-/// One WGSL file, as it stands under `wgsl/`.
+/// One WGSL file of those under `wgsl/`.
 #[derive(Clone, Copy, Debug)]
 pub struct File {
     /// Path under `wgsl/`, without the extension.
     pub path: &'static str,
-    /// The text.
+    /// The text, without comments and indentation.
     pub text: &'static str,
 }
 
@@ -20,10 +20,7 @@ impl File {
 /// The [`File`] of a path under `wgsl/`.
 macro_rules! wgsl {
     ($path:literal) => {
-        $crate::passes::File {
-            path: $path,
-            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/wgsl/", $path, ".wgsl")),
-        }
+        $crate::passes::File { path: $path, text: include_str!(concat!(env!("OUT_DIR"), "/wgsl/", $path, ".wgsl")) }
     };
 }
 pub(super) use wgsl;

@@ -7,6 +7,7 @@ use subsurf_decoder::bssrdf::{Addressing, Coding};
 use subsurf_decoder::container::crc32;
 use subsurf_encoder::bssrdf::basis::{FittedBasis, with_basis};
 use subsurf_encoder::synthetic::Shape;
+use subsurf_tests::kernels::{difference, format_kernel, skin};
 use subsurf_tests::{fingerprint, format_basis, format_example, shape};
 
 fn main() -> std::io::Result<()> {
@@ -42,6 +43,11 @@ fn main() -> std::io::Result<()> {
     let based = with_basis(&example, &format_basis()).expect("a basis in range");
     write("separable_basis.subsurf", &based)?;
 
+    let kernel = format_kernel().to_bytes().expect("a kernel in range");
+    write("kernel_example.subsurf", &kernel)?;
+    write("kernel_two_gaussians.subsurf", &skin(17).to_bytes().expect("a kernel in range"))?;
+    write("kernel_two_terms.subsurf", &difference(11).to_bytes().expect("a kernel in range"))?;
+
     // Broken, each in one way.
     let broken = |at: usize, value: u8| {
         let mut bytes = example.clone();
@@ -73,6 +79,21 @@ fn main() -> std::io::Result<()> {
     write("x_basis_nan.subsurf", &wrong(&|basis| basis.weights[3][1] = f32::NAN))?;
     write("x_basis_huge.subsurf", &wrong(&|basis| basis.projection[2][0] = 2e15))?;
     write("x_basis_terms.subsurf", &wrong(&|basis| basis.size.terms = 3))?;
+    let wrong = |at: usize, value: &[u8]| {
+        let mut bytes = kernel.clone();
+        bytes[at..at + value.len()].copy_from_slice(value);
+        reseal(bytes)
+    };
+    write("x_kernel_method.subsurf", &wrong(124, &[6]))?;
+    write("x_kernel_taps_even.subsurf", &wrong(127, &[4]))?;
+    write("x_kernel_signs.subsurf", &wrong(132, &[8]))?;
+    write("x_kernel_offset_first.subsurf", &wrong(148, &0.25_f32.to_le_bytes()))?;
+    write("x_kernel_offsets_fall.subsurf", &wrong(156, &0.5_f32.to_le_bytes()))?;
+    write("x_kernel_offset_radius.subsurf", &wrong(156, &2.0_f32.to_le_bytes()))?;
+    write("x_kernel_weight_nan.subsurf", &wrong(172, &f32::NAN.to_le_bytes()))?;
+    write("x_kernel_energy.subsurf", &wrong(172, &0.25_f32.to_le_bytes()))?;
+    write("x_kernel_tail_rises.subsurf", &wrong(208, &0.8_f32.to_le_bytes()))?;
+    write("x_kernel_tail_end.subsurf", &wrong(220, &0.125_f32.to_le_bytes()))?;
     std::fs::write(folder.join("results.txt"), results)
 }
 

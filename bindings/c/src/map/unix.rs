@@ -73,6 +73,11 @@ fn system(call: &'static str) -> MapError {
     MapError::System { call, errno: errno() }
 }
 
+/// A mode or a part of it: systems have them in 16 bits or in 32, and Android for 32-bit machines in both.
+fn wide(mode: impl Into<u32>) -> u32 {
+    mode.into()
+}
+
 impl Mapping {
     /// Maps a whole file.
     pub(crate) fn of_path(path: &CStr) -> Result<Self, MapError> {
@@ -95,7 +100,7 @@ impl Mapping {
         if unsafe { libc::fstat(fd, &raw mut stat) } != 0 {
             return Err(system("fstat"));
         }
-        if stat.st_mode & libc::S_IFMT != libc::S_IFREG {
+        if wide(stat.st_mode) & wide(libc::S_IFMT) != wide(libc::S_IFREG) {
             return Err(MapError::NotRegular);
         }
         let have_bytes = u64::try_from(stat.st_size).unwrap_or(0);

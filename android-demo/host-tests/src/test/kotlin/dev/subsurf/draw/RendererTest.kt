@@ -206,6 +206,6 @@ class RendererTest {
 
     private companion object {
         val CYCLES: Int = Integer.getInteger("cycles", 100)
-        const val MOST_GROWTH = 8L shl 20
+        const val MOST_GROWTH = 4L shl 20
     }
 }

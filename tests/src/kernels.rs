@@ -1,0 +1,125 @@
+//! Kernels of known profiles, and the example of `decoder/FORMAT.md`, section 6.3.
+
+use subsurf_decoder::Kernel;
+use subsurf_encoder::kernel::{Kernel as KernelModel, KernelMethod, Term, TwoGaussians};
+
+/// The example of the specification.
+#[must_use]
+pub fn format_kernel() -> KernelModel {
+    let weights = vec![[0.5; 3], [0.125, 0.0625, 0.0], [0.0625, 0.0, 0.0]];
+    KernelModel {
+        method: KernelMethod::PreIntegrated,
+        radius: 2.0,
+        reflectance: [0.765_625, 0.390_625, 0.25],
+        depth_variance: 1.0,
+        eta: 1.5,
+        offsets: vec![0.0, 0.5, 1.0],
+        terms: vec![Term { sign: [1; 3], weights }],
+        tail: vec![[0.765_625, 0.390_625, 0.25], [0.25, 0.125, 0.0625], [0.0; 3]],
+        two_gaussians: None,
+    }
+}
+
+/// Skin-like light within a few millimetres: two Gaussians, wide ones in red, of reflectance (0.8, 0.6, 0.5).
+pub const SKIN: TwoGaussians =
+    TwoGaussians { weight: [0.4, 0.6, 0.7], tau_near: [0.04, 0.03, 0.02], tau_far: [1.2, 0.4, 0.2] };
+
+/// Kernel of two Gaussians in one dimension, of `taps` taps up to 3 σ of the widest; weights are integrals, scaled to the reflectance.
+///
+/// # Panics
+/// If `taps` is even.
+#[must_use]
+pub fn two_gaussians(of: TwoGaussians, reflectance: [f32; 3], taps: u16) -> KernelModel {
+    const NODES: u16 = 64;
+    assert!(taps % 2 == 1, "a centre and two sides");
+    let far = of.tau_far.into_iter().fold(0.0, f32::max);
+    let radius = 3.0 * far.sqrt();
+    let side = taps / 2;
+    // Taps lie closer at the centre.
+    let offsets: Vec<f32> = (0..=side).map(|i| 0.98 * radius * (f32::from(i) / f32::from(side)).powi(2)).collect();
+    let ends: Vec<f32> = offsets.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).chain([radius]).collect();
+    let weights = (0..offsets.len()).map(|i| {
+        [0, 1, 2].map(|c| {
+            let scale = reflectance[c].sqrt() / (2.0 * within(&of, radius, c));
+            let inner = if i == 0 { -within(&of, ends[0], c) } else { within(&of, ends[i - 1], c) };
+            scale * (within(&of, ends[i], c) - inner)
+        })
+    });
+    let tail = (0..NODES).map(|k| {
+        let d = radius * (f32::from(k) / f32::from(NODES - 1)).powi(2);
+        [0, 1, 2].map(|c| {
+            let plane = |d: f32| {
+                let gaussian = |tau: f32| (-0.5 * d * d / tau).exp();
+                of.weight[c] * gaussian(of.tau_near[c]) + (1.0 - of.weight[c]) * gaussian(of.tau_far[c])
+            };
+            reflectance[c] * (plane(d) - plane(radius)) / (1.0 - plane(radius))
+        })
+    });
+    KernelModel {
+        method: KernelMethod::TwoGaussians,
+        radius,
+        reflectance,
+        depth_variance: far,
+        eta: 1.4,
+        terms: vec![Term { sign: [1; 3], weights: weights.collect() }],
+        offsets,
+        tail: tail.collect(),
+        two_gaussians: Some(of),
+    }
+}
+
+/// Share of a profile within `radius` that lies beyond a line `d` away from the middle, both in mm.
+#[must_use]
+pub fn share_beyond(of: TwoGaussians, radius: f32, d: f32) -> [f32; 3] {
+    [0, 1, 2].map(|c| 0.5 - 0.5 * within(&of, d.min(radius), c) / within(&of, radius, c))
+}
+
+/// Integral of a profile in one dimension from 0 to x in mm, of one channel.
+fn within(of: &TwoGaussians, x: f32, c: usize) -> f32 {
+    let gaussian = |tau: f32| 0.5 * libm::erff(x / (2.0 * tau).sqrt());
+    of.weight[c] * gaussian(of.tau_near[c]) + (1.0 - of.weight[c]) * gaussian(of.tau_far[c])
+}
+
+/// [`two_gaussians`] of [`SKIN`].
+#[must_use]
+pub fn skin(taps: u16) -> KernelModel {
+    two_gaussians(SKIN, [0.8, 0.6, 0.5], taps)
+}
+
+/// Two terms, the second taken away: of red and green what three tenths of the light would do, of blue nothing.
+#[must_use]
+pub fn difference(taps: u16) -> KernelModel {
+    let wide = TwoGaussians { weight: [0.0; 3], ..SKIN };
+    let narrow = TwoGaussians { weight: [1.0; 3], tau_far: SKIN.tau_far, ..SKIN };
+    let first = two_gaussians(wide, [0.9, 0.7, 0.5], taps);
+    let mut second = two_gaussians(narrow, [0.3, 0.3, 0.0], taps).terms.remove(0);
+    second.sign = [-1, -1, 1];
+    let reflectance = [0.6, 0.4, 0.5];
+    let scale = |tail: &[f32; 3]| [0, 1, 2].map(|c| tail[c] * reflectance[c] / first.reflectance[c]);
+    let tail = first.tail.iter().map(scale).collect();
+    let terms = vec![first.terms[0].clone(), second];
+    KernelModel { method: KernelMethod::Svd, reflectance, terms, tail, two_gaussians: None, ..first }
+}
+
+/// What reading a kernel gives: header, taps, signs, tail and profile at some distances, as little-endian bytes.
+#[must_use]
+pub fn values(kernel: &Kernel<'_>) -> Vec<u8> {
+    let header = kernel.header();
+    let mut found = header.to_bytes().to_vec();
+    let mut add = |rgb: [f32; 3]| found.extend(rgb.iter().flat_map(|value| value.to_le_bytes()));
+    kernel.offsets().iter().for_each(|offset| add([offset; 3]));
+    for term in 0..header.terms.into() {
+        add(kernel.sign(term));
+        (0..header.side()).for_each(|tap| add(kernel.weight(term, tap)));
+    }
+    add(kernel.energy());
+    for step in 0..=20_u8 {
+        let d = header.radius_mm * f32::from(step) / 18.0;
+        add(kernel.tail_at(d));
+        add(kernel.rd(d));
+    }
+    if let Some(two) = kernel.two_gaussians() {
+        [two.weight, two.tau_near, two.tau_far].into_iter().for_each(add);
+    }
+    found
+}
