@@ -81,19 +81,21 @@ fn guides_favour_near_or_far_scattering() {
 }
 
 #[test]
-fn more_terms_are_closer_and_svd_is_closest() {
+fn more_terms_are_closer() {
     let sums = |method| (1..=6).map(|terms| with(method, terms)).collect::<Vec<_>>();
     for name in shipped::names() {
         let profile = shipped::profile(name).unwrap();
-        let [svd, gaussians] = [KernelMethod::Svd, KernelMethod::Gaussians]
-            .map(|method| compare(&profile, &sums(method)).unwrap().iter().map(|e| e.frobenius).collect::<Vec<_>>());
-        assert!(svd.is_sorted_by(|a, b| a > b), "{name}: {svd:?}");
-        assert!(gaussians.is_sorted_by(|a, b| a > b), "{name}: {gaussians:?}");
-        // Rescaled to the profile's energy, too, from four terms on.
-        assert!(
-            svd[3..].iter().zip(&gaussians[3..]).all(|(svd, gaussians)| svd < gaussians),
-            "{name}: {svd:?} {gaussians:?}"
-        );
+        let [svd, gaussians] =
+            [KernelMethod::Svd, KernelMethod::Gaussians].map(|method| compare(&profile, &sums(method)).unwrap());
+        for errors in [&svd, &gaussians] {
+            assert!(errors.is_sorted_by(|a, b| a.frobenius > b.frobenius), "{name}: {errors:?}");
+        }
+        // In the Frobenius norm, scaling to the profile's energy costs the more the fewer terms there are.
+        let closer = |from: usize, error: fn(&KernelErrors) -> f64| {
+            svd[from - 1..].iter().zip(&gaussians[from - 1..]).all(|(svd, gaussians)| error(svd) < error(gaussians))
+        };
+        assert!(closer(2, |errors| errors.l1), "{name}: {svd:?} {gaussians:?}");
+        assert!(closer(5, |errors| errors.frobenius), "{name}: {svd:?} {gaussians:?}");
     }
 }
 
@@ -227,7 +229,7 @@ fn tables_that_are_none_are_refused_in_one_line() {
         ("r_from_mm,r_to_mm,rd\n0,1,1\n2,3,1\n", "a ring from 2 mm in line 3"),
         ("r_from_mm,r_to_mm,rd\n1,2,1\n2,3,1\n", "a first ring from 1 mm"),
         ("r_from_mm,r_to_mm,rd\n0,1,1\n1,1,1\n", "a radius of 1 mm in line 3"),
-        ("0,1e300\n1e200,1e300\n", "adds up to inf in red"),
+        ("0,1e300\n1e200,1e300\n", "in red; expected some light"),
     ];
     for (text, says) in wrong {
         let error = read(text).unwrap_err();
@@ -241,7 +243,7 @@ fn mcml_files_are_profiles() {
     let folder = tempfile::tempdir().unwrap();
     let mci = [
         "1.0\n1\na.mco A\n400\n0.01 0.02\n4 5 1\n1\n1.0\n1.4 1 100 0.9 0.1\n1.0\n".to_owned(),
-        "mcmli2.0\nair 1 0 0 0\nskin 1.4 1 100 0.9\nend\n1\na.mco A\nair\nskin 0.1\nair\nend\npencil\n0\n0.01 0.02 0.1\n\
+        "mcmli2.0\nair 1 0 0 0\nskin 1.4 1 100 0.9\nend\na.mco A\nair\nskin 0.1\nair\nend\npencil\n0\n0.01 0.02 0.1\n\
          4 5 1 1\nRd_r\n400\n1e-4\n1\nend\n"
             .to_owned(),
     ];
