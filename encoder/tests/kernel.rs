@@ -43,7 +43,7 @@ fn pre_integrated_is_exact_for_additively_separable_light() {
             separable += a(i) * a(j) / energy * e(i, j);
         }
         assert!((separable / exact - 1.0).abs() < 1e-5, "{separable}, exact {exact}");
-        assert!((a(2) - radial.along_axis(2.0 * width) * width).abs() < 0.05 * a(2), "a density along the axis");
+        assert!((a(2) - radial.along_axis(2.0 * width) * width).abs() < 0.1 * a(2), "a density along the axis");
     }
     let errors = encode(&skin(), &Options::default()).unwrap().errors;
     assert!(errors.edge < 1e-5, "{errors:?}");
@@ -153,7 +153,8 @@ fn an_artists_gaussians_come_back() {
     assert!(fitted.errors.edge < 0.01, "{:?}", fitted.errors);
     // In the plane, the artist's profile is a sum of two Gaussians.
     let sum = encode(&profile, &with(KernelMethod::Gaussians, 2)).unwrap().errors;
-    assert!(sum.frobenius < 0.01, "{sum:?}");
+    // Rings are a twentieth of their radius wide.
+    assert!(sum.frobenius < 0.05, "{sum:?}");
     let wrong = TwoGaussians { tau_near: [2.0; 3], ..two };
     let error = Profile::of_two_gaussians(&wrong, [0.5; 3]).unwrap_err().to_string();
     assert!(error.contains("expected the near one to be narrower"), "{error}");
@@ -279,7 +280,7 @@ fn shipped_profiles_are_those_of_the_materials() {
             [shipped::profile(name).unwrap().reflectance(), Medium::measured(name).unwrap().sigma_s];
         assert!(reflectance.iter().all(|share| (1e-3..0.98).contains(share)), "{name}: {reflectance:?} {medium:?}");
     }
-    let (again, _) = shipped::simulate("chicken2", 1.3, 20_000, &()).unwrap();
+    let (again, _) = shipped::simulate("chicken2", 1.3, 100_000, &()).unwrap();
     let known = shipped::profile("chicken2").unwrap().reflectance();
     for (again, known) in again.reflectance().into_iter().zip(known) {
         assert!((again / known - 1.0).abs() < 0.04, "{again} {known}");
@@ -293,7 +294,7 @@ fn shipped_profiles_are_those_of_the_materials() {
 /// Jensen et al. 2001 and Burley 2015 beside photons.
 #[test]
 fn models_in_closed_form_are_as_published() {
-    for (name, bound) in [("wholemilk", 0.03), ("marble", 0.05), ("skin2", 0.12)] {
+    for (name, bound) in [("wholemilk", 0.03), ("marble", 0.05), ("skin2", 0.05)] {
         let (medium, traced) = (Medium::measured(name).unwrap(), shipped::profile(name).unwrap());
         let dipole = Profile::dipole(&medium, Medium::measured_eta(name)).unwrap().reflectance();
         for (dipole, traced) in dipole.into_iter().zip(traced.reflectance()) {

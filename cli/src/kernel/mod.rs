@@ -22,7 +22,7 @@ use crate::program::threads;
 #[command(after_help = HELP)]
 pub(crate) struct Args {
     /// A profile: a .csv of r and R_d, an .mco file of MCML (or three, of red, green and blue), or a .subsurf file for --base
-    #[arg(num_args = 0..=3, required_unless_present_any = ["material", "near"], conflicts_with_all = ["material", "near"])]
+    #[arg(num_args = 1..=3, required_unless_present_any = ["material", "near"], conflicts_with_all = ["material", "near"])]
     input: Vec<PathBuf>,
     /// A measured material (Jensen et al. 2001), half-infinite
     #[arg(long, value_parser = PossibleValuesParser::new(MEASURED.map(|(name, _)| name)), conflicts_with = "near")]
