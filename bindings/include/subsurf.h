@@ -130,6 +130,10 @@ enum SubsurfFamily
    * Bidirectional texture functions as factors: `subsurf_btf_*`, after `subsurf_btf_expand`.
    */
   SUBSURF_FAMILY_FACTORED_BTF = 3,
+  /**
+   * Separable kernel of a homogeneous material.
+   */
+  SUBSURF_FAMILY_KERNEL = 4,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -831,7 +835,7 @@ enum SubsurfTechnique
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * The fastest that the file offers: separable blurs where it has a basis for them, else splats; BTFs as they are.
+   * The fastest that the file offers: separable blurs where it has a basis for them, else splats; BTFs and kernels as they are.
    */
   SUBSURF_TECHNIQUE_AUTOMATIC = 0,
   /**
@@ -846,6 +850,10 @@ enum SubsurfTechnique
    * BTFs.
    */
   SUBSURF_TECHNIQUE_BTF = 3,
+  /**
+   * Separable kernels of homogeneous materials.
+   */
+  SUBSURF_TECHNIQUE_KERNEL = 4,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

@@ -122,8 +122,9 @@ impl Args {
             set,
             mapping: self.mapping.into(),
             technique: match self.technique {
-                Some(technique) => technique.into(),
-                None => usual_technique(&self.files)?,
+                // Kernels are drawn in one way, whatever is asked of others.
+                Some(TechniqueArg::Kernel) | None => usual_technique(&self.files)?,
+                Some(technique) => technique.scattering()?,
             },
             shows_error: self.error,
             repeats: self.btf.repeat.map(|Copies(repeats)| repeats),

@@ -55,7 +55,8 @@ fn exercise(kernel: &Kernel<'_>) {
         }
         most = tail;
     }
-    assert_eq!([kernel.tail_at(radius), kernel.rd(f32::NAN), kernel.tail_at(f32::NAN)], [[0.0; 3]; 3]);
+    let none = [kernel.tail_at(radius), kernel.rd(f32::NAN), kernel.tail_at(f32::NAN)];
+    assert_eq!(none, [[0.0; 3]; 3], "nothing beyond the radius, nothing at NaN");
     for (energy, reflectance) in kernel.energy().into_iter().zip(kernel.reflectance()) {
         assert!((energy - reflectance).abs() < 0.001, "{energy}, {reflectance}");
     }
@@ -63,7 +64,7 @@ fn exercise(kernel: &Kernel<'_>) {
         assert!(kernel.weight(term, tap).iter().all(|w| w.abs() <= 16.0), "weight {term}, {tap}");
         assert_eq!(kernel.sign(term) == [0.0; 3], term >= header.terms.into(), "{term}");
     }
-    assert_eq!(kernel.offsets().len(), header.side());
+    assert_eq!(kernel.offsets().len(), header.side(), "one offset for each tap of a side");
 }
 
 #[test]

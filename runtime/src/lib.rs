@@ -10,8 +10,8 @@ mod load;
 mod technique;
 
 pub use asset::{
-    BssrdfPlanes, BtfImages, BtfMaterial, GatherMaterial, GpuMesh, GpuPoints, Material, SeparableMaterial,
-    SplatMaterial, VertexData, layout_of,
+    BssrdfPlanes, BtfImages, BtfMaterial, GatherMaterial, GpuMesh, GpuPoints, KernelMaterial, Material,
+    SeparableMaterial, SplatMaterial, VertexData, layout_of,
 };
 pub use error::{Error, Result};
 pub use frame::{

@@ -54,4 +54,10 @@ impl Placement {
     pub fn of_btf_within(bounds: BoundingSphere, mapping: Mapping) -> Self {
         Self { bounds, mapping, size: [1, 1], pitch_mm: 1.0, r_max_mm: 1.0, eta: 1.0 }
     }
+
+    /// Where a homogeneous material of refractive index `eta` lies on a mesh within a sphere: it is the same everywhere.
+    #[must_use]
+    pub fn of_homogeneous_within(bounds: BoundingSphere, eta: f32) -> Self {
+        Self { eta, ..Self::of_btf_within(bounds, Mapping::Box) }
+    }
 }

@@ -65,7 +65,9 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(BtfCodebooks: chains, merged, i2, i1, p2_bytes, p1, is_signed, colours, tints, tint_count, tint_at, i2_mask, last_i2, stages, is_relative, first, step, nodes, alpha_max, sin_beta_max, theta_max, cos_light_min, colour_encoding, white, octaves, last_word);
     assert_layout_of!(BtfImages: light_rings, view_rings, rings, size, tiles, white, cos_light_min);
     assert_layout_of!(BtfTexture: levels, count, filtering, samples);
-    assert_layout_of!(ScreenDomain: size, focal_texels, middle_mm, pitch_mm, perspective);
+    assert_layout_of!(KernelTerm: taps, sign, axis, side, falloff);
+    assert_layout_of!(KernelProfile: reflectance, radius_mm, last_node, spread_mm);
+    assert_layout_of!(ScreenDomain: size, focal_texels, middle_mm, pitch_mm, perspective, is_jittered);
 }
 
 /// WGSL of the reference pass for a layout.

@@ -211,6 +211,11 @@ fn texture_loads_are_accounted_for() {
             ("blur_screen_last, Terms(2)", 1),
             ("shade_separable, Terms(1)", 2),
             ("shade_separable, Terms(2)", 2),
+            // Nodes of the tail up to the last; maps and translucent shadow maps as above.
+            ("kernel_gbuffer", 5),
+            ("blur_kernel", 1),
+            ("sum_kernel", 2),
+            ("shade_kernel", 2),
             // Words of a file, clamped to the last; lists at the texel of the target. Pixels of images clamped to their size,
             // tiles and layers to those of the texture.
             ("btf_query, Btf(Nested)", 4),

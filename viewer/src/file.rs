@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use subsurf_decoder::container::MAGIC;
-use subsurf_decoder::{Bssrdf, Family, File, NestedBtf, ReadError};
+use subsurf_decoder::{Bssrdf, Family, File, Kernel, NestedBtf, ReadError};
 
 use crate::error::{Error, Result};
 
@@ -17,6 +17,8 @@ pub enum DrawnMaterial<'a> {
     Bssrdf(Bssrdf<'a>),
     /// Bidirectional texture functions in nested codebooks.
     Btf(NestedBtf<'a>),
+    /// A homogeneous material with its separable kernel.
+    Kernel(Kernel<'a>),
 }
 
 /// Bytes of a material file. No more than its beginning is read of anything else, however long it is.
@@ -45,6 +47,7 @@ pub fn parse<'a>(path: &Path, bytes: &'a [u8]) -> Result<DrawnMaterial<'a>> {
     match file.content() {
         subsurf_decoder::Content::Bssrdf(material) => Ok(DrawnMaterial::Bssrdf(material)),
         subsurf_decoder::Content::NestedBtf(btf) => Ok(DrawnMaterial::Btf(btf)),
+        subsurf_decoder::Content::Kernel(kernel) => Ok(DrawnMaterial::Kernel(kernel)),
         other => Err(not_drawn(path, other.family())),
     }
 }

@@ -24,6 +24,8 @@ pub enum SubsurfFamily {
     NestedBtf = 2,
     /// Bidirectional texture functions as factors: `subsurf_btf_*`, after `subsurf_btf_expand`.
     FactoredBtf = 3,
+    /// Separable kernel of a homogeneous material.
+    Kernel = 4,
 }
 
 /// What lies beyond the border of a patch.
@@ -186,6 +188,7 @@ pub unsafe extern "C" fn subsurf_file_info(file: *const SubsurfFile, info: *mut 
             Family::Bssrdf => SubsurfFamily::Bssrdf,
             Family::NestedBtf => SubsurfFamily::NestedBtf,
             Family::FactoredBtf => SubsurfFamily::FactoredBtf,
+            Family::Kernel => SubsurfFamily::Kernel,
             _ => SubsurfFamily::Other,
         };
         let file_bytes = file.file().container().file().len() as u64;

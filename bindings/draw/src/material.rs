@@ -17,7 +17,7 @@ use crate::input::{fillable, one_of, take};
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SubsurfTechnique {
-    /// The fastest that the file offers: separable blurs where it has a basis for them, else splats; BTFs as they are.
+    /// The fastest that the file offers: separable blurs where it has a basis for them, else splats; BTFs and kernels as they are.
     Automatic = 0,
     /// Multiresolution splats, of BSSRDFs: closer to the reference in most scenes, and slower.
     Splat = 1,
@@ -25,6 +25,8 @@ pub enum SubsurfTechnique {
     Separable = 2,
     /// BTFs.
     Btf = 3,
+    /// Separable kernels of homogeneous materials.
+    Kernel = 4,
 }
 
 /// Material on a device: what was uploaded of a file.
@@ -140,9 +142,12 @@ impl OpenMaterial {
 fn begin<'a>(gpu: &'a OpenGpu, file: &File<'a>, technique: SubsurfTechnique) -> Result<Load<'a>> {
     let wrong = |expected| Fault::from(Failure::Family { found: file.content().family(), expected });
     let load = match (technique, file.content()) {
-        (_, Content::FactoredBtf(_)) => return Err(wrong("BSSRDF or nested BTF")),
-        (SubsurfTechnique::Btf, Content::Bssrdf(_)) => return Err(wrong("nested BTF")),
-        (SubsurfTechnique::Splat | SubsurfTechnique::Separable, Content::NestedBtf(_)) => return Err(wrong("BSSRDF")),
+        (_, Content::FactoredBtf(_)) => return Err(wrong("BSSRDF, nested BTF or kernel")),
+        (SubsurfTechnique::Kernel, Content::Bssrdf(_) | Content::NestedBtf(_)) => return Err(wrong("kernel")),
+        (SubsurfTechnique::Btf, Content::Bssrdf(_) | Content::Kernel(_)) => return Err(wrong("nested BTF")),
+        (SubsurfTechnique::Splat | SubsurfTechnique::Separable, Content::NestedBtf(_) | Content::Kernel(_)) => {
+            return Err(wrong("BSSRDF"));
+        }
         (SubsurfTechnique::Splat, Content::Bssrdf(material)) => {
             Load::splat(&gpu.gpu, &material).map(|load| load.map(Material::Splat))
         }
@@ -183,8 +188,13 @@ pub unsafe extern "C" fn subsurf_material_load(
         let usual = SubsurfMaterialOptions { struct_size: 0, technique: 0 };
         // SAFETY: the caller's struct, of numbers.
         let options = if options.is_null() { usual } else { unsafe { take("options", options, usual) }? };
-        let techniques =
-            [SubsurfTechnique::Automatic, SubsurfTechnique::Splat, SubsurfTechnique::Separable, SubsurfTechnique::Btf];
+        let techniques = [
+            SubsurfTechnique::Automatic,
+            SubsurfTechnique::Splat,
+            SubsurfTechnique::Separable,
+            SubsurfTechnique::Btf,
+            SubsurfTechnique::Kernel,
+        ];
         let load = begin(gpu, file, one_of("technique", options.technique, &techniques)?)?;
         let materials = match file.content() {
             Content::NestedBtf(btf) => btf.catalog().header().materials.into(),
@@ -241,6 +251,7 @@ pub unsafe extern "C" fn subsurf_material_info(
             Technique::Splat(_) => SubsurfTechnique::Splat,
             Technique::Separable(_) => SubsurfTechnique::Separable,
             Technique::Btf(_) => SubsurfTechnique::Btf,
+            Technique::Kernel => SubsurfTechnique::Kernel,
             Technique::Gather(_) => SubsurfTechnique::Automatic,
         };
         let (materials, gpu_bytes) = (open.materials, open.material.gpu_bytes());

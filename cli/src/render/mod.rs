@@ -3,6 +3,7 @@
 mod btf;
 mod btf_args;
 mod exposure;
+mod kernel;
 mod mesh;
 mod options;
 mod patch;
@@ -25,6 +26,7 @@ use crate::picture::{check_picture_target, montage, write_picture};
 use crate::program::failure::bad_request;
 use crate::program::warnings::warn;
 use btf::draw_btf;
+use kernel::draw_kernel;
 use options::{AnglesArg, LightArg};
 
 pub(crate) use btf_args::{BtfArgs, Copies};
@@ -32,7 +34,7 @@ pub(crate) use mesh::draw_mesh;
 pub(crate) use options::{MappingArg, SceneArg, TechniqueArg, UpArg, read_environment};
 pub(crate) use patch::{draw_patch, patch_irradiance};
 
-/// Draw a material: a translucent one flat or on a mesh, by the reference technique or by a fast one; a BTF on a mesh.
+/// Draw a material: a translucent one flat or on a mesh, by the reference technique or by a fast one; a BTF or a kernel on a mesh.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES, group(clap::ArgGroup::new("surface").multiple(true)))]
 pub(crate) struct Args {
@@ -42,7 +44,7 @@ pub(crate) struct Args {
     #[arg(long, short)]
     output: PathBuf,
     /// Draw it on this mesh: a file (.obj, .ply, .stl, .off, .glb, .gltf), or one of knot, bowl, drapery, relief, sphere,
-    /// torus; a BTF, and anything in a --scene, on the knot if not given
+    /// torus; a BTF, a kernel, and anything in a --scene, on the knot if not given
     #[arg(long, value_name = "FILE|SHAPE", group = "surface")]
     mesh: Option<PathBuf>,
     /// What stands around the mesh, and from where both are lit and seen; studio if not given
@@ -52,7 +54,7 @@ pub(crate) struct Args {
     #[arg(long, default_value_t = 60.0, value_name = "MM", requires = "surface")]
     extent: f32,
     /// How light scatters in a translucent material; of several, separated by commas, the pictures stand side by side, all of the
-    /// exposure of the first; gather if not given
+    /// exposure of the first; gather if not given, kernel for kernels
     #[arg(long, value_enum, value_delimiter = ',')]
     technique: Vec<TechniqueArg>,
     /// Light from all around: an equirectangular picture (.hdr, .exr, .png, .jpg ..); the scene's if not given
@@ -124,6 +126,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             let mesh = args.load_mesh(args.mesh.as_deref().unwrap_or(Path::new(USUAL_SHAPE)))?;
             (draw_btf(gpu.as_ref(), &btf, &mesh, &args.btf, &args.request()?)?, devices::name(gpu.as_ref()))
         }
+        DrawnMaterial::Kernel(kernel) => {
+            args.btf.expect_none()?;
+            if args.technique.iter().any(|technique| *technique != TechniqueArg::Kernel) {
+                return Err(bad_request("the file is a kernel, which is drawn by --technique kernel only"));
+            }
+            let gpu = args.backend.open_device("kernels are drawn by devices only")?;
+            let mesh = args.load_mesh(args.mesh.as_deref().unwrap_or(Path::new(USUAL_SHAPE)))?;
+            (draw_kernel(&gpu, &kernel, &mesh, &args.request()?)?, devices::name(Some(&gpu)))
+        }
     };
     write_picture(&args.output, &picture)?;
     let seconds = start.elapsed().as_secs_f64();
@@ -144,7 +155,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What a BTF, or whatever stands in a set, is drawn on if nothing is said.
+/// What a BTF, a kernel, or whatever stands in a set, is drawn on if nothing is said.
 const USUAL_SHAPE: &str = "knot";
 
 /// A picture, and what is said about it.
@@ -158,7 +169,8 @@ pub(crate) struct Drawing {
 /// A translucent material, flat or on a mesh, by each technique that is asked for; and what drew it.
 fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(Drawing, String)> {
     args.btf.expect_none()?;
-    let mut techniques: Vec<Scattering> = args.technique.iter().copied().map(Into::into).collect();
+    let techniques = args.technique.iter().map(|technique| technique.scattering());
+    let mut techniques = techniques.collect::<anyhow::Result<Vec<Scattering>>>()?;
     if techniques.is_empty() {
         techniques.push(Scattering::Gather);
     }

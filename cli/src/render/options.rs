@@ -23,6 +23,8 @@ pub(crate) enum TechniqueArg {
     Separable,
     /// The same with one mean profile everywhere, as if the material were not heterogeneous; for comparison
     Homogeneous,
+    /// Separable kernel of a homogeneous material, on the screen; for kernel files, on meshes
+    Kernel,
     /// Light leaves where it enters, as if the material were opaque; for comparison
     Opaque,
 }
@@ -38,15 +40,19 @@ pub(crate) enum MappingArg {
     Box,
 }
 
-impl From<TechniqueArg> for Scattering {
-    fn from(arg: TechniqueArg) -> Self {
-        match arg {
-            TechniqueArg::Gather => Self::Gather,
-            TechniqueArg::Splat => Self::Splat,
-            TechniqueArg::Separable => Self::Separable,
-            TechniqueArg::Homogeneous => Self::Homogeneous,
-            TechniqueArg::Opaque => Self::Opaque,
-        }
+impl TechniqueArg {
+    /// Technique for a translucent material that is no kernel.
+    pub(crate) fn scattering(self) -> anyhow::Result<Scattering> {
+        Ok(match self {
+            Self::Gather => Scattering::Gather,
+            Self::Splat => Scattering::Splat,
+            Self::Separable => Scattering::Separable,
+            Self::Homogeneous => Scattering::Homogeneous,
+            Self::Opaque => Scattering::Opaque,
+            Self::Kernel => {
+                return Err(bad_request("--technique kernel is for kernel files; this one has pixels: take separable"));
+            }
+        })
     }
 }
 

@@ -120,3 +120,31 @@ fn without_a_driver_the_exit_code_says_so() {
     assert_eq!(refused.code, 3, "{}", refused.err);
     assert!(refused.err.contains("no Vulkan device"), "{}", refused.err);
 }
+
+/// A kernel says what it is, and is drawn by its own technique alone, the same on both APIs.
+#[test]
+fn kernels_are_told_and_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("skin.subsurf"), subsurf_tests::kernels::skin(17).to_bytes().unwrap()).unwrap();
+    let info = json(folder, "info skin.subsurf --json");
+    assert_eq!((&info["method"], &info["terms"], &info["taps"]), (&"two-gaussians".into(), &1.into(), &17.into()));
+    assert!(succeed(folder, "info skin.subsurf").out.contains("reflectance 0.800, 0.600, 0.500"));
+    let pictures = ["vulkan", "gl"].map(|backend| {
+        let output = format!("{backend}.png");
+        let args = format!(
+            "render skin.subsurf --mesh torus --extent 20 --size 60x50 --exposure 1 --backend {backend} -o {output}"
+        );
+        succeed(folder, &args);
+        image::open(folder.join(output)).unwrap().into_rgb8()
+    });
+    let far = pictures[0].iter().zip(pictures[1].iter()).filter(|(a, b)| a.abs_diff(**b) > 2).count();
+    assert!(far * 100 <= pictures[0].len(), "{far} values differ");
+    let brightest = pictures[0].pixels().map(|pixel| pixel.0).max_by_key(|[red, ..]| *red).unwrap();
+    assert!(brightest[0] > brightest[2], "skin is red: {brightest:?}");
+
+    assert_refused(&run(folder, "render skin.subsurf --technique gather -o a.png"), &["--technique kernel"]);
+    simulate(folder, "a");
+    succeed(folder, "encode a.npy -M 4");
+    assert_refused(&run(folder, "render a.subsurf --technique kernel -o a.png"), &["kernel files"]);
+}

@@ -6,6 +6,7 @@ use subsurf_scene::{Mapping, Placement};
 
 use super::bssrdf::BssrdfPlanes;
 use super::btf::BtfMaterial;
+use super::kernel::KernelMaterial;
 use super::mesh::GpuMesh;
 use super::points::GpuPoints;
 use super::separable::SeparableMaterial;
@@ -33,6 +34,8 @@ pub enum Material {
     Separable(Arc<SeparableMaterial>),
     /// One material of a BTF, by its number in the file from 0 on.
     Btf(Arc<BtfMaterial>, usize),
+    /// Homogeneous material for its separable kernel on the screen.
+    Kernel(Arc<KernelMaterial>),
 }
 
 impl Material {
@@ -44,6 +47,7 @@ impl Material {
             Self::Splat(material) => Technique::Splat(material.planes.layout()),
             Self::Separable(material) => Technique::Separable(material.terms()),
             Self::Btf(material, _) => Technique::Btf(material.layout()),
+            Self::Kernel(_) => Technique::Kernel,
         }
     }
 
@@ -55,6 +59,7 @@ impl Material {
             Self::Splat(material) => material.gpu_bytes(),
             Self::Separable(material) => material.gpu_bytes(),
             Self::Btf(material, _) => material.gpu_bytes(),
+            Self::Kernel(material) => material.gpu_bytes(),
         }
     }
 
@@ -65,6 +70,7 @@ impl Material {
             (Self::Splat(a), Self::Splat(b)) => Arc::ptr_eq(a, b),
             (Self::Separable(a), Self::Separable(b)) => Arc::ptr_eq(a, b),
             (Self::Btf(a, k), Self::Btf(b, l)) => Arc::ptr_eq(a, b) && k == l,
+            (Self::Kernel(a), Self::Kernel(b)) => Arc::ptr_eq(a, b),
             _ => false,
         }
     }
@@ -74,10 +80,11 @@ impl Material {
     /// # Errors
     /// [`Error::Mesh`] or [`Error::Usage`] if the mesh lacks what the material needs.
     pub(crate) fn placement(&self, mesh: &GpuMesh, mapping: Mapping) -> Result<Placement> {
-        if let Mapping::Uv(_) = mapping {
-            mesh.expect_uvs()?;
-        }
         let header = match self {
+            // What is the same everywhere is looked up nowhere.
+            Self::Kernel(material) => {
+                return Ok(Placement::of_homogeneous_within(mesh.bounds, material.header().eta));
+            }
             Self::Gather(material) => {
                 material.points.expect(mesh)?;
                 material.planes.header()
@@ -85,6 +92,9 @@ impl Material {
             Self::Splat(material) => material.planes.header(),
             Self::Separable(material) => material.header(),
             Self::Btf(..) => {
+                if let Mapping::Uv(_) = mapping {
+                    mesh.expect_uvs()?;
+                }
                 mesh.expect_tangents()?;
                 if mapping == Mapping::Box {
                     return Err(Error::Usage("BTFs lie on meshes by texture coordinates, not by a box".to_owned()));
@@ -92,6 +102,9 @@ impl Material {
                 return Ok(Placement::of_btf_within(mesh.bounds, mapping));
             }
         };
+        if let Mapping::Uv(_) = mapping {
+            mesh.expect_uvs()?;
+        }
         Ok(Placement::within(mesh.bounds, mapping, header))
     }
 }
@@ -111,5 +124,11 @@ impl From<Arc<SplatMaterial>> for Material {
 impl From<Arc<SeparableMaterial>> for Material {
     fn from(material: Arc<SeparableMaterial>) -> Self {
         Self::Separable(material)
+    }
+}
+
+impl From<Arc<KernelMaterial>> for Material {
+    fn from(material: Arc<KernelMaterial>) -> Self {
+        Self::Kernel(material)
     }
 }

@@ -3,6 +3,7 @@
 mod bssrdf;
 mod btf;
 mod btf_images;
+mod kernel;
 mod material;
 mod mesh;
 mod patch_layers;
@@ -13,6 +14,7 @@ mod splat;
 pub use bssrdf::{BssrdfPlanes, layout_of};
 pub use btf::BtfMaterial;
 pub use btf_images::BtfImages;
+pub use kernel::KernelMaterial;
 pub use material::{GatherMaterial, Material};
 pub use mesh::{GpuMesh, VertexData};
 pub(crate) use mesh::{TANGENTS, VERTICES};

@@ -12,7 +12,9 @@ use super::renderer::Renderer;
 use crate::asset::Material;
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
-use crate::technique::{Bindings, Common, MapArea, TranslucentShadowMaps, reflection_sampler, separable, splat};
+use crate::technique::{
+    Bindings, Common, MapArea, TranslucentShadowMaps, kernel, reflection_sampler, separable, splat,
+};
 
 /// How much finer or coarser than a view needs maps may be before others serve it better.
 const FINENESS: f32 = 1.25;
@@ -51,6 +53,8 @@ pub(super) struct Slot {
 struct Shared {
     separable: Vec<(usize, Arc<separable::Maps>)>,
     splat: Option<Arc<splat::Maps>>,
+    /// By whether they are for several terms.
+    kernel: Vec<(bool, Arc<kernel::Maps>)>,
 }
 
 impl Shared {
@@ -65,6 +69,20 @@ impl Shared {
         }
         let maps = Arc::new(make()?);
         self.separable.push((terms, maps.clone()));
+        Ok(maps)
+    }
+
+    /// Maps for kernels of one term or of several, made by the first material that wants them.
+    fn of_kernel(
+        &mut self,
+        has_several: bool,
+        make: impl FnOnce() -> Result<kernel::Maps>,
+    ) -> Result<Arc<kernel::Maps>> {
+        if let Some((_, maps)) = self.kernel.iter().find(|(of, _)| *of == has_several) {
+            return Ok(maps.clone());
+        }
+        let maps = Arc::new(make()?);
+        self.kernel.push((has_several, maps.clone()));
         Ok(maps)
     }
 }
@@ -151,24 +169,34 @@ impl Renderer {
 
     /// Bytes of the maps of some materials.
     fn map_bytes(&self, materials: &[&Material], plan: &Plan) -> u64 {
-        let of_terms = terms_of(materials).into_iter();
-        let of_terms = of_terms.map(|terms| separable::Maps::bytes_of(plan.blur_size, terms, &self.options));
         let splats = materials.iter().any(|material| matches!(material, Material::Splat(_)));
-        of_terms.sum::<u64>() + if splats { splat::Maps::bytes_of(plan, &self.options) } else { 0 }
+        self.blur_bytes(materials, plan.blur_size) + if splats { splat::Maps::bytes_of(plan, &self.options) } else { 0 }
     }
 
-    /// Width and height of the maps of separable blurs: as many texels as their bytes for each pixel allow, in the shape of what the
+    /// Bytes of the maps of blurs on the screen, of so many texels.
+    fn blur_bytes(&self, materials: &[&Material], size: [u32; 2]) -> u64 {
+        let of_terms = terms_of(materials).into_iter();
+        let of_terms = of_terms.map(|terms| separable::Maps::bytes_of(size, terms, &self.options));
+        let has_kernel = |has_several| {
+            let of = |material: &&Material| matches!(material, Material::Kernel(of) if (of.terms() > 1) == has_several);
+            materials.iter().any(of)
+        };
+        let of_kernels = [false, true].into_iter().filter(|several| has_kernel(*several));
+        let of_kernels = of_kernels.map(|several| kernel::Maps::bytes_of(size, several, &self.options));
+        of_terms.chain(of_kernels).sum()
+    }
+
+    /// Width and height of the maps of blurs on the screen: as many texels as their bytes for each pixel allow, in the shape of what the
     /// objects of a material cover.
     fn blur_size(&self, input: &Input<'_>, materials: &[&Material], divisor: f32, size: [u32; 2]) -> [u32; 2] {
-        let texels = terms_of(materials).into_iter();
-        let bytes: u64 = texels.map(|terms| separable::Maps::bytes_of([1, 1], terms, &self.options)).sum();
+        let bytes = self.blur_bytes(materials, [1, 1]);
         #[allow(clippy::cast_precision_loss, reason = "a few dozen")]
         let held = bytes as f32 / self.options.map_bytes_per_pixel;
         let covered = materials.iter().filter_map(|material| {
             let of_material = |object: &&Object<'_>| object.material.is(material);
             let bounds = input.objects.iter().filter(of_material).map(Object::bounds);
             let seen = bounds.filter(|bounds| input.view.sees(bounds)).reduce(|all, bounds| all.union(&bounds))?;
-            matches!(material, Material::Separable(_)).then(|| input.view.rectangle(&seen))
+            matches!(material, Material::Separable(_) | Material::Kernel(_)).then(|| input.view.rectangle(&seen))
         });
         let covered = covered.map(|[low, high]| 0.5 * (high - low)).reduce(glam::Vec2::max);
         MapArea::shape(size, divisor, held.sqrt(), covered.unwrap_or(glam::Vec2::ONE))
@@ -200,6 +228,12 @@ impl Renderer {
                 let maps = shared.of_terms(terms, || separable::Maps::new(gpu, plan, &self.options, terms))?;
                 passes.bind(gpu, material, common, lights, &maps)
             }
+            Material::Kernel(material) => {
+                let (passes, has_several) = (self.kernel.of(())?, material.terms() > 1);
+                let maps =
+                    shared.of_kernel(has_several, || kernel::Maps::new(gpu, plan, &self.options, has_several))?;
+                passes.bind(gpu, material, common, lights, &maps)
+            }
             Material::Btf(material, number) => self.btf.of(material.layout())?.bind(gpu, material, *number),
         }
     }
@@ -228,6 +262,7 @@ impl Renderer {
                 Material::Splat(material) => {
                     Some(splat::divisor(material.planes.header(), radius_mm, light_texels, pixels_per_mm))
                 }
+                Material::Kernel(material) => Some(kernel::divisor(material, pixels_per_mm)),
                 Material::Gather(_) | Material::Btf(..) => None,
             }
         });

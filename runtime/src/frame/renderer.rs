@@ -9,7 +9,7 @@ use super::options::RuntimeOptions;
 use super::plan::LEAST_LIGHT_TEXELS;
 use crate::error::{Error, Result};
 use crate::gpu::{BLOCK_STRIDE, Gpu};
-use crate::technique::{Technique, TsmPasses, btf, gather, separable, splat};
+use crate::technique::{Technique, TsmPasses, btf, gather, kernel, separable, splat};
 
 /// Pipelines of the techniques that a host wants; made at load, never in a frame.
 #[derive(Debug)]
@@ -20,6 +20,7 @@ pub struct Renderer {
     pub(super) splat: Compiled<MaterialLayout, splat::Passes>,
     pub(super) separable: Compiled<usize, separable::Passes>,
     pub(super) btf: Compiled<BtfLayout, btf::Passes>,
+    pub(super) kernel: Compiled<(), kernel::Passes>,
 }
 
 /// Pipelines of one technique, by what they depend on.
@@ -85,6 +86,7 @@ impl Renderer {
             splat: Compiled(Vec::new()),
             separable: Compiled(Vec::new()),
             btf: Compiled(Vec::new()),
+            kernel: Compiled(Vec::new()),
         })
     }
 
@@ -113,6 +115,7 @@ impl Renderer {
             Technique::Splat(layout) => self.splat.add(layout, || splat::Passes::new(gpu, layout, options)),
             Technique::Separable(terms) => self.separable.add(terms, || separable::Passes::new(gpu, terms, options)),
             Technique::Btf(layout) => self.btf.add(layout, || btf::Passes::new(gpu, layout, options)),
+            Technique::Kernel => self.kernel.add((), || kernel::Passes::new(gpu, options)),
         }
     }
 

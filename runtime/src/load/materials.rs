@@ -2,20 +2,20 @@
 
 use std::sync::Arc;
 
-use subsurf_decoder::{Bssrdf, Content, File};
+use subsurf_decoder::{Bssrdf, Content, File, Kernel};
 use subsurf_shaders::MaterialLayout;
 use subsurf_shaders::separable::{BasisNumbers, ProfileSums};
 
 use super::projection::{Projection, levels_pass, sums_pass, table};
 use super::steps::{Load, LoadPhase};
-use crate::asset::{BssrdfPlanes, BtfMaterial, Material, SeparableMaterial, SplatMaterial};
+use crate::asset::{BssrdfPlanes, BtfMaterial, KernelMaterial, Material, SeparableMaterial, SplatMaterial};
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
 use crate::technique::PatchCascade;
 
 impl<'a> Load<'a> {
     /// Begins to load a file for the fastest technique that it offers: separable blurs where it has a basis for them, else splats;
-    /// a BTF as it is, its first material.
+    /// a BTF as it is, its first material; a kernel as it is.
     ///
     /// # Errors
     /// [`Error::Usage`] for a factored BTF, which no technique draws; [`Error::Unsupported`] if the device takes no texture of
@@ -30,6 +30,7 @@ impl<'a> Load<'a> {
                 let (material, fills) = BtfMaterial::begin(gpu, &btf)?;
                 Ok(Load::of(gpu, Material::Btf(Arc::new(material), 0)).filled(fills))
             }
+            Content::Kernel(kernel) => Ok(Load::kernel(gpu, &kernel)?.map(Material::Kernel)),
             _ => Err(Error::Usage("factored BTFs are not drawn from the file: encode the images as nested".to_owned())),
         }
     }
@@ -95,6 +96,17 @@ impl<'a> Load<'a, Arc<SplatMaterial>> {
             projection.levels(&to.albedo)?;
             projection.submit()
         }))
+    }
+}
+
+impl<'a> Load<'a, Arc<KernelMaterial>> {
+    /// Begins to load a homogeneous material for its separable kernel.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no texture of that size.
+    pub fn kernel(gpu: &'a Gpu, kernel: &Kernel<'_>) -> Result<Self> {
+        let (material, fill) = KernelMaterial::begin(gpu, kernel)?;
+        Ok(Load::of(gpu, Arc::new(material)).filled([fill]))
     }
 }
 

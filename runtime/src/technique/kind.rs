@@ -13,4 +13,6 @@ pub enum Technique {
     Separable(usize),
     /// BTF: light leaves where it enters, as the texture function says; nothing scatters between pixels.
     Btf(BtfLayout),
+    /// Separable kernel of a homogeneous material, blurred on the screen, two passes for each of its terms.
+    Kernel,
 }

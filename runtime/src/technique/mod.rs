@@ -10,6 +10,7 @@ mod cascade;
 mod common;
 pub(crate) mod gather;
 mod host_shadow;
+pub(crate) mod kernel;
 mod kind;
 mod mesh_pass;
 mod patch;

@@ -144,7 +144,7 @@ impl Bindings for Bound {
             middle_mm: group.middle_mm(),
             pitch_mm: self.pitch_mm,
             perspective: if view.is_parallel() { 0.0 } else { 1.0 },
-            pad: 0,
+            is_jittered: 0,
         };
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&group.upsampling(&self.area)));

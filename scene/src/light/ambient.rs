@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use glam::{IVec3, Vec3};
 use rayon::prelude::*;
-use subsurf_decoder::Bssrdf;
+use subsurf_decoder::{Bssrdf, Kernel};
 
 use super::transfer::AmbientTransfer;
 use crate::error::Result;
@@ -16,6 +16,9 @@ use crate::mesh::Mesh;
 const LONGEST_EDGE: f32 = 1.5;
 /// Number of vertices to a square pixel of the material that is enough.
 const DENSITY: f32 = 1.5;
+
+/// Parts of the radius of a kernel that count as pixels of a material.
+const KERNEL_PIXELS: f32 = 16.0;
 
 /// Vertex that stands for a piece of the surface.
 struct Sample {
@@ -31,16 +34,39 @@ impl AmbientTransfer {
     /// # Errors
     /// [`Error::Mesh`](crate::Error) if the mesh is too large for the material's pixels.
     pub fn of(mesh: &Mesh, material: &Bssrdf<'_>) -> Result<Vec<Self>> {
-        let header = material.header();
-        let profile = MeanProfile::of(material);
-        let samples = samples(mesh.clone().subdivided(LONGEST_EDGE * header.pitch_mm)?, header.pitch_mm);
-        let cell_mm = 0.5 * header.r_max_mm;
+        let (header, profile) = (material.header(), MeanProfile::of(material));
+        Self::of_profile(mesh, header.pitch_mm, header.r_max_mm, |r_mm| profile.at(r_mm))
+    }
+
+    /// The same for a homogeneous material, by the profile of its kernel.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`](crate::Error) if the mesh is too large for the radius of the kernel.
+    pub fn of_kernel(mesh: &Mesh, kernel: &Kernel<'_>) -> Result<Vec<Self>> {
+        let radius_mm = kernel.header().radius_mm;
+        // Profiles rise steeply towards 0: what is nearer than vertices are to each other has one value.
+        let pixel_mm = radius_mm / KERNEL_PIXELS;
+        let (all, beyond) = (kernel.reflectance(), kernel.tail_at(pixel_mm));
+        let within = [0, 1, 2].map(|c| (all[c] - beyond[c]) / (std::f32::consts::PI * pixel_mm * pixel_mm));
+        let profile = |r_mm: f32| if r_mm < pixel_mm { within } else { kernel.rd(r_mm) };
+        Self::of_profile(mesh, pixel_mm, radius_mm, profile)
+    }
+
+    /// Transfer by a profile in mm⁻² that ends at `r_max_mm`, between vertices about a pixel of `pitch_mm` apart.
+    fn of_profile(
+        mesh: &Mesh,
+        pitch_mm: f32,
+        r_max_mm: f32,
+        profile: impl Fn(f32) -> [f32; 3] + Sync,
+    ) -> Result<Vec<Self>> {
+        let samples = samples(mesh.clone().subdivided(LONGEST_EDGE * pitch_mm)?, pitch_mm);
+        let cell_mm = 0.5 * r_max_mm;
         let cell_of = |position: Vec3| (position / cell_mm).floor().as_ivec3();
         let mut cells: HashMap<IVec3, Vec<usize>> = HashMap::new();
         for (number, sample) in samples.iter().enumerate() {
             cells.entry(cell_of(sample.position_mm)).or_default().push(number);
         }
-        let flat = flat(&profile, header.r_max_mm);
+        let flat = flat(&profile, r_max_mm);
         let share = |(position, normal): (&Vec3, &Vec3)| {
             let [mut front, mut back] = [[0.0; 3]; 2];
             let cell = cell_of(*position);
@@ -48,9 +74,9 @@ impl AmbientTransfer {
                 for &number in cells.get(&(cell + IVec3::new(x, y, z))).into_iter().flatten() {
                     let sample = &samples[number];
                     let r_mm = sample.position_mm.distance(*position);
-                    if r_mm <= header.r_max_mm {
+                    if r_mm <= r_max_mm {
                         let sum = if sample.normal.dot(*normal) >= 0.0 { &mut front } else { &mut back };
-                        let reflectance = profile.at(r_mm);
+                        let reflectance = profile(r_mm);
                         for c in 0..3 {
                             sum[c] += reflectance[c] * sample.area_mm2 / flat[c];
                         }
@@ -82,12 +108,12 @@ fn samples(mesh: Mesh, pitch_mm: f32) -> Vec<Sample> {
 }
 
 /// Exitance of flat ground, 2π ∫ R(r) r dr, by the midpoint rule.
-fn flat(profile: &MeanProfile, r_max_mm: f32) -> [f32; 3] {
+fn flat(profile: impl Fn(f32) -> [f32; 3], r_max_mm: f32) -> [f32; 3] {
     const STEPS: u16 = 2_048;
     let step = r_max_mm / f32::from(STEPS);
     let ring = |k: u16| {
         let r_mm = (f32::from(k) + 0.5) * step;
-        profile.at(r_mm).map(|value| value * std::f32::consts::TAU * r_mm * step)
+        profile(r_mm).map(|value| value * std::f32::consts::TAU * r_mm * step)
     };
     (0..STEPS).map(ring).fold([1e-12; 3], |sum, ring| [0, 1, 2].map(|c| sum[c] + ring[c]))
 }

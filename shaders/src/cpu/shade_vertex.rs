@@ -1,10 +1,11 @@
-//! Twin of `shade_vertex.wgsl` and `shading.wgsl`.
+//! Twin of `shade_vertex.wgsl`.
 
 use glam::Vec3;
 use subsurf_scene::MAX_LIGHTS;
 
+use super::Reflections;
 use super::raster::rasterise;
-use super::{Reflections, display, fresnel_transmittance, incident, neutral, specular_ambient, specular_direct, srgb};
+use super::shading::{Point, shaded};
 use crate::rgb::Rgb;
 use crate::uniform::Blocks;
 
@@ -43,34 +44,6 @@ pub fn shade_vertex(
             exitance: covered.blend(&exitances),
             visibility: covered.blend_all(mesh.visibilities),
         };
-        let light = radiance(blocks, reflections, &point) * blocks.scene.exposure;
-        display(srgb(neutral(light.into())))
+        shaded(blocks, reflections, &point)
     })
-}
-
-/// Point of the surface.
-struct Point {
-    position_mm: Vec3,
-    normal: Vec3,
-    exitance: Vec3,
-    visibility: [f32; MAX_LIGHTS],
-}
-
-/// Radiance that leaves towards the eye.
-fn radiance(blocks: &Blocks, reflections: &Reflections<'_>, point: &Point) -> Vec3 {
-    let object = &blocks.object;
-    let to_eye = (Vec3::from(blocks.scene.eye_mm) - point.position_mm).normalize();
-    let normal = point.normal.normalize();
-    // Scattered light, by Lambert's law with Fresnel transmission on the way out: L = M F_t / (π (1 − F_dr)).
-    let cosine = normal.dot(to_eye).abs().clamp(0.0, 1.0);
-    let transmittance = fresnel_transmittance(cosine, object.eta);
-    let scattered = point.exitance * transmittance / (object.sky_transmittance * std::f32::consts::PI);
-    // Light that the coat reflects.
-    let mirrored = (-to_eye).reflect(normal);
-    let sky = specular_ambient(object, cosine) * reflections.radiance(mirrored, object.roughness);
-    let lights = (0..blocks.scene.lights as usize).map(|light| {
-        let (towards, irradiance) = incident(&blocks.scene, light, point.position_mm);
-        irradiance * specular_direct(object, normal, to_eye, towards) * point.visibility[light]
-    });
-    scattered + sky + lights.sum::<Vec3>()
 }

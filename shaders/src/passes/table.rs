@@ -32,10 +32,14 @@ const UPSAMPLING: Part = Part::File(wgsl!("lib/screen/upsampling"));
 const SEPARABLE_BASIS: Part = Part::File(wgsl!("lib/blur/separable_basis"));
 const BLUR: Part = Part::File(wgsl!("lib/blur/blur"));
 const DOMAIN_PATCH: Part = Part::File(wgsl!("lib/blur/domain_patch"));
+const SCREEN: Part = Part::File(wgsl!("lib/blur/screen"));
 const DOMAIN_SCREEN: Part = Part::File(wgsl!("lib/blur/domain_screen"));
 const MAPS_IRRADIANCE: Part = Part::File(wgsl!("lib/blur/maps_irradiance"));
 const MAPS_STAGE: Part = Part::File(wgsl!("lib/blur/maps_stage"));
 const STAGE_SUM: Part = Part::File(wgsl!("lib/blur/stage_sum"));
+const KERNEL: Part = Part::File(wgsl!("lib/blur/kernel"));
+const KERNEL_PROFILE: Part = Part::File(wgsl!("lib/blur/kernel_profile"));
+const KERNEL_TRANSMISSION: Part = Part::File(wgsl!("lib/screen/kernel_transmission"));
 
 /// Whether the shader encodes for the display; an override of passes that draw pictures of meshes.
 pub const ENCODE_SRGB: &str = "ENCODE_SRGB";
@@ -264,21 +268,21 @@ pub static SEPARABLE_GBUFFER: Pass = Pass {
 /// Stages of the cascade on the screen, along rows or along columns.
 pub static BLUR_SCREEN: Pass = fullscreen(
     wgsl!("pass/separable/blur_screen"),
-    &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_SCREEN, BLUR],
+    &[Part::TargetFormat, Part::Terms, FULLSCREEN, SCREEN, DOMAIN_SCREEN, BLUR],
     &[Group::Maps(&[Uniform, Uniform, TargetLayers])],
 );
 
 /// Sum over the stages of the cascade on the screen so far, once one of them is through.
 pub static SUM_SCREEN: Pass = fullscreen(
     wgsl!("pass/separable/sum_screen"),
-    &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_SCREEN, BLUR, STAGE_SUM],
+    &[Part::TargetFormat, Part::Terms, FULLSCREEN, SCREEN, DOMAIN_SCREEN, BLUR, STAGE_SUM],
     &[Group::Maps(&[Uniform, Uniform, TargetLayers, TargetLayers])],
 );
 
 /// Last stage of the cascade on the screen, along columns, and the sum over all stages.
 pub static BLUR_SCREEN_LAST: Pass = fullscreen(
     wgsl!("pass/separable/blur_screen_last"),
-    &[Part::TargetFormat, Part::Terms, FULLSCREEN, DOMAIN_SCREEN, BLUR, STAGE_SUM],
+    &[Part::TargetFormat, Part::Terms, FULLSCREEN, SCREEN, DOMAIN_SCREEN, BLUR, STAGE_SUM],
     &[Group::Maps(&[Uniform, Uniform, TargetLayers, TargetLayers])],
 );
 
@@ -307,6 +311,67 @@ pub static SHADE_SEPARABLE: Pass = shaded(
         SHADING,
     ],
     &[LIT, Group::Maps(&[FilteredLayers, Sampler, Uniform, TargetLayers]), OF_OBJECT, OF_HOST],
+);
+
+/// G-buffer for separable kernels on the screen, with light that is transmitted from behind.
+pub static KERNEL_GBUFFER: Pass = Pass {
+    overrides: &[HOST_SHADOWS],
+    ..pass(
+        wgsl!("pass/kernel/kernel_gbuffer"),
+        &[
+            Part::TargetFormat,
+            FRESNEL,
+            OBJECT,
+            SCENE,
+            HOST_SHADOW,
+            TSM_VISIBILITY,
+            VISIBILITIES,
+            VERTEX_NONE,
+            VERTEX,
+            KERNEL_PROFILE,
+            KERNEL_TRANSMISSION,
+        ],
+        "project",
+        &[Group::Fixed(&[Uniform, Target]), Group::Fixed(&[Uniform, Float, Target]), OF_OBJECT, OF_HOST],
+    )
+};
+
+/// Blur by a term of a separable kernel on the screen, along rows.
+pub static BLUR_KERNEL: Pass = fullscreen(
+    wgsl!("pass/kernel/blur_kernel"),
+    &[Part::TargetFormat, FULLSCREEN, SCREEN, KERNEL],
+    &[Group::Fixed(&[Uniform, Uniform, Target])],
+);
+
+/// Blur by a term of a separable kernel on the screen along columns, and the sum over the terms so far.
+pub static SUM_KERNEL: Pass = fullscreen(
+    wgsl!("pass/kernel/sum_kernel"),
+    &[Part::TargetFormat, FULLSCREEN, SCREEN, KERNEL],
+    &[Group::Fixed(&[Uniform, Uniform, Target, Target])],
+);
+
+/// Picture of a mesh from light that a separable kernel has blurred on the screen.
+pub static SHADE_KERNEL: Pass = shaded(
+    wgsl!("pass/kernel/shade_kernel"),
+    &[
+        Part::TargetFormat,
+        TONE,
+        DISPLAY,
+        FRESNEL,
+        OBJECT,
+        SCENE,
+        COAT,
+        HOST_SHADOW,
+        TSM_VISIBILITY,
+        VISIBILITIES,
+        VERTEX_NONE,
+        VERTEX,
+        NEIGHBOURS,
+        UPSAMPLING,
+        KERNEL_PROFILE,
+        SHADING,
+    ],
+    &[LIT, Group::Fixed(&[Uniform, Target, Uniform]), OF_OBJECT, OF_HOST],
 );
 
 /// Values and light samples of a BTF for lists of directions.
@@ -339,7 +404,7 @@ pub static SHADE_BTF: Pass = shaded(
 );
 
 /// All passes.
-pub static ALL: [&Pass; 25] = [
+pub static ALL: [&Pass; 29] = [
     &GATHER,
     &PRESENT,
     &HOMOGENEOUS,
@@ -363,6 +428,10 @@ pub static ALL: [&Pass; 25] = [
     &SUM_SCREEN,
     &BLUR_SCREEN_LAST,
     &SHADE_SEPARABLE,
+    &KERNEL_GBUFFER,
+    &BLUR_KERNEL,
+    &SUM_KERNEL,
+    &SHADE_KERNEL,
     &BTF_QUERY,
     &SHADE_BTF,
 ];

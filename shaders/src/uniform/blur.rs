@@ -68,7 +68,7 @@ impl BlurStage {
     }
 }
 
-/// `ScreenDomain` of `domain_screen.wgsl`.
+/// `ScreenDomain` of `screen.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 pub struct ScreenDomain {
@@ -82,8 +82,8 @@ pub struct ScreenDomain {
     pub pitch_mm: f32,
     /// 1 in perspective, where things further away are smaller; 0 where the projection is parallel.
     pub perspective: f32,
-    #[doc(hidden)]
-    pub pad: u32,
+    /// 1 if a third of the taps of a separable kernel are turned, by an angle of each texel's own; not looked at by cascades.
+    pub is_jittered: u32,
 }
 
 /// `Transmission` of `transmission.wgsl`.

@@ -2,6 +2,7 @@
 
 mod blur;
 mod btf;
+mod kernel;
 mod material;
 mod object;
 mod patch;
@@ -10,6 +11,7 @@ mod splat;
 
 pub use blur::{BlurStage, MOST_TAPS, ScreenDomain, Transmission, Upsampling};
 pub use btf::{BtfCodebooks, BtfFiltering, BtfImages, BtfTable, BtfTexture, MAX_LEVELS, MAX_RINGS_OF_DIRECTIONS};
+pub use kernel::{KernelProfile, KernelTerm};
 pub use material::{BASE_ROWS, Material, ROW};
 pub use object::{Blocks, Object};
 pub use patch::{Frame, Kernel, MAX_KERNEL, PatchDomain, PatchRegion};

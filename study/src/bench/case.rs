@@ -5,11 +5,10 @@ use std::time::{Duration, Instant};
 
 use glam::{Quat, Vec3};
 use subsurf_cli::program::progress::Bars;
-use subsurf_decoder::Bssrdf;
 use subsurf_encoder::Progress as _;
 use subsurf_runtime::{Gpu, Purpose, RuntimeOptions};
 use subsurf_scene::{LightShape, Mesh, Scene};
-use subsurf_viewer::{Asset, RenderRequest, RenderSession};
+use subsurf_viewer::{GpuAsset, RenderRequest, RenderSession};
 
 /// Case of a benchmark: one technique on one mesh, on a device.
 pub(super) struct BenchCase {
@@ -42,17 +41,17 @@ impl Times {
 }
 
 impl BenchCase {
+    /// Case of what `upload` brings to the device.
     pub(super) fn new(
         gpu: &Gpu,
-        asset: &Asset,
-        material: &Bssrdf<'_>,
+        upload: impl FnOnce() -> subsurf_viewer::Result<GpuAsset>,
         mesh: &Mesh,
         size: [u32; 2],
     ) -> anyhow::Result<Self> {
         let options = RuntimeOptions::default();
         let of = |purpose| gpu.ledger().bytes_of(purpose);
         let before = Purpose::ALL.map(of);
-        let asset = asset.upload(gpu, material, mesh)?;
+        let asset = upload()?;
         let session = RenderSession::new(gpu, asset, &RenderRequest::usual(size).scene(mesh), size, options)?;
         let times = Times {
             frames: Vec::new(),

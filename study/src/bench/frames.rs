@@ -3,22 +3,23 @@
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
-use subsurf_cli::info::parse;
 use subsurf_cli::options::Size;
 use subsurf_cli::outln;
 use subsurf_cli::program::failure::bad_request;
-use subsurf_decoder::Bssrdf;
+use subsurf_decoder::{Bssrdf, Kernel};
 use subsurf_encoder::baseline::song2009::per_pixel_of;
-use subsurf_runtime::Backend;
-use subsurf_scene::{Mesh, relief};
-use subsurf_viewer::{Asset, MappingChoice, RenderRequest, Scattering, choose_mapping, human, read};
+use subsurf_runtime::{Backend, Gpu};
+use subsurf_scene::{AmbientTransfer, Mesh, relief};
+use subsurf_viewer::{
+    Asset, DrawnMaterial, GpuAsset, MappingChoice, RenderRequest, Scattering, choose_mapping, human, parse, read,
+};
 
 use super::case::{self, BenchCase, Times};
 use super::devices::to_compare;
 use super::meshes::{EXTENT_MM, named};
 use super::timing::{median, quantile};
 
-/// Time frames of meshes of 5 to 871 thousand triangles, pass by pass, on every device there is.
+/// Time frames of meshes of 5 to 871 thousand triangles, pass by pass, on every device there is, of a translucent material or a kernel.
 ///
 /// The light turns a little from frame to frame, so that everything is computed anew; paths take turns. Times of frames are
 /// wall-clock milliseconds until the device is through; those of passes are timestamps of the device within whole frames where
@@ -50,48 +51,81 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let bytes = read(&args.file)?;
     let material = parse(&args.file, &bytes)?;
-    let profiles = per_pixel_of(&material);
-    let profiles = Bssrdf::parse(&profiles)?;
     let meshes: Vec<(String, Mesh)> = match &args.meshes[..] {
         [] => RELIEFS.iter().map(|&rings| bumpy_sphere(rings)).collect::<anyhow::Result<_>>()?,
         paths => paths.iter().map(|path| named(path, EXTENT_MM)).collect::<anyhow::Result<_>>()?,
     };
-    let modes = [
-        ("splat", &material, Scattering::Splat),
-        ("splat, per-pixel profiles", &profiles, Scattering::Splat),
-        ("separable", &material, Scattering::Separable),
-        ("homogeneous", &material, Scattering::Homogeneous),
-    ];
-    let gpus = to_compare();
     let mut all = Vec::new();
     for (name, mesh) in &meshes {
         outln!("{name}, {} triangles, {}x{} pixels", mesh.triangles.len(), args.size.0[0], args.size.0[1]);
-        let mapping = choose_mapping(mesh, MappingChoice::Auto, &material)?;
-        let scene = RenderRequest::usual(args.size.0).scene(mesh);
-        let mut sky = None;
-        let mut assets = Vec::new();
-        for (mode, material, technique) in modes {
-            let asset = Asset::compute(material, mesh, mapping, &scene, technique, sky.clone())?;
-            sky = sky.or(asset.sky().cloned());
-            assets.push((mode, material, asset));
-        }
-        for (backend, gpu) in &gpus {
-            let case = |(_, material, asset): &(&str, &Bssrdf<'_>, Asset)| {
-                BenchCase::new(gpu, asset, material, mesh, args.size.0)
-            };
-            let mut cases = assets.iter().map(case).collect::<anyhow::Result<Vec<_>>>()?;
-            case::run(gpu, &mut cases, mesh, args.size.0, args.frames)?;
-            for (case, (mode, ..)) in cases.iter().zip(&assets) {
-                outln!("  {backend:10} {mode:26} {}", line(&case.times));
-                outln!("  {:10} {:26} {}", "", "", memory(&case.times));
-                all.push(report(&case.times, *backend, name, mode));
-            }
-        }
+        all.extend(match &material {
+            DrawnMaterial::Bssrdf(material) => bssrdf_frames(args, material, name, mesh)?,
+            DrawnMaterial::Kernel(kernel) => kernel_frames(args, kernel, name, mesh)?,
+            DrawnMaterial::Btf(_) => return Err(bad_request("a BTF, whose frames `bench btf` times")),
+        });
     }
     if args.json {
         outln!("{:#}", Value::Array(all));
     }
     Ok(())
+}
+
+/// Frames of a translucent material by all techniques, which take turns.
+fn bssrdf_frames(args: &Args, material: &Bssrdf<'_>, name: &str, mesh: &Mesh) -> anyhow::Result<Vec<Value>> {
+    let profiles = per_pixel_of(material);
+    let profiles = Bssrdf::parse(&profiles)?;
+    let modes = [
+        ("splat", material, Scattering::Splat),
+        ("splat, per-pixel profiles", &profiles, Scattering::Splat),
+        ("separable", material, Scattering::Separable),
+        ("homogeneous", material, Scattering::Homogeneous),
+    ];
+    let mapping = choose_mapping(mesh, MappingChoice::Auto, material)?;
+    let scene = RenderRequest::usual(args.size.0).scene(mesh);
+    let mut sky = None;
+    let mut assets = Vec::new();
+    for (_, material, technique) in modes {
+        let asset = Asset::compute(material, mesh, mapping, &scene, technique, sky.clone())?;
+        sky = sky.or(asset.sky().cloned());
+        assets.push((material, asset));
+    }
+    let mut all = Vec::new();
+    for (backend, gpu) in &to_compare() {
+        let case = |(material, asset): &(&Bssrdf<'_>, Asset)| {
+            BenchCase::new(gpu, || asset.upload(gpu, material, mesh), mesh, args.size.0)
+        };
+        let mut cases = assets.iter().map(case).collect::<anyhow::Result<Vec<_>>>()?;
+        all.extend(timed(args, (*backend, gpu), &mut cases, &modes.map(|(mode, ..)| mode), (name, mesh))?);
+    }
+    Ok(all)
+}
+
+/// Frames of a homogeneous material by its separable kernel.
+fn kernel_frames(args: &Args, kernel: &Kernel<'_>, name: &str, mesh: &Mesh) -> anyhow::Result<Vec<Value>> {
+    let sky = AmbientTransfer::of_kernel(mesh, kernel)?;
+    let mut all = Vec::new();
+    for (backend, gpu) in &to_compare() {
+        let mut cases = [BenchCase::new(gpu, || GpuAsset::kernel(gpu, mesh, kernel, &sky), mesh, args.size.0)?];
+        all.extend(timed(args, (*backend, gpu), &mut cases, &["kernel"], (name, mesh))?);
+    }
+    Ok(all)
+}
+
+/// Times cases on a device, prints a line and the memory of each, and reports them.
+fn timed(
+    args: &Args,
+    (backend, gpu): (Backend, &Gpu),
+    cases: &mut [BenchCase],
+    modes: &[&str],
+    (name, mesh): (&str, &Mesh),
+) -> anyhow::Result<Vec<Value>> {
+    case::run(gpu, cases, mesh, args.size.0, args.frames)?;
+    let each = cases.iter().zip(modes).map(|(case, mode)| {
+        outln!("  {backend:10} {mode:26} {}", line(&case.times));
+        outln!("  {:10} {:26} {}", "", "", memory(&case.times));
+        report(&case.times, backend, name, mode)
+    });
+    Ok(each.collect())
 }
 
 fn bumpy_sphere(rings: u16) -> anyhow::Result<(String, Mesh)> {

@@ -1,7 +1,8 @@
 //! Material and mesh on a device.
 
-use subsurf_runtime::{BtfMaterial, Gpu, GpuMesh, Material, Object, Technique, VertexData};
-use subsurf_scene::{Mapping, Mesh};
+use subsurf_decoder::Kernel;
+use subsurf_runtime::{BtfMaterial, Gpu, GpuMesh, Load, Material, Object, Technique, VertexData};
+use subsurf_scene::{AmbientTransfer, Mapping, Mesh};
 
 use crate::error::Result;
 
@@ -27,6 +28,19 @@ impl GpuAsset {
             mesh: GpuMesh::upload(gpu, mesh, known)?,
             material: Material::Btf(material.into(), number),
             mapping: Mapping::Uv(repeats),
+        })
+    }
+
+    /// Brings a mesh to a device that is made of a homogeneous material; `ambient` is of every vertex.
+    ///
+    /// # Errors
+    /// The device has no room for it.
+    pub fn kernel(gpu: &Gpu, mesh: &Mesh, kernel: &Kernel<'_>, ambient: &[AmbientTransfer]) -> Result<Self> {
+        let known = VertexData { ambient: Some(ambient), ..Default::default() };
+        Ok(Self {
+            mesh: GpuMesh::upload(gpu, mesh, known)?,
+            material: Load::kernel(gpu, kernel)?.finish()?.into(),
+            mapping: Mapping::Box,
         })
     }
 

@@ -27,7 +27,7 @@ impl MaterialFile {
             Arc::new(Self { path: path.to_owned(), bytes: bytes.clone(), name, number, is_btf })
         };
         match parse(path, &bytes)? {
-            DrawnMaterial::Bssrdf(_) => Ok(vec![one(stem(path), 0, false)]),
+            DrawnMaterial::Bssrdf(_) | DrawnMaterial::Kernel(_) => Ok(vec![one(stem(path), 0, false)]),
             DrawnMaterial::Btf(btf) => {
                 let names: Vec<String> = btf.materials().map(|material| material.name().to_owned()).collect();
                 let of = |number: usize| match &names[..] {

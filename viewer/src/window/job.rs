@@ -58,6 +58,7 @@ pub(super) struct Job {
 pub(super) enum Computed {
     Scattering(Box<Asset>),
     Btf { repeats: [f32; 2] },
+    Kernel { sky: Vec<AmbientTransfer> },
     Images { repeats: [f32; 2], images: Box<dyn BtfImageSet> },
 }
 
@@ -69,6 +70,7 @@ impl Computed {
             (Self::Btf { repeats }, DrawnMaterial::Btf(btf)) => {
                 GpuAsset::btf(gpu, mesh, *repeats, BtfMaterial::upload(gpu, &btf)?, file.number())
             }
+            (Self::Kernel { sky }, DrawnMaterial::Kernel(kernel)) => GpuAsset::kernel(gpu, mesh, &kernel, sky),
             (Self::Images { repeats, images }, _) => {
                 GpuAsset::btf(gpu, mesh, *repeats, upload_images(gpu, images.as_ref())?, 0)
             }
@@ -80,7 +82,7 @@ impl Computed {
     fn sky(&self) -> Option<&Arc<Vec<AmbientTransfer>>> {
         match self {
             Self::Scattering(asset) => asset.sky(),
-            Self::Btf { .. } | Self::Images { .. } => None,
+            Self::Btf { .. } | Self::Images { .. } | Self::Kernel { .. } => None,
         }
     }
 }
@@ -102,7 +104,11 @@ impl Job {
                     _ => Ok(Computed::Btf { repeats }),
                 }
             }
-            (DrawnMaterial::Bssrdf(_), RenderMode::Btf | RenderMode::Images) => {
+            // There is one way to draw it, whatever technique others are drawn by.
+            (DrawnMaterial::Kernel(kernel), RenderMode::Scattering(_)) => {
+                Ok(Computed::Kernel { sky: AmbientTransfer::of_kernel(&self.mesh, &kernel)? })
+            }
+            (DrawnMaterial::Bssrdf(_) | DrawnMaterial::Kernel(_), RenderMode::Btf | RenderMode::Images) => {
                 Err(Error::Request(format!("{} is no BTF", self.material.name())))
             }
         }

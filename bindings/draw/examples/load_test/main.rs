@@ -39,6 +39,7 @@ fn techniques(file: &File<'_>) -> Vec<(&'static str, Stored)> {
             separable.map(|technique| ("separable", Stored::File(technique))).into_iter().chain(planes).collect()
         }
         Content::NestedBtf(_) => vec![("btf", Stored::File(Technique::Btf(BtfLayout::Nested)))],
+        Content::Kernel(_) => vec![("kernel", Stored::File(Technique::Kernel))],
         _ => Vec::new(),
     }
 }

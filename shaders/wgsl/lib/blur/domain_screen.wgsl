@@ -1,20 +1,5 @@
 // Domain of blurs on the screen: distances are those in space, from pixels and depth.
 
-struct ScreenDomain {
-    // Texels of the maps.
-    size: vec2<u32>,
-    // Texels that the pitch of the material covers at a distance of 1 mm, or at any, along rows and columns.
-    focal_texels: vec2<f32>,
-    // Distance from the eye to depth 0, in mm; 1 where the projection is parallel.
-    middle_mm: f32,
-    // Pitch of the pixels of the material in mm.
-    pitch_mm: f32,
-    // 1 in perspective, where things further away are smaller; 0 where the projection is parallel.
-    perspective: f32,
-    pad: u32,
-}
-
-@group(0) @binding(1) var<uniform> domain: ScreenDomain;
 // c_l E, blurred by the stages before; depth in mm in the fourth channel.
 @group(0) @binding(2) var maps: TargetMaps;
 

@@ -1,4 +1,4 @@
-// Needs: <target format>, <terms>, fullscreen, domain_screen, blur.
+// Needs: <target format>, <terms>, fullscreen, screen, domain_screen, blur.
 // Stages of the cascade on the screen, along rows or along columns.
 
 @fragment

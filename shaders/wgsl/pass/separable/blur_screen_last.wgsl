@@ -1,4 +1,4 @@
-// Needs: <target format>, <terms>, fullscreen, domain_screen, blur, stage_sum.
+// Needs: <target format>, <terms>, fullscreen, screen, domain_screen, blur, stage_sum.
 // Last stage of the cascade on the screen, along columns, and the sum over all stages.
 
 @fragment

@@ -1,4 +1,4 @@
-// Needs: <target format>, <terms>, fullscreen, domain_screen, blur, stage_sum.
+// Needs: <target format>, <terms>, fullscreen, screen, domain_screen, blur, stage_sum.
 // Sum over the stages of the cascade on the screen so far, once one of them is through.
 
 @fragment

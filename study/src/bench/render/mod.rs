@@ -104,7 +104,7 @@ fn compare(
     scene.camera.exposure = exposure;
     let mut shown = vec![image(&reference, size[0])];
     for (backend, gpu) in gpus {
-        let case = |asset: &Asset| BenchCase::new(gpu, asset, material, mesh, size);
+        let case = |asset: &Asset| BenchCase::new(gpu, || asset.upload(gpu, material, mesh), mesh, size);
         let gather_ms = match args.frames {
             0 => None,
             _ => {

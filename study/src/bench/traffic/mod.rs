@@ -69,6 +69,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let counts = match &material {
             DrawnMaterial::Bssrdf(material) => scattering(material, &mesh, *size)?,
             DrawnMaterial::Btf(btf) => vec![textured(btf, *size)?],
+            DrawnMaterial::Kernel(_) => {
+                return Err(bad_request("a kernel; traffic is counted of BSSRDFs and nested BTFs"));
+            }
         };
         for Counts { technique, numbers, rows } in counts {
             let name = stem(&args.file);
