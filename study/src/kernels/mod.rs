@@ -20,7 +20,7 @@ use crate::page::{CSS, table};
 
 /// Compare separable kernels of measured materials (Jimenez et al. 2015) with their profiles: curves, kernels in the plane, errors.
 ///
-/// Writes DIR/index.html and DIR/errors.csv, and prints the errors of sums of products as a table; half a minute.
+/// Writes DIR/index.html and DIR/errors.csv, and prints errors as tables.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The folder to write to
@@ -28,7 +28,7 @@ pub(crate) struct Args {
     /// Materials
     #[arg(long, value_delimiter = ',', value_parser = PossibleValuesParser::new(shipped::names()))]
     materials: Vec<String>,
-    /// Trace the profiles that come with the library anew, and write them to this folder: half an hour on two cores
+    /// Trace the profiles that come with the library anew, and write them to this folder: a quarter of an hour
     #[arg(long, value_name = "DIR")]
     profiles: Option<PathBuf>,
 }
