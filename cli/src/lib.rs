@@ -9,6 +9,7 @@ pub mod devices;
 mod encode;
 pub mod images;
 pub mod info;
+mod kernel;
 pub mod options;
 pub mod picture;
 pub mod program;
@@ -42,6 +43,8 @@ Try it:
   subsurf encode btf leather -o leather.subsurf           the same in some 110 kB
   subsurf render leather.subsurf --images leather -o l.png  both on a knot, beside each other
 
+  subsurf kernel --material skin1 -o skin.subsurf         homogeneous skin, as two convolutions on the screen
+
 Exit codes:
   0   done
   1   this machine failed: disk full, driver crashed
@@ -53,6 +56,7 @@ Exit codes:
 enum Command {
     Simulate(simulate::Args),
     Encode(encode::Args),
+    Kernel(kernel::Args),
     Compare(compare::Args),
     Render(render::Args),
     View(view::Args),
@@ -71,6 +75,7 @@ pub fn run(cli: Cli) -> anyhow::Result<()> {
     match cli.command {
         Command::Simulate(args) => simulate::run(&args),
         Command::Encode(args) => encode::run(&args),
+        Command::Kernel(args) => kernel::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Render(args) => render::run(&args),
         Command::View(args) => view::run(&args),

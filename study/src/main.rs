@@ -4,6 +4,7 @@ mod bench;
 mod bssrdf;
 mod btf;
 mod cache;
+mod kernels;
 mod linsss;
 mod page;
 
@@ -27,6 +28,7 @@ Examples:
   subsurf-study bssrdf out --materials jade --no-paper      one material, without the paper's own method: a minute
   subsurf-study linsss out                                  a rival's model, fitted to the captures of the first: ten minutes
   subsurf-study btf out                                     Havran et al. 2010, as one page: more than an hour
+  subsurf-study kernels out                                 Jimenez et al. 2015: separable kernels, as one page
   subsurf-study bench load                                  load size and latency, compressed and not
   subsurf-study bench render jade.subsurf -o out            every path against the reference, as one page
   subsurf-study bench btf leather.subsurf --images leather  frames of a BTF, compressed and not
@@ -38,6 +40,7 @@ Exit codes: 0 done, 1 this machine failed, 2 the input or the request is wrong, 
 enum Command {
     Bssrdf(bssrdf::Args),
     Btf(btf::Args),
+    Kernels(kernels::Args),
     Linsss(linsss::Args),
     #[command(subcommand)]
     Bench(bench::Command),
@@ -47,6 +50,7 @@ fn main() -> ExitCode {
     subsurf_cli::program::run("subsurf-study", |cli: Cli| match cli.command {
         Command::Bssrdf(args) => bssrdf::run(&args),
         Command::Btf(args) => btf::run(&args),
+        Command::Kernels(args) => kernels::run(&args),
         Command::Linsss(args) => linsss::run(&args),
         Command::Bench(command) => bench::run(&command),
     })

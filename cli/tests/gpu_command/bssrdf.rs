@@ -181,3 +181,47 @@ fn profiles_are_traced_photon_by_photon() {
     std::fs::write(folder.join("c.mci"), mci("c.mci")).unwrap();
     refused("simulate mcml c.mci", &["c.mci", "the input"]);
 }
+
+#[test]
+fn kernels_are_made_of_profiles() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let told = succeed(folder, "kernel --material skin1 -o skin.subsurf").out;
+    assert!(told.contains("skin.subsurf: pre-integrated, 2 convolutions of 25 taps"), "{told}");
+    assert!(told.contains("errors: Frobenius 0.") && told.contains("edge 0.0 %"), "{told}");
+    let told = succeed(folder, "kernel --material skin1 --method svd --terms 2 --taps 9 --compare -o svd.subsurf").out;
+    assert!(told.contains("svd, 4 convolutions of 9 taps"), "{told}");
+    assert_eq!(told.lines().filter(|line| line.starts_with("gaussians ")).count(), 6, "{told}");
+    for threads in [1, 2] {
+        succeed(folder, &format!("kernel --material marble --method guided --threads {threads} -o {threads}.subsurf"));
+    }
+    let [one, two] = ["1.subsurf", "2.subsurf"].map(|name| std::fs::read(folder.join(name)).unwrap());
+    assert_eq!(one, two, "files do not hang on the number of threads");
+    let told = succeed(folder, "kernel --near 0.05/0.03/0.02 --far 1.2/0.4/0.2 --weight 0.5 -o two.subsurf").out;
+    assert!(told.contains("two-gaussians") && told.contains("--far 1.20000/0.40000/0.20000"), "{told}");
+    succeed(folder, "kernel --material skin2 --model dipole --reflectance 0.5 -o dipole.subsurf");
+
+    // Profiles of other programs, and of base materials.
+    std::fs::write(folder.join("grey.csv"), "r;rd\n0,5;0,2\n1,5;0,02\n").unwrap();
+    succeed(folder, "kernel grey.csv -o grey.subsurf");
+    succeed(folder, "kernel grey.csv grey.csv grey.csv -o three.subsurf");
+    simulate(folder, "a");
+    succeed(folder, "encode a.npy -M 2 -o a.subsurf");
+    succeed(folder, "kernel a.subsurf --base 1 --reflectance 0.7 -o base.subsurf");
+
+    let refused = |args: &str, says: &[&str]| assert_refused(&run(folder, args), says);
+    refused("kernel a.subsurf -o no.subsurf", &["which of its 2 base materials", "--base"]);
+    refused("kernel a.subsurf --base 2 -o no.subsurf", &["a.subsurf", "no base material 2", "2, from 0"]);
+    refused("kernel two.subsurf -o no.subsurf", &["two.subsurf", "expected a BSSRDF"]);
+    refused("kernel grey.csv --base 0 -o no.subsurf", &["--base is for a .subsurf file"]);
+    refused("kernel grey.csv grey.csv -o no.subsurf", &["two files"]);
+    refused("kernel grey.csv -o grey.csv", &["grey.csv", "is the input"]);
+    refused("kernel nowhere.csv -o no.subsurf", &["nowhere.csv"]);
+    refused("kernel --material skin1 --guide 2 -o no.subsurf", &["--guide is for --method guided"]);
+    refused("kernel --material skin1 --taps 4 -o no.subsurf", &["4 taps", "odd"]);
+    refused("kernel --near 1 --far 0.5 --weight 0.5 -o no.subsurf", &["near Gaussian of 1", "narrower"]);
+    refused("kernel --near x --far 0.5 --weight 0.5 -o no.subsurf", &["--near is x", "red/green/blue"]);
+    refused("kernel grey.csv --reflectance 2 -o no.subsurf", &["--reflectance is 2"]);
+    refused("kernel --material spectralon -o no.subsurf", &["spectralon does not absorb"]);
+    assert!(!folder.join("no.subsurf").exists(), "nothing is written");
+}

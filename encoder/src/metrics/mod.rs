@@ -1,9 +1,10 @@
 //! The one judge: errors of files against what was measured.
 //!
-//! Albedo error, PSNR and SSIM of BSSRDFs ([`bssrdf`]); PSNR and mean SSIM (MSSIM) of BTFs ([`btf`]).
+//! Albedo error, PSNR and SSIM of BSSRDFs ([`bssrdf`]); PSNR and mean SSIM (MSSIM) of BTFs ([`btf`]); errors of separable kernels ([`kernel`]).
 
 pub mod bssrdf;
 pub mod btf;
 mod image;
+pub mod kernel;
 
 pub use image::{psnr_db, ssim};

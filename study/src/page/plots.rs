@@ -59,6 +59,8 @@ const COLOURS: [RGBColor; 8] = [
     RGBColor(0xe3, 0x77, 0xc2),
     RGBColor(0x55, 0x55, 0x55),
 ];
+/// Points of a joined series that are still marked, at most.
+const MARKED: usize = 24;
 const SIZE: (u32, u32) = (560, 400);
 
 /// A chart with a legend in one of its corners.
@@ -91,8 +93,10 @@ pub(crate) fn chart(
             if series.joined {
                 chart.draw_series(LineSeries::new(points.clone(), colour.stroke_width(2)))?;
             }
+            // Points of a curve are too many to be marked.
+            let marked = if series.joined && series.points.len() > MARKED { 0 } else { usize::MAX };
             chart
-                .draw_series(points.map(|point| Circle::new(point, 4, colour.filled())))?
+                .draw_series(points.take(marked).map(|point| Circle::new(point, 4, colour.filled())))?
                 .label(&series.title)
                 .legend(move |(x, y)| Circle::new((x + 8, y), 4, colour.filled()));
         }

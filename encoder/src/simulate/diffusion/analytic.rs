@@ -77,4 +77,19 @@ impl HalfSpace {
         };
         self.sigma_s / sigma_t / (4.0 * PI) * (term(z_r) + term(z_v))
     }
+
+    /// T(d) = ∫_d^∞ Rd(r) 2πr dr of [`Self::dipole_rd`]: with D dD = r dr, each source gives α'/2 z e^(−σ_tr D) / D.
+    ///
+    /// T(0) is the albedo α'/2 (1 + e^(−4/3 A √(3(1−α')))) e^(−√(3(1−α'))) of Jensen and Buhler 2002, section 2.3.
+    #[must_use]
+    pub fn dipole_tail(&self, d_mm: f64) -> f64 {
+        let (sigma_t, sigma_tr) = (self.sigma_t(), self.sigma_tr());
+        let z_r = 1.0 / sigma_t;
+        let z_v = z_r * (1.0 + 4.0 / 3.0 * boundary_a(self.eta));
+        let term = |z: f64| {
+            let d = d_mm.hypot(z);
+            z * (-sigma_tr * d).exp() / d
+        };
+        0.5 * self.sigma_s / sigma_t * (term(z_r) + term(z_v))
+    }
 }

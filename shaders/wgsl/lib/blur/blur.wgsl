@@ -25,30 +25,3 @@ struct Taps {
     count: i32,
     sigma: f32,
 }
-
-// All maps, blurred at texel x; the fourth channel of the first keeps its depth.
-fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
-    let centre = maps_at(x)[0];
-    var sums: array<vec4<f32>, TERMS>;
-    // Depth of the background is beyond everything.
-    if centre.w > 50000.0 {
-        sums[0].w = centre.w;
-        return sums;
-    }
-    let taps = taps_at(centre);
-    var weights = 0.0;
-    for (var k = -taps.count; k <= taps.count; k++) {
-        let step = k * taps.stride;
-        var light = maps_at(x + step * stage.axis);
-        let distance = f32(step) / taps.sigma;
-        let weight = exp(-0.5 * distance * distance) * nearness(centre, light[0]);
-        weights += weight;
-        for (var l = 0u; l < TERMS; l++) {
-            sums[l] += weight * light[l];
-        }
-    }
-    for (var l = 0u; l < TERMS; l++) {
-        sums[l] = vec4<f32>(sums[l].xyz / weights, centre.w);
-    }
-    return sums;
-}

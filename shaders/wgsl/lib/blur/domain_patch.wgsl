@@ -17,9 +17,25 @@ fn taps_at(centre: vec4<f32>) -> Taps {
     return Taps(stage.stride, stage.taps + i32(centre.w), stage.sigma);
 }
 
-// Everything lies in one plane: full weight.
-fn nearness(centre: vec4<f32>, other: vec4<f32>) -> f32 {
-    return 1.0;
+// All maps, blurred at texel x.
+fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
+    let taps = taps_at(maps_at(x)[0]);
+    var sums: array<vec4<f32>, TERMS>;
+    var weights = 0.0;
+    for (var k = -taps.count; k <= taps.count; k++) {
+        let step = k * taps.stride;
+        var light = maps_at(x + step * stage.axis);
+        let distance = f32(step) / taps.sigma;
+        let weight = exp(-0.5 * distance * distance);
+        weights += weight;
+        for (var l = 0u; l < TERMS; l++) {
+            sums[l] += weight * light[l];
+        }
+    }
+    for (var l = 0u; l < TERMS; l++) {
+        sums[l] = vec4<f32>(sums[l].xyz / weights, 0.0);
+    }
+    return sums;
 }
 
 // Whether there is a sum to add to: not at the first stage.

@@ -5,6 +5,8 @@
 
 // Most taps to one side, close to the eye.
 const MOST_TAPS: f32 = 16.0;
+// Most that a slope makes a tap count: steeper ones are seen by chance.
+const MOST_STRETCH: f32 = 5.0;
 
 // Taps of the stage at the distance of a texel, whose depth in mm is in the fourth channel.
 fn taps_at(centre: vec4<f32>) -> Taps {
@@ -24,14 +26,77 @@ fn nearness(centre: vec4<f32>, other: vec4<f32>) -> f32 {
     return exp(-0.5 * min(d * d, 80.0));
 }
 
+// Length of the curve that a tap stands for, along which the surface lies, by its length across the view; of the depths of the tap
+// before, of this one and of the next. Where the surface ends, the change to one side tells nothing of its slope: it is the mean of
+// both, at most twice the smaller (van Leer 1977).
+fn arc_of(taps: Taps, depths: vec3<f32>) -> f32 {
+    let change = depths.yz - depths.xy;
+    let smaller = min(abs(change.x), abs(change.y));
+    let texel_mm = stage.step * domain.pitch_mm / taps.sigma;
+    let slope = min(0.5 * abs(change.x + change.y), 2.0 * smaller) / (f32(taps.stride) * texel_mm);
+    return min(sqrt(1.0 + slope * slope), MOST_STRETCH);
+}
+
+// What to divide a weighted sum by. The weights of a plane as steep as the middle tap, `stretch`, add up to `of_plane`; those of a
+// surface that curves away to less: what the eye does not see of it is taken to be half as bright. The narrowest Gaussian does not
+// reach around anything.
+fn whole_of(taps: Taps, weights: f32, stretch: f32) -> f32 {
+    // Of taps that are far apart only the middle one and its neighbours count; of others the sum is close to the integral.
+    let distances = taps.sigma / (f32(taps.stride) * stretch);
+    let few = 1.0 + 2.0 * exp(-0.5 * min(1.0 / (distances * distances), 80.0));
+    let of_plane = stretch * select(2.5066283 * distances, few, distances < 0.6);
+    return select(sqrt(weights * of_plane), weights, stage.has_sum == 0u);
+}
+
+// All maps, blurred at texel x; the fourth channel keeps its depth.
+fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
+    let centre = maps_at(x)[0];
+    var sums: array<vec4<f32>, TERMS>;
+    // Depth of the background is beyond everything.
+    if centre.w > 50000.0 {
+        sums[0].w = centre.w;
+        return sums;
+    }
+    let taps = taps_at(centre);
+    let next = taps.stride * stage.axis;
+    let first = x - taps.count * next;
+    var before = load_map(maps, within(first - next), 0u).w;
+    var light = maps_at(first);
+    var weights = 0.0;
+    var stretch = 1.0;
+    for (var k = -taps.count; k <= taps.count; k++) {
+        var after = maps_at(x + (k + 1) * next);
+        let arc = arc_of(taps, vec3<f32>(before, light[0].w, after[0].w));
+        stretch = select(stretch, arc, k == 0);
+        let distance = f32(k * taps.stride) / taps.sigma;
+        let weight = exp(-0.5 * distance * distance) * nearness(centre, light[0]) * arc;
+        weights += weight;
+        for (var l = 0u; l < TERMS; l++) {
+            sums[l] += weight * light[l];
+        }
+        before = light[0].w;
+        light = after;
+    }
+    let whole = whole_of(taps, weights, stretch);
+    for (var l = 0u; l < TERMS; l++) {
+        sums[l] = vec4<f32>(sums[l].xyz / whole, centre.w);
+    }
+    return sums;
+}
+
 // Whether there is a sum to add to: always, it begins with the transmitted light.
 fn has_sum() -> bool {
     return true;
 }
 
+// Texel x, clamped to the maps.
+fn within(x: vec2<i32>) -> vec2<i32> {
+    return clamp(x, vec2<i32>(0), vec2<i32>(domain.size) - 1);
+}
+
 // All maps at texel x, clamped to their size.
 fn maps_at(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
-    let texel = clamp(x, vec2<i32>(0), vec2<i32>(domain.size) - 1);
+    let texel = within(x);
     var all: array<vec4<f32>, TERMS>;
     for (var l = 0u; l < TERMS; l++) {
         all[l] = load_map(maps, texel, l);

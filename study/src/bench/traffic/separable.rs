@@ -104,12 +104,12 @@ mod tests {
             for facing in [0.0, 0.5, 1.0] {
                 let rows = frame(terms, facing).rows().unwrap();
                 let found: Vec<(&str, f64)> = rows.iter().map(|row| (row.entry, row.reads)).collect();
-                let taps = |taps: f64| l * (1.0 + 2.0 * taps + 1.0);
+                let taps = |taps: f64| l * (1.0 + 1.0 + 2.0 * taps + 1.0) + 1.0;
                 let expected = [
                     ("tsm_render", 0.0),
                     // c_l and the albedo; 4 × 4 depths of the shadow, or depth, flux, place and c_l at 9 places.
                     ("separable_gbuffer", l + 1.0 + facing * 16.0 + (1.0 - facing) * 9.0 * (3.0 + l)),
-                    // All maps at the texel and at the taps.
+                    // All maps at the texel, at the taps and at the one after them; depth at the one before.
                     ("blur_screen", (taps(2.0) + taps(4.0) + taps(16.0) + taps(2.0) + taps(4.0)) / 5.0),
                     ("sum_screen", 2.0 * l),
                     ("blur_screen_last", taps(16.0) + l),

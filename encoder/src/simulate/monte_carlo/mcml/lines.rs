@@ -46,6 +46,12 @@ impl<'a> Lines<'a> {
         }
     }
 
+    /// Goes to what follows the next line that is the one word `title`, which is called `expected`.
+    pub(super) fn skip_to(&mut self, title: &str, expected: &str) -> Result<()> {
+        while !self.next(expected)?.is(title) {}
+        Ok(())
+    }
+
     pub(super) fn refuse(&self, found: String, expected: &str) -> Error {
         Error::Input { path: self.path.into(), found, expected: expected.into() }
     }
@@ -67,6 +73,11 @@ impl<'a> Words<'a> {
     pub(super) fn word(&mut self, expected: &str) -> Result<&'a str> {
         let word = self.words.next();
         word.ok_or_else(|| self.refuse("the line's end", expected))
+    }
+
+    /// Whether the line is this one word.
+    fn is(mut self, word: &str) -> bool {
+        self.words.next() == Some(word) && self.words.next().is_none()
     }
 
     /// The words that are left.

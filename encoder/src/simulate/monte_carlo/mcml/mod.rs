@@ -6,10 +6,12 @@
 mod input;
 mod lines;
 mod output;
+mod results;
 mod scores;
 
 pub use input::read;
 pub use output::write;
+pub use results::read_rd;
 
 use super::request::Request;
 
