@@ -217,7 +217,7 @@ fn texture_loads_are_accounted_for() {
             ("sum_kernel", 2),
             ("shade_kernel", 2),
             // Taps clamped to what the maps hold; levels of the pyramid to what is left of it.
-            ("linsss_gbuffer", 5),
+            ("linsss_gbuffer", 4),
             ("linsss_blur", 3),
             ("linsss_reduce", 1),
             ("linsss_lookup", 4),

@@ -10,7 +10,7 @@ use subsurf_scene::{Camera, Environment, Light, LightShape, Mapping, Mesh, Scene
 use subsurf_shaders::separable::{BasisNumbers, ProjectedBasis};
 use subsurf_tests::frames::device;
 use subsurf_tests::{drawable, shape};
-use subsurf_viewer::{GpuAsset, RenderSession, light_of};
+use subsurf_viewer::{GpuAsset, RenderSession};
 
 /// Pixels of the patch to a side.
 const WIDTH: u32 = 32;
@@ -25,14 +25,15 @@ fn plate(shape: LightShape) -> (Mesh, Scene) {
     let half_mm = 0.5 * SIDE as f32 * PITCH_MM;
     let corners = [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]];
     let positions = corners.map(|[x, z]| Vec3::new(half_mm * x, 0.0, half_mm * z)).to_vec();
-    let uvs = corners.map(|[x, z]| Vec2::new(0.5 + 0.5 * x, 0.5 - 0.5 * z)).to_vec();
+    // Along y, z is up in the picture: x goes to the left.
+    let uvs = corners.map(|[x, z]| Vec2::new(0.5 - 0.5 * x, 0.5 + 0.5 * z)).to_vec();
     let mesh = Mesh::new(positions, vec![Vec3::Y; 4], Some(uvs), vec![[0, 1, 2], [0, 2, 3]], 1.0).unwrap();
     let eye_mm = Vec3::new(0.0, 8.0 * half_mm, 0.0);
     let scene = Scene {
         lights: vec![Light { shape, irradiance: [1.5; 3], shadow: Shadow::None }],
         environment: Environment::uniform([0.0; 3]),
         roughness: 0.1,
-        camera: Camera { eye_mm, target_mm: Vec3::ZERO, fov_y_rad: 2.0 * 0.125_f32.atan(), exposure: 1.0 },
+        camera: Camera { eye_mm, target_mm: Vec3::ZERO, fov_y_rad: 2.0 * 0.125_f32.atan(), exposure: 3.0 },
     };
     (mesh, scene)
 }
@@ -42,12 +43,15 @@ fn picture(gpu: &Gpu, material: Material, mesh: &Mesh, scene: &Scene) -> Vec<[f6
     let size = [WIDTH * u32::try_from(SCALE).unwrap(); 2];
     let mesh = GpuMesh::upload(gpu, mesh, VertexData::default()).unwrap();
     let asset = GpuAsset { mesh, material, mapping: Mapping::Uv([1.0; 2]) };
-    let options = RuntimeOptions { map_bytes_per_pixel: 1e3, ..RuntimeOptions::default() };
+    let options = RuntimeOptions { map_bytes_per_pixel: 1e3, tone_mapping: false, ..RuntimeOptions::default() };
     let mut session = RenderSession::new(gpu, asset, scene, size, options).unwrap();
     let pixels = session.picture(gpu, scene).unwrap();
     let at = |[x, y]: [usize; 2]| pixels[(y * SCALE + SCALE / 2) * SIDE * SCALE + x * SCALE + SCALE / 2];
     let places = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| [x, y]));
-    places.map(|place| light_of(at(place)).map(f64::from)).collect()
+    let found: Vec<[f64; 3]> = places.map(|place| at(place).map(|value| f64::from(value) / 255.0)).collect();
+    let brightest = found.iter().flatten().copied().fold(0.0, f64::max);
+    assert!((0.3..1.0).contains(&brightest), "exposed so that little is lost: {brightest}");
+    found
 }
 
 /// PSNR in dB over what is further than so many pixels from the border, each scaled so that the largest value is 1 and `found` as
