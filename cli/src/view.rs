@@ -14,7 +14,7 @@ use crate::images::FolderImages;
 use crate::options::{ByteCount, Size};
 use crate::outln;
 use crate::picture::{check_picture_target, image, write_picture};
-use crate::program::failure::{NoDisplay, line};
+use crate::program::failure::{NoDisplay, bad_request, line};
 use crate::render::{BtfArgs, Copies, MappingArg, SceneArg, TechniqueArg, UpArg, read_environment};
 
 /// Look at materials on a mesh in a window: turn it, drag the light, switch techniques, see the error; BTFs beside their images.
@@ -122,8 +122,8 @@ impl Args {
             set,
             mapping: self.mapping.into(),
             technique: match self.technique {
-                // Kernels are drawn in one way, whatever is asked of others.
-                Some(TechniqueArg::Kernel) | None => usual_technique(&self.files)?,
+                Some(TechniqueArg::Kernel) => of_kernels(&self.files)?,
+                None => usual_technique(&self.files)?,
                 Some(technique) => technique.scattering()?,
             },
             shows_error: self.error,
@@ -158,6 +158,16 @@ fn usual_technique(files: &[PathBuf]) -> anyhow::Result<Scattering> {
         let bytes = read(path)?;
         if matches!(parse(path, &bytes)?, DrawnMaterial::Bssrdf(material) if material.basis().is_none()) {
             return Ok(Scattering::Splat);
+        }
+    }
+    Ok(Scattering::Separable)
+}
+
+/// What kernels are opened with, which are drawn in one way; refused if other files are among them.
+fn of_kernels(files: &[PathBuf]) -> anyhow::Result<Scattering> {
+    for path in files {
+        if !matches!(parse(path, &read(path)?)?, DrawnMaterial::Kernel(_)) {
+            return Err(bad_request(format!("{}: no kernel; --technique kernel draws nothing else", path.display())));
         }
     }
     Ok(Scattering::Separable)

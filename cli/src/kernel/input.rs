@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use subsurf_decoder::{Content, File};
-use subsurf_encoder::Error;
 use subsurf_encoder::kernel::profile::{of_base, shipped};
 use subsurf_encoder::kernel::{Options, Profile, TwoGaussians};
 use subsurf_encoder::simulate::diffusion::Medium;
 use subsurf_encoder::simulate::monte_carlo::profile::PACKETS;
+use subsurf_encoder::{Error, Progress as _};
 use subsurf_viewer::read;
 
 use super::{Args, channels};
@@ -47,14 +47,20 @@ pub(super) fn profile(args: &Args, two: Option<&TwoGaussians>) -> anyhow::Result
 fn material(name: &str, args: &Args) -> anyhow::Result<(Profile, f32)> {
     let medium = Medium::measured(name).ok_or_else(|| bad_request(format!("no material is called {name}")))?;
     let eta = args.eta.map_or(Medium::measured_eta(name), f64::from);
+    #[allow(clippy::cast_possible_truncation, reason = "an index of few digits")]
+    let is_its_own = args.eta.is_none_or(|eta| eta == Medium::measured_eta(name) as f32);
     let traced = || match (args.photons, shipped::profile(name)) {
-        (None, Some(profile)) if args.eta.is_none() => Ok(profile),
+        (None, Some(profile)) if is_its_own => Ok(profile),
         (photons, _) => {
-            let _graceful = Graceful::new();
-            shipped::simulate(name, eta, photons.unwrap_or(PACKETS), &Bars::new()).map(|(profile, _)| profile)
+            let (_graceful, bars) = (Graceful::new(), Bars::new());
+            let (profile, _) = shipped::simulate(name, eta, photons.unwrap_or(PACKETS), &bars)?;
+            if bars.stopped() {
+                return Err(bad_request(format!("{name}: stopped, and no kernel is made of a part of the photons")));
+            }
+            Ok(profile)
         }
     };
-    let profile = match args.model {
+    let profile = match args.model.unwrap_or(Model::MonteCarlo) {
         Model::MonteCarlo => traced()?,
         Model::Dipole => Profile::dipole(&medium, eta)?,
         Model::Burley => Profile::normalised_diffusion(traced()?.reflectance(), &medium)?,
@@ -69,6 +75,9 @@ fn files(args: &Args) -> anyhow::Result<(Profile, f32)> {
     let of = |path: &Path, extension: &str| path.extension().is_some_and(|own| own.eq_ignore_ascii_case(extension));
     match args.input.iter().map(AsRef::as_ref).collect::<Vec<&Path>>()[..] {
         [one] if of(one, "subsurf") => base(one, args.base),
+        [_, _, ..] if args.input.iter().any(|path| of(path, "subsurf")) => {
+            Err(bad_request("several files; a .subsurf file has all channels, and stands alone"))
+        }
         [_, ..] if args.base.is_some() => Err(bad_request("--base is for a .subsurf file of base materials")),
         [one] => Ok((Profile::read(one)?, eta)),
         [r, g, b] => Ok((Profile::read_channels([r, g, b])?, eta)),

@@ -27,14 +27,14 @@ pub(crate) struct Args {
     /// A measured material (Jensen et al. 2001), half-infinite
     #[arg(long, value_parser = PossibleValuesParser::new(MEASURED.map(|(name, _)| name)), conflicts_with = "near")]
     material: Option<String>,
-    /// Where the profile of --material comes from
-    #[arg(long, value_enum, default_value = "monte-carlo", requires = "material")]
-    model: input::Model,
+    /// Where the profile of --material comes from [default: monte-carlo]
+    #[arg(long, value_enum)]
+    model: Option<input::Model>,
     /// Number of the base material of a .subsurf file, from 0
     #[arg(long, value_name = "N", requires = "input")]
     base: Option<u16>,
     /// Trace that many photon packets per channel of --material, instead of taking the profile that comes with the command
-    #[arg(long, requires = "material")]
+    #[arg(long)]
     photons: Option<u64>,
     /// The .subsurf file to write
     #[arg(long, short, required_unless_present = "compare")]
@@ -52,18 +52,19 @@ pub(crate) struct Args {
     #[arg(long, value_name = "K")]
     guide: Option<f64>,
     /// Variance of the near Gaussian along an axis in mm²: one number, or red/green/blue
-    #[arg(long, value_name = "R/G/B", requires_all = ["far", "weight"])]
+    #[arg(long, value_name = "R/G/B")]
     near: Option<String>,
     /// Variance of the far Gaussian in mm²
-    #[arg(long, value_name = "R/G/B", requires = "near")]
+    #[arg(long, value_name = "R/G/B")]
     far: Option<String>,
     /// Share of the near Gaussian, 0 to 1
-    #[arg(long, value_name = "R/G/B", requires = "near")]
+    #[arg(long, value_name = "R/G/B")]
     weight: Option<String>,
     /// Share of all light that comes back; the profile is scaled to it [default: that of the profile; 1 with --near]
     #[arg(long, value_name = "R/G/B")]
     reflectance: Option<String>,
-    /// Refractive index against air, 1 to 4 [default: that of the material or the file, else 1.3]
+    /// Refractive index against air, 1 to 4; a material with another than its own is traced anew [default: that of the material or
+    /// the file, else 1.3]
     #[arg(long)]
     eta: Option<f32>,
     /// Print the errors of all methods
@@ -106,6 +107,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
     }
     let options = options(args)?;
+    options.check()?;
     let (profile, eta) = input::profile(args, options.two_gaussians.as_ref())?;
     let options = Options { eta: args.eta.unwrap_or(eta), ..options };
     if let Some(output) = &args.output {
@@ -127,11 +129,18 @@ fn options(args: &Args) -> anyhow::Result<Options> {
     let named = args.method.as_deref();
     let method = KernelMethod::ALL.into_iter().find(|method| named == Some(method.name()));
     let method = method.unwrap_or(if by_hand { KernelMethod::TwoGaussians } else { KernelMethod::PreIntegrated });
-    if args.guide.is_some() && method != KernelMethod::Guided {
+    if args.guide.is_some() && method != KernelMethod::Guided && !args.compare {
         return Err(bad_request(format!("--guide is for --method guided, and this is {}", method.name())));
     }
     if by_hand && method != KernelMethod::TwoGaussians {
         return Err(bad_request(format!("--near is for --method two-gaussians, and this is {}", method.name())));
+    }
+    // The parser takes what an option requires for given where it conflicts with something that is.
+    if args.material.is_none() && (args.model.is_some() || args.photons.is_some()) {
+        return Err(bad_request("--model and --photons are for --material"));
+    }
+    if args.photons.is_some() && args.model == Some(input::Model::Dipole) {
+        return Err(bad_request("--photons: the dipole is a formula, and nothing is traced"));
     }
     let two_gaussians = match (&args.near, &args.far, &args.weight) {
         (Some(near), Some(far), Some(weight)) => Some(TwoGaussians {
@@ -139,7 +148,8 @@ fn options(args: &Args) -> anyhow::Result<Options> {
             tau_near: channels("--near", near)?,
             tau_far: channels("--far", far)?,
         }),
-        _ => None,
+        (None, None, None) => None,
+        _ => return Err(bad_request("two Gaussians by hand need all of --near, --far and --weight, and no profile")),
     };
     let is_sum = matches!(method, KernelMethod::Svd | KernelMethod::Gaussians);
     Ok(Options {
@@ -148,7 +158,7 @@ fn options(args: &Args) -> anyhow::Result<Options> {
         taps: args.taps,
         guide: args.guide.unwrap_or(Options::default().guide),
         two_gaussians,
-        ..Options::default()
+        eta: args.eta.unwrap_or(Options::default().eta),
     })
 }
 

@@ -23,8 +23,11 @@ pub(super) fn kernel(path: &Path, encoded: &Encoded, bytes: usize) {
     );
     outln!("  reflectance {r:.4} {g:.4} {b:.4}, refractive index {}", kernel.eta);
     if let Some(two) = &kernel.two_gaussians {
-        let text = |values: [f32; 3]| values.map(|value| format!("{value:.5}")).join("/");
-        outln!("  --near {} --far {} --weight {}", text(two.tau_near), text(two.tau_far), text(two.weight));
+        // As the command takes them, to the last bit.
+        let text = |values: [f32; 3]| values.map(|value| value.to_string()).join("/");
+        let [near, far, weight] = [two.tau_near, two.tau_far, two.weight].map(text);
+        let reflectance = text(kernel.reflectance);
+        outln!("  --near {near} --far {far} --weight {weight} --reflectance {reflectance} --eta {}", kernel.eta);
     }
     outln!("  errors: {}", words(&encoded.errors));
 }

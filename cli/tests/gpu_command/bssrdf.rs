@@ -198,7 +198,11 @@ fn kernels_are_made_of_profiles() {
     let [one, two] = ["1.subsurf", "2.subsurf"].map(|name| std::fs::read(folder.join(name)).unwrap());
     assert_eq!(one, two, "files do not hang on the number of threads");
     let told = succeed(folder, "kernel --near 0.05/0.03/0.02 --far 1.2/0.4/0.2 --weight 0.5 -o two.subsurf").out;
-    assert!(told.contains("two-gaussians") && told.contains("--far 1.20000/0.40000/0.20000"), "{told}");
+    assert!(
+        told.contains("two-gaussians")
+            && told.contains("--far 1.2/0.4/0.2 --weight 0.5/0.5/0.5 --reflectance 1/1/1 --eta 1.3"),
+        "{told}"
+    );
     succeed(folder, "kernel --material skin2 --model dipole --reflectance 0.5 -o dipole.subsurf");
 
     // Profiles of other programs, and of base materials.
@@ -220,6 +224,18 @@ fn kernels_are_made_of_profiles() {
     refused("kernel --material skin1 --guide 2 -o no.subsurf", &["--guide is for --method guided"]);
     refused("kernel --material skin1 --taps 4 -o no.subsurf", &["4 taps", "odd"]);
     refused("kernel --near 1 --far 0.5 --weight 0.5 -o no.subsurf", &["near Gaussian of 1", "narrower"]);
+    refused("kernel grey.csv --model burley -o no.subsurf", &["--model and --photons are for --material"]);
+    refused("kernel grey.csv --photons 3 -o no.subsurf", &["--model and --photons are for --material"]);
+    refused(
+        "kernel grey.csv --method two-gaussians --weight 1 --far 2 -o no.subsurf",
+        &["all of --near, --far and --weight"],
+    );
+    refused(
+        "kernel --material marble --model dipole --photons 5 -o no.subsurf",
+        &["--photons: the dipole is a formula"],
+    );
+    refused("kernel --material skin1 --method svd --terms 99 --compare", &["99 terms"]);
+    refused("kernel a.subsurf a.subsurf a.subsurf -o no.subsurf", &["a .subsurf file has all channels"]);
     refused("kernel --near x --far 0.5 --weight 0.5 -o no.subsurf", &["--near is x", "red/green/blue"]);
     refused("kernel grey.csv --reflectance 2 -o no.subsurf", &["--reflectance is 2"]);
     refused("kernel --material spectralon -o no.subsurf", &["spectralon does not absorb"]);

@@ -136,7 +136,11 @@ fn prepared(profile: &Profile) -> Result<Profile> {
 }
 
 impl Options {
-    fn check(&self) -> Result<()> {
+    /// Refuses what no kernel can be made with, whatever the profile.
+    ///
+    /// # Errors
+    /// [`Error::Request`] for numbers of terms or taps, guides, indices or Gaussians out of range.
+    pub fn check(&self) -> Result<()> {
         let refuse = |text: String| Err(Error::Request(text));
         let [fewest, most] = TAPS.map(usize::from);
         if !(1..=usize::from(MAX_TERMS)).contains(&self.terms) {

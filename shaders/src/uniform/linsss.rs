@@ -41,6 +41,6 @@ pub struct LinsssStage {
     pub levels: u32,
     /// Level that is drawn.
     pub level: u32,
-    #[doc(hidden)]
-    pub pad: [u32; 2],
+    /// Texels of the maps, of which the first hold something, columns and rows.
+    pub most: [i32; 2],
 }

@@ -16,8 +16,8 @@ struct LinsssStage {
     // Levels of the pyramid, and the one that is drawn.
     levels: u32,
     level: u32,
-    pad_0: u32,
-    pad_1: u32,
+    // Texels of the maps, of which the first hold something, columns and rows.
+    most: vec2<i32>,
 }
 
 @group(0) @binding(0) var<uniform> stage: LinsssStage;
@@ -47,5 +47,7 @@ fn variance_of(level: u32) -> f32 {
 
 // Last texel of a level that holds anything. Levels 0, 1 and 2 are of the same size.
 fn last_of(level: u32) -> vec2<i32> {
-    return (stage.size - 1) >> vec2<u32>(max(level, 2u) - 2u);
+    let halvings = vec2<u32>(max(level, 2u) - 2u);
+    // A half texel at the end has none of its own where the map ends.
+    return min((stage.size - 1) >> halvings, max(stage.most >> halvings, vec2<i32>(1)) - 1);
 }

@@ -50,6 +50,7 @@ impl Bindings for Bound {
             focal_texels: self.area.texels_per_tangent(view),
             middle_mm: group.middle_mm(),
             perspective: if view.is_parallel() { 0.0 } else { 1.0 },
+            most: self.maps.size().map(|side| i32::try_from(side).unwrap_or(i32::MAX)),
             levels: u32::try_from(self.maps.levels.len()).unwrap_or(1),
             ..LinsssStage::default()
         };
@@ -95,7 +96,7 @@ impl Bindings for Bound {
         if matches!(maps.by, Means::Blurs(_)) {
             return;
         }
-        let most = [maps.light.texture.width(), maps.light.texture.height()];
+        let most = maps.size();
         for ((turn, level), k) in self.reductions.iter().zip(&maps.levels[1..]).zip(1_u32..) {
             // Levels 0, 1 and 2 are of the same size. Half texels at the end have none of their own where the map ends.
             let halvings = k.max(2) - 2;

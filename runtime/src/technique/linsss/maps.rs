@@ -37,6 +37,11 @@ fn levels_of(size: [u32; 2]) -> u32 {
 }
 
 impl Maps {
+    /// Texels, columns and rows.
+    pub(super) fn size(&self) -> [u32; 2] {
+        [self.light.texture.width(), self.light.texture.height()]
+    }
+
     /// Bytes on the device of maps of so many texels.
     pub(crate) fn bytes_of(size: [u32; 2], gaussians: usize, is_shortcut: bool) -> u64 {
         let map = TextureSpec::target("", size, HALF).bytes();
