@@ -199,6 +199,8 @@ fn tables_are_read_as_people_write_them() {
         rows.replace(',', "  ").replace('\n', " # here\r\n\r\n"),
         "r_from_mm,r_to_mm,rd_red,rd_green,rd_blue\n0,1,0.2,0.1,0.05\n1,2,0.02,0.01,0.005\n".to_owned(),
         "r,rd,g,b,error\n0.5,0.2,0.1,0.05,9\n1.5,0.02,0.01,0.005,9\n".to_owned(),
+        // Decimal commas beside tabs, and a tab before a comment.
+        rows.replace(',', "\t").replace('.', ",").replace('\n', "\t# here\n"),
     ];
     for text in alike {
         assert_eq!(read(&text).as_ref(), Ok(&plain), "{text}");
@@ -231,12 +233,47 @@ fn tables_that_are_none_are_refused_in_one_line() {
         ("r_from_mm,r_to_mm,rd\n1,2,1\n2,3,1\n", "a first ring from 1 mm"),
         ("r_from_mm,r_to_mm,rd\n0,1,1\n1,1,1\n", "a radius of 1 mm in line 3"),
         ("0,1e300\n1e200,1e300\n", "in red; expected some light"),
+        ("r_from_mm,r_to_mm,rd\n0,1,0.1\n0.99995,1,0.1\n", "r = 1 mm after 1 mm in line 3; expected radii that ascend"),
+        // Fields that are missing would shift columns.
+        ("0.5,,0.02,0.01,0.009\n1.5,0.02,0.01,0.005,0.001\n", "an empty field in line 1; expected finite numbers"),
+        ("\t0.02\t0.01\n1.5\t0.02\t0.01\n", "an empty field in line 1"),
+        ("0.5;0.02;\n1.5;0.02;0.01\n", "an empty field in line 1"),
+        (",0.02\n0.5,0.02\n1.5,0.01\n", "an empty field in line 1"),
+        // Slips are no titles, and there is one title.
+        ("0.O5,9,9,9\n0.5,0.2,0.1,0.05\n1.5,0.02,0.01,0.005\n", "0.O5,9,9,9 in line 1; expected finite numbers"),
+        ("0,inf\n0.5,0.2\n1.5,0.02\n", "0,inf in line 1"),
+        ("-o,1\n0.5,0.2\n1.5,0.02\n", "-o,1 in line 1"),
+        ("NaN,1\n0.5,0.2\n1.5,0.02\n", "NaN,1 in line 1"),
+        ("r,rd\nmm,1/mm2\n0.5,0.2\n1.5,0.02\n", "mm,1/mm2 in line 2; expected finite numbers, below one title at most"),
+        // A blank is no separator beside a comma.
+        ("0,5 0,2\n1,5 0,02\n", "0,5 0,2 in line 1"),
+        // Sizes that no file of a kernel has.
+        ("0,1e-301\n1e150,1e-301\n", "a radius of 9.995e149 mm in red; expected 1e-6 to 1e6 mm: are radii in mm?"),
+        ("0,1e190\n1e-100,1e190\n", "mm in red; expected 1e-6 to 1e6 mm"),
+        ("0,1e-15\n1e7,1e-15\n", "a radius of 9.995e6 mm in red"),
+        // Light in a ring that is too narrow to have an area.
+        ("r_from_mm,r_to_mm,rd\n0,1e-200,1\n1e-200,1,0.1\n", "a radius of 0.000e0 mm in red"),
+        ("0,1\n1.2e-6,1\n", "mm² in red; expected 1e-12 to 1e12 mm²: are radii in mm?"),
     ];
     for (text, says) in wrong {
         let error = read(text).unwrap_err();
         assert!(error.contains(says) && !error.contains('\n'), "{text:?}: {error}");
     }
     assert!(Profile::read(Path::new("nowhere.csv")).unwrap_err().to_string().contains("nowhere.csv"), "no file");
+}
+
+/// Whatever is read becomes a file, by all methods.
+#[test]
+fn smallest_and_largest_tables_become_kernels() {
+    // The last has a core that is narrower than Gaussians of files are.
+    let core = "r_from_mm,r_to_mm,rd\n0,1e-6,1e14\n1e-6,3e-5,2.8e10\n";
+    for text in ["0,1\n3e-6,1\n", "0,1\n9.9e5,1\n", core] {
+        let profile = read(text).unwrap().with_reflectance([0.5; 3]);
+        for method in KernelMethod::ALL {
+            let kernel = encode(&profile, &with(method, 1)).unwrap().kernel;
+            assert!(kernel.to_bytes().is_ok(), "{text:?}, {method:?}: {:?}", kernel.to_bytes());
+        }
+    }
 }
 
 #[test]
@@ -261,14 +298,31 @@ fn mcml_files_are_profiles() {
         // All that leaves is in the rings, what is beyond in the last of them; numbers have five digits.
         let [found, sent] = [profile.reflectance()[0], outcome.reflected.mean + outcome.ballistic_reflected.mean];
         assert!((found / sent - 1.0).abs() < 1e-3, "{found} {sent}");
-        for cut in (0..written.len()).step_by(97) {
-            if let Some(text) = written.get(..cut) {
-                std::fs::write(&path, text).unwrap();
-                if let Err(error) = Profile::read(&path) {
-                    assert!(!error.to_string().contains('\n'), "{error}");
-                }
+        // Rd_r has a line for each of its five rings.
+        let title = written.find("\nRd_r #").unwrap();
+        let last = title + written[title..].match_indices('\n').nth(5).unwrap().0;
+        for cut in (0..written.len()).step_by(97).chain([last]) {
+            let Some(text) = written.get(..cut) else { continue };
+            std::fs::write(&path, text).unwrap();
+            match Profile::read(&path) {
+                Ok(_) => assert!(cut > last, "cut after {cut} bytes, before the last ring's at {last}"),
+                Err(error) => assert!(!error.to_string().contains('\n'), "{error}"),
             }
         }
+    }
+}
+
+/// A device does not say how long it is.
+#[cfg(unix)]
+#[test]
+fn mcml_files_without_an_end_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, says) in [("zero.mco", "more than 256 MiB"), ("zero.mci", "more than 1 MiB")] {
+        let path = folder.path().join(name);
+        std::os::unix::fs::symlink("/dev/zero", &path).unwrap();
+        let result = if name.ends_with("mco") { Profile::read(&path).err() } else { mcml::read(&path).err() };
+        let error = result.unwrap().to_string();
+        assert!(error.contains(says) && !error.contains('\n'), "{error}");
     }
 }
 

@@ -1,5 +1,6 @@
-//! `.subsurf` files as bytes and on disk.
+//! `.subsurf` files as bytes and on disk, and texts of others.
 
 pub(crate) mod container;
 pub(crate) mod output;
 pub(crate) mod reread;
+pub(crate) mod text;

@@ -1,5 +1,7 @@
 //! The artist's model: two Gaussians along an axis.
 
+use subsurf_decoder::kernel::layout::VARIANCES;
+
 use crate::kernel::grid::{Grid, Separable};
 use crate::kernel::profile::Radial;
 use crate::math::lbfgs::{Bounds, Limits, Objective, minimise};
@@ -30,14 +32,17 @@ pub(in crate::kernel) fn fit(radial: &Radial, grid: &Grid) -> Two {
     let problem = Problem { grid, widths: grid.widths(), target: grid.means(|x| radial.along_axis_to(x) / energy) };
     let variance = radial.variance_mm2();
     let shift = variance.ln();
+    // Files have no variances beyond these.
+    let [least, most] = VARIANCES.map(|variance| f64::from(variance).ln());
+    let within = |log: f64| log.clamp(least, most);
     let bounds = |side: usize| {
-        let log = |k: usize| BOUNDS[k][side] + shift;
+        let log = |k: usize| within(BOUNDS[k][side] + shift);
         vec![BOUNDS[0][side], log(1), log(2)]
     };
     let bounds = Bounds { lower: bounds(0), upper: bounds(1) };
     let limits = Limits { relative_reduction: 1e-10, iterations: 300, is_stopped: &|| false };
     let found = STARTS.map(|[near, far]| {
-        let start = vec![0.5, near.ln() + shift, far.ln() + shift];
+        let start = vec![0.5, within(near.ln() + shift), within(far.ln() + shift)];
         let p = minimise(&problem, &bounds, start, &limits);
         (problem.evaluate(&p).0, p)
     });

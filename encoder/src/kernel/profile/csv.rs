@@ -1,14 +1,14 @@
 //! Profiles in tables of numbers: measured ones, and those that are simulated here.
 
 use std::fmt::Write as _;
-use std::io::Read as _;
 use std::path::Path;
 
 use super::{Profile, Radial, points, rings};
 use crate::error::{Error, Result};
+use crate::file::text::read_text;
 
-/// Bytes of a table, at most.
-const MAX_BYTES: u64 = 64 << 20;
+/// MiB of a table, at most.
+const MAX_MIB: u64 = 64;
 /// Titles of the columns of radii where rows are rings.
 const FROM_TO: [&str; 2] = ["r_from_mm", "r_to_mm"];
 /// Share by which middles of equal rings may be off: they are written with seven digits.
@@ -20,15 +20,18 @@ type Row = (usize, Vec<f64>);
 
 /// The profile of a table; see [`Profile::read`].
 pub(super) fn read(path: &Path) -> Result<Profile> {
-    let refuse = |found: String| Error::input(path, found, "a table of r and R_d (.csv)");
-    let file = std::fs::File::open(path).map_err(|error| refuse(error.to_string()))?;
-    let mut bytes = Vec::new();
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|error| refuse(error.to_string()))?;
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(refuse(format!("more than {} MiB", MAX_BYTES >> 20)));
+    let profile = parse(path, &read_text(path, MAX_MIB, "a table of r and R_d (.csv)")?)?;
+    let condensed = profile.condensed();
+    for (c, name) in ["red", "green", "blue"].into_iter().enumerate() {
+        let energy = profile.channels[c].energy();
+        // Profiles without light are refused by who asks for them.
+        if energy > 0.0 && energy.is_finite() {
+            let refuse =
+                |(found, expected): (String, String)| Error::input(path, format!("{found} in {name}"), expected);
+            condensed.channels[c].limited().map_err(refuse)?;
+        }
     }
-    // Comments may be in any encoding.
-    parse(path, &String::from_utf8_lossy(&bytes))
+    Ok(profile)
 }
 
 /// The profile of a table's text; `path` is what errors name.
@@ -60,8 +63,10 @@ pub(super) fn parse(path: &Path, text: &str) -> Result<Profile> {
         if has_rings && (r_mm - before).abs() > EQUAL * before {
             return Err(place(&pair[1], format!("a ring from {r_mm} mm"), "one from where the last ended"));
         }
-        if !has_rings && r_mm <= before {
-            return Err(place(&pair[1], format!("r = {r_mm} mm after {before} mm"), "radii that ascend"));
+        // Where a ring begins may be off by rounding, so that it could end where it begins.
+        let end = pair[1].1[radii - 1];
+        if end <= before {
+            return Err(place(&pair[1], format!("r = {end} mm after {before} mm"), "radii that ascend"));
         }
     }
     if rows.len() < 2 {
@@ -87,31 +92,42 @@ pub(super) fn parse(path: &Path, text: &str) -> Result<Profile> {
 
 /// Whether rows are of rings by their titles, and the rows of numbers.
 fn rows(path: &Path, text: &str) -> Result<(bool, Vec<Row>)> {
-    let mut has_rings = false;
+    let mut titles: Option<Vec<String>> = None;
     let mut rows: Vec<Row> = Vec::new();
-    for (number, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
-        let line = line.split('#').next().unwrap_or("").trim();
-        if line.is_empty() {
+    for (line, number) in text.trim_start_matches('\u{feff}').lines().zip(1..) {
+        let line = line.split_once('#').map_or(line, |(before, _)| before.trim_end());
+        if line.trim().is_empty() {
             continue;
         }
-        // Where columns are parted by semicolons, commas are decimal points.
-        let (line, separators): (String, &[char]) =
-            if line.contains(';') { (line.replace(',', "."), &[';']) } else { (line.to_owned(), &[',', '\t', ' ']) };
-        let words: Vec<&str> = line.split(separators).map(str::trim).collect();
-        let words = words.into_iter().filter(|word| !word.is_empty());
-        let values: Option<Vec<f64>> =
-            words.clone().map(|word| word.parse().ok().filter(|value: &f64| value.is_finite())).collect();
-        match values {
-            Some(values) if !values.is_empty() => rows.push((number + 1, values)),
-            // A title, once.
-            _ if rows.is_empty() && !has_rings => has_rings = words.clone().take(2).eq(FROM_TO),
-            _ => {
-                let found = format!("{line} in line {}", number + 1);
-                return Err(Error::input(path, found, format!("finite numbers: {COLUMNS}")));
-            }
+        let fields = fields(line);
+        let values = fields.iter().map(|field| field.parse().ok().filter(|value: &f64| value.is_finite()));
+        if let Some(values) = values.collect() {
+            rows.push((number, values));
+        } else if rows.is_empty() && titles.is_none() && is_title(&fields[0]) {
+            titles = Some(fields);
+        } else {
+            let found = if fields.iter().any(String::is_empty) { "an empty field" } else { line };
+            let expected = format!("finite numbers, below one title at most: {COLUMNS}");
+            return Err(Error::input(path, format!("{found} in line {number}"), expected));
         }
     }
-    Ok((has_rings, rows))
+    Ok((titles.is_some_and(|titles| titles.iter().take(2).eq(&FROM_TO)), rows))
+}
+
+/// Fields of a line between the first of `;`, tab and `,` that it has, or else between blanks. Where columns are parted by
+/// semicolons or tabs, commas are decimal points.
+fn fields(line: &str) -> Vec<String> {
+    let separator = [';', '\t', ','].into_iter().find(|separator| line.contains(*separator));
+    match separator {
+        Some(',') => line.split(',').map(|field| field.trim().to_owned()).collect(),
+        Some(separator) => line.split(separator).map(|field| field.trim().replace(',', ".")).collect(),
+        None => line.split_whitespace().map(str::to_owned).collect(),
+    }
+}
+
+/// Whether a line that begins with this field is a title, rather than numbers with a slip.
+fn is_title(field: &str) -> bool {
+    field.parse::<f64>().is_err() && field.starts_with(|c: char| !c.is_numeric() && !"+-−.".contains(c))
 }
 
 /// Width of rings whose middles these are, if they are.

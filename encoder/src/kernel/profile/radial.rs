@@ -2,6 +2,11 @@
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
+use subsurf_decoder::kernel::layout::{RADII_MM, VARIANCES};
+
+/// Share of the light that may leave beyond a kernel's radius; it is moved within.
+const BEYOND: f64 = 1e-3;
+
 /// R_d(r) of one channel in mm⁻², constant in rings and 0 beyond the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Radial {
@@ -143,6 +148,20 @@ impl Radial {
         let cut = Self::new(edges, rd);
         let factor = self.energy() / cut.energy();
         cut.scaled(factor)
+    }
+
+    /// The profile as far as it reaches but for a thousandth of its light; what was found and what is expected, where files of
+    /// kernels have no such radius or variance.
+    pub(crate) fn limited(&self) -> Result<Self, (String, String)> {
+        let cut = self.cut(self.radius_of(BEYOND));
+        let sizes = [("radius", "mm", cut.radius_mm(), RADII_MM), ("variance", "mm²", cut.variance_mm2(), VARIANCES)];
+        for (name, unit, size, [least, most]) in sizes {
+            if !(f64::from(least)..=f64::from(most)).contains(&size) {
+                let expected = format!("{least:e} to {most:e} {unit}: are radii in mm?");
+                return Err((format!("a {name} of {size:.3e} {unit}"), expected));
+            }
+        }
+        Ok(cut)
     }
 
     /// The profile in fewer rings, each at least `growth` of its inner radius wide, of the same energies.

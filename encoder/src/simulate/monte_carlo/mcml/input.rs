@@ -5,10 +5,11 @@ use std::path::Path;
 use super::lines::Lines;
 use super::{MM, Run, Version, scores};
 use crate::error::{Error, Result};
+use crate::file::text::read_text;
 use crate::simulate::monte_carlo::{Axes, Grid, Layer, Quantity, Request, Score, Source, Stack};
 
-/// Bytes of an `.mci` file, at most.
-const MAX_BYTES: u64 = 1 << 20;
+/// MiB of an `.mci` file, at most.
+const MAX_MIB: u64 = 1;
 
 /// Runs of the `.mci` file at `path`, version 1 or 2.
 ///
@@ -17,14 +18,7 @@ const MAX_BYTES: u64 = 1 << 20;
 /// [`Error::Input`] that names the line, what stands there and what is expected; [`Error::Request`] for a run that cannot be
 /// made.
 pub fn read(path: &Path) -> Result<Vec<Run>> {
-    let input = |found: String, expected: &str| Error::Input { path: path.into(), found, expected: expected.into() };
-    let bytes = std::fs::metadata(path).map_err(|error| input(error.to_string(), "an .mci file"))?.len();
-    if bytes > MAX_BYTES {
-        return Err(input(format!("{bytes} bytes"), "an .mci file of at most 1 MiB"));
-    }
-    let text = std::fs::read(path).map_err(|error| input(error.to_string(), "an .mci file"))?;
-    // Comments may be in any encoding.
-    let text = String::from_utf8_lossy(&text);
+    let text = read_text(path, MAX_MIB, "an .mci file of at most 1 MiB")?;
     let mut lines = Lines::new(path, &text);
     let mut first = lines.next("version 1.0 or mcmli2.0")?;
     let runs = match first.word("version 1.0 or mcmli2.0")? {

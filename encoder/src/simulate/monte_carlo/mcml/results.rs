@@ -5,11 +5,13 @@ use std::path::Path;
 use super::MM;
 use super::lines::Lines;
 use crate::error::{Error, Result};
+use crate::file::text::read_text;
 
-/// Bytes of an `.mco` file, at most.
-const MAX_BYTES: u64 = 256 << 20;
+/// MiB of an `.mco` file, at most.
+const MAX_MIB: u64 = 256;
 /// Rings, at most, as of a simulation.
 const MAX_RINGS: usize = 1 << 20;
+const EXPECTED: &str = "an .mco file of MCML";
 
 /// Width of a ring in mm and R_d of each in mm⁻², of the `.mco` file at `path`, version 1 or 2. What left beyond the last ring is in
 /// it, as MCML has it.
@@ -18,13 +20,8 @@ const MAX_RINGS: usize = 1 << 20;
 ///
 /// [`Error::Input`] that names what stands there and what is expected.
 pub fn read_rd(path: &Path) -> Result<(f64, Vec<f64>)> {
-    let refuse = |found: String| Error::input(path, found, "an .mco file of MCML");
-    let bytes = std::fs::metadata(path).map_err(|error| refuse(error.to_string()))?.len();
-    if bytes > MAX_BYTES {
-        return Err(refuse(format!("{bytes} bytes")));
-    }
-    let text = std::fs::read(path).map_err(|error| refuse(error.to_string()))?;
-    let text = String::from_utf8_lossy(&text);
+    let refuse = |found: String| Error::input(path, found, EXPECTED);
+    let text = read_text(path, MAX_MIB, EXPECTED)?;
     let mut lines = Lines::new(path, &text);
     let version = lines.next("version A1 or mcmloA2.0")?.word("version A1 or mcmloA2.0")?;
     let (dr_mm, rings) = match version {
