@@ -48,7 +48,7 @@ pub(crate) struct Args {
     /// Samples of a convolution, an odd number from 5 to 65
     #[arg(long, value_name = "N", default_value_t = Options::default().taps)]
     taps: usize,
-    /// k of guided: 0 for near scattering to 4 for far scattering [default: 1.55, which is close to pre-integrated]
+    /// k of guided: 0 for near scattering to 4 for far scattering [default: 1.55, neutral]
     #[arg(long, value_name = "K")]
     guide: Option<f64>,
     /// Variance of the near Gaussian along an axis in mm²: one number, or red/green/blue
@@ -83,7 +83,8 @@ Methods:
   svd             the closest of a given number of products (--terms, default 4)
   gaussians       a sum of Gaussians (d'Eon et al. 2007; --terms, default 4)
 
-Tables have rows of r in mm and R_d in mm⁻² of red, green and blue, or of all; titles and lines of # are passed over.
+Tables have rows of r in mm and R_d in mm⁻² of red, green and blue, or of all, per light that entered the surface; a title and lines
+of # are passed over.
 
 Errors: Frobenius and L1 are those of the profile in the plane, as shares of it. Dot and edge are the largest errors of what is
 seen around a lit disc and beside a shadow's edge, as shares of the brightest. Channels are averaged.

@@ -14,8 +14,8 @@ use crate::metrics::kernel::{KernelErrors, Truth};
 
 /// Entries of the table T(d).
 const TAIL: usize = 64;
-/// Share of a channel's light that may leave beyond the kernel's radius; it is moved within.
-const BEYOND: f64 = 1e-3;
+/// What a reflectance of 1 may be too large by: profiles add up in rounded numbers.
+const ROUNDING: f64 = 1e-6;
 /// Cells along half an axis in which kernels are fitted and judged.
 const CELLS: usize = 128;
 
@@ -37,7 +37,7 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// Pre-integrated, 25 taps; k = 1.55, which is close to it (section D); η = 1.3.
+    /// Pre-integrated, 25 taps; k = 1.55, neutral by section D; η = 1.3.
     fn default() -> Self {
         Self { method: KernelMethod::PreIntegrated, terms: 1, taps: 25, guide: 1.55, two_gaussians: None, eta: 1.3 }
     }
@@ -125,14 +125,19 @@ pub fn compare(profile: &Profile, options: &[Options]) -> Result<Vec<KernelError
 /// The profile in wide rings, each channel as far as it reaches but for a thousandth of its light.
 fn prepared(profile: &Profile) -> Result<Profile> {
     for (energy, name) in profile.reflectance().into_iter().zip(["red", "green", "blue"]) {
-        if !(energy > 0.0 && energy <= 1.0) {
+        if !(energy > 0.0 && energy <= 1.0 + ROUNDING) {
             return Err(Error::Request(format!(
                 "R_d adds up to {energy:.4} in {name}; expected a reflectance up to 1: are radii in mm and R_d in mm⁻²? Say what the reflectance is, if not"
             )));
         }
     }
-    let condensed = profile.condensed();
-    Ok(Profile { channels: condensed.channels.map(|radial| radial.cut(radial.radius_of(BEYOND))) })
+    let mut channels = profile.condensed().channels;
+    for (radial, name) in channels.iter_mut().zip(["red", "green", "blue"]) {
+        let refuse =
+            |(found, expected): (String, String)| Error::Request(format!("{found} in {name}; expected {expected}"));
+        *radial = radial.limited().map_err(refuse)?.scaled(1.0 / radial.energy().max(1.0));
+    }
+    Ok(Profile { channels })
 }
 
 impl Options {

@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::{Profile, Radial, points, rings};
+use super::{Profile, Radial, entered, points, rings};
 use crate::error::{Error, Result};
 use crate::file::text::read_text;
+use crate::simulate::monte_carlo::profile::mirrored;
 
 /// MiB of a table, at most.
 const MAX_MIB: u64 = 64;
@@ -87,7 +88,8 @@ pub(super) fn parse(path: &Path, text: &str) -> Result<Profile> {
     if has_rings && rows[0].1[0] != 0.0 {
         return Err(place(&rows[0], format!("a first ring from {} mm", rows[0].1[0]), "one from 0"));
     }
-    Ok(Profile { channels: std::array::from_fn(channel) })
+    let mirrored = mirrored(text);
+    Ok(Profile { channels: std::array::from_fn(|c| channel(c).scaled(entered(mirrored[c]))) })
 }
 
 /// Whether rows are of rings by their titles, and the rows of numbers.

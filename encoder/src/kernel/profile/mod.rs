@@ -23,7 +23,8 @@ use crate::simulate::monte_carlo::profile::Profiles;
 /// Width of rings by their inner radius: finer ones hold more noise than shape.
 const GROWTH: f64 = 0.05;
 
-/// R_d(r) in mm⁻² of red, green and blue.
+/// R_d(r) in mm⁻² of red, green and blue: radiant exitance per radiant flux that *entered*, Fresnel transmission on the way in not
+/// included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     /// Red, green and blue; each has rings of its own.
@@ -38,6 +39,9 @@ impl Profile {
     /// columns of radii with the titles `r_from_mm` and `r_to_mm` are those of any rings; other rows are points, between
     /// which R_d falls exponentially. What is negative is noise, and becomes 0.
     ///
+    /// MCML and `simulate profile` give R_d per flux that was sent, and say which share R_sp the surface mirrored: it is divided by
+    /// 1 − R_sp. Any other table is taken as it is, and has to be per flux that entered.
+    ///
     /// # Errors
     ///
     /// [`Error::Input`] that names the line, what stands there and what is expected.
@@ -46,8 +50,8 @@ impl Profile {
         if !is_mco {
             return csv::read(path)?.checked(&|found, expected| Error::input(path, found, expected));
         }
-        let (dr_mm, rd) = mcml::read_rd(path)?;
-        let radial = rings(dr_mm, &rd);
+        let (dr_mm, rd, mirrored) = mcml::read_rd(path)?;
+        let radial = rings(dr_mm, &rd).scaled(entered(mirrored));
         Self { channels: [radial.clone(), radial.clone(), radial] }
             .checked(&|found, expected| Error::input(path, found, expected))
     }
@@ -65,7 +69,7 @@ impl Profile {
         Ok(Self { channels: std::array::from_fn(|c| files[c].channels[c].clone()) })
     }
 
-    /// The profile that was simulated, what left beyond the rings within them.
+    /// The profile that was simulated, what left beyond the rings within them; simulations count per flux that was sent.
     ///
     /// # Errors
     ///
@@ -75,7 +79,8 @@ impl Profile {
             let simulated = &profiles.channels[c];
             let radial = rings(profiles.dr_mm, &simulated.rd);
             let inside = radial.energy();
-            if inside > 0.0 { radial.scaled((inside + simulated.beyond) / inside) } else { radial }
+            let all = if inside > 0.0 { (inside + simulated.beyond) / inside } else { 1.0 };
+            radial.scaled(all * entered(simulated.specular))
         };
         Self { channels: std::array::from_fn(channel) }
             .checked(&|found, _| Error::Request(format!("{found}; trace more photons")))
@@ -123,6 +128,11 @@ impl Profile {
         }
         Ok(self)
     }
+}
+
+/// Flux that was sent by what entered, where the surface mirrored the share `mirrored`.
+fn entered(mirrored: f64) -> f64 {
+    1.0 / (1.0 - mirrored)
 }
 
 /// Rings of one width; what is negative is 0.

@@ -18,6 +18,13 @@ impl Profile {
     ///
     /// [`Error::Request`] where a channel does not scatter or does not absorb.
     pub fn dipole(medium: &Medium, eta: f64) -> Result<Self> {
+        for ((sigma_a, sigma_s), name) in medium.sigma_a.iter().zip(&medium.sigma_s).zip(["red", "green", "blue"]) {
+            if !(*sigma_a > 0.0 && *sigma_s > 0.0) {
+                return Err(Error::Request(format!(
+                    "σ_a {sigma_a} and σ_s {sigma_s} per mm in {name}; expected media that scatter and absorb, both more than 0"
+                )));
+            }
+        }
         Self::of_tails(|c, d| HalfSpace { sigma_s: medium.sigma_s[c], sigma_a: medium.sigma_a[c], eta }.dipole_tail(d))
     }
 

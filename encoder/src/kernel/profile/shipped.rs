@@ -6,7 +6,7 @@ use super::{Profile, csv};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 use crate::simulate::diffusion::Medium;
-use crate::simulate::monte_carlo::profile::{Material, Settings};
+use crate::simulate::monte_carlo::profile::{Material, Settings, mirrored_lines};
 
 /// Decay lengths 1/σ_tr that the rings reach at least: far from the light a profile falls exponentially, and beyond eight of them
 /// there is less than 10⁻⁴ of the light.
@@ -49,7 +49,8 @@ pub fn profile(name: &str) -> Option<Profile> {
 }
 
 /// Simulates a measured material of refractive index `eta` as the shipped profiles were: section F's photons and width of rings, rings that reach 32 of the
-/// largest mean free paths or eight of the longest decay lengths. Returns the profile and its table.
+/// largest mean free paths or eight of the longest decay lengths. Returns the profile and its
+/// table, which is per flux that was sent and tells what the surface mirrored.
 ///
 /// # Errors
 ///
@@ -68,14 +69,17 @@ pub fn simulate(name: &str, eta: f64, packets: u64, progress: &dyn Progress) -> 
     let simulated = Material::half_space(medium, eta).simulate(&settings, progress)?;
     let profile = Profile::simulated(&simulated)?.condensed();
     let traced = simulated.channels.each_ref().map(|channel| channel.packets.to_string());
+    let shares = simulated.channels.each_ref().map(|channel| channel.specular);
     let comment = format!(
-        "{name}: diffuse reflectance R_d in mm⁻² of rings in mm, simulated by Monte Carlo\n\
-         σ_a {:?}, σ_s {:?} in mm⁻¹, η {eta}, g 0, half-infinite; {} photon packets, seed {}",
+        "{name}: diffuse reflectance R_d in mm⁻² per flux that was sent, of rings in mm, simulated by Monte Carlo\n\
+         σ_a {:?}, σ_s {:?} in mm⁻¹, η {eta}, g 0, half-infinite; {} photon packets, seed {}\n{}",
         medium.sigma_a,
         medium.sigma_s,
         traced.join(", "),
-        settings.seed
+        settings.seed,
+        mirrored_lines(shares)
     );
-    let table = csv::write(&profile, &comment);
+    let sent = std::array::from_fn(|c| profile.channels[c].scaled(1.0 - shares[c]));
+    let table = csv::write(&Profile { channels: sent }, &comment);
     Ok((profile, table))
 }

@@ -24,6 +24,11 @@ const REACH: f64 = 32.0;
 /// Rings, at most: what section F asks for where one channel's light goes a thousand times as far as another's.
 const MAX_RINGS: usize = 1 << 20;
 
+/// Colours of the channels, as lines of totals begin.
+const NAMES: [&str; 3] = ["red", "green", "blue"];
+/// What stands before the share that is mirrored at the top, in these lines.
+const MIRRORED: &str = "mirrored ";
+
 /// R_d by radius or angle.
 const BY_RADIUS: Score = Score { quantity: Quantity::Reflected, axes: Axes { r: true, a: false, z: false, t: false } };
 const BY_ANGLE: Score = Score { quantity: Quantity::Reflected, axes: Axes { r: false, a: true, z: false, t: false } };
@@ -190,12 +195,12 @@ impl Profiles {
 
     fn csv(&self, out: &mut Vec<u8>) -> std::io::Result<()> {
         writeln!(out, "# diffuse reflectance R_d(r), simulated by Monte Carlo")?;
-        for (channel, name) in self.channels.iter().zip(["red", "green", "blue"]) {
+        for (channel, name) in self.channels.iter().zip(NAMES) {
             let Channel { reflected, absorbed, transmitted, specular, beyond, packets, .. } = channel;
             writeln!(
                 out,
                 "# {name}: {packets} photon packets; reflected {:.6} ± {:.6}, absorbed {:.6} ± {:.6}, transmitted {:.6} ± {:.6}, \
-                 mirrored {specular:.6}, beyond the last ring {beyond:.6}",
+                 {MIRRORED}{specular:.6}, beyond the last ring {beyond:.6}",
                 reflected.mean,
                 reflected.standard_error,
                 absorbed.mean,
@@ -219,4 +224,20 @@ impl Profiles {
         }
         Ok(())
     }
+}
+
+/// Shares of red, green and blue that are mirrored at the top, as [`Profiles::write_csv`] tells them; 0 where a text does not.
+pub(crate) fn mirrored(csv: &str) -> [f64; 3] {
+    let of = |name: &str| {
+        let totals = csv.lines().find(|line| line.starts_with(&format!("# {name}: ")))?;
+        let share: f64 = totals.split_once(MIRRORED)?.1.split(',').next()?.parse().ok()?;
+        (0.0..1.0).contains(&share).then_some(share)
+    };
+    NAMES.map(|name| of(name).unwrap_or(0.0))
+}
+
+/// Lines that tell [`mirrored`] its shares.
+pub(crate) fn mirrored_lines(shares: [f64; 3]) -> String {
+    let lines = NAMES.iter().zip(shares).map(|(name, share)| format!("{name}: {MIRRORED}{share:.6}"));
+    lines.collect::<Vec<_>>().join("\n")
 }

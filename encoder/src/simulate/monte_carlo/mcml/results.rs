@@ -13,13 +13,13 @@ const MAX_MIB: u64 = 256;
 const MAX_RINGS: usize = 1 << 20;
 const EXPECTED: &str = "an .mco file of MCML";
 
-/// Width of a ring in mm and R_d of each in mm⁻², of the `.mco` file at `path`, version 1 or 2. What left beyond the last ring is in
-/// it, as MCML has it.
+/// Width of a ring in mm, R_d of each in mm⁻² per flux that was sent, and the share R_sp that the surface mirrored, of the `.mco`
+/// file at `path`, version 1 or 2. What left beyond the last ring is in it, as MCML has it.
 ///
 /// # Errors
 ///
 /// [`Error::Input`] that names what stands there and what is expected.
-pub fn read_rd(path: &Path) -> Result<(f64, Vec<f64>)> {
+pub fn read_rd(path: &Path) -> Result<(f64, Vec<f64>, f64)> {
     let refuse = |found: String| Error::input(path, found, EXPECTED);
     let text = read_text(path, MAX_MIB, EXPECTED)?;
     let mut lines = Lines::new(path, &text);
@@ -57,11 +57,16 @@ pub fn read_rd(path: &Path) -> Result<(f64, Vec<f64>)> {
     if !(dr_mm > 0.0 && dr_mm.is_finite() && (1..=MAX_RINGS).contains(&rings)) {
         return Err(refuse(format!("{rings} rings of {dr_mm} mm")));
     }
+    lines.skip_to("RAT", "totals: a block RAT")?;
+    let mirrored = lines.next("specular reflectance")?.number("specular reflectance")?;
+    if !(0.0..1.0).contains(&mirrored) {
+        return Err(refuse(format!("a specular reflectance of {mirrored}")));
+    }
     lines.skip_to("Rd_r", "R_d of rings: a block Rd_r")?;
     let ring = |_| {
         let value = lines.next("R_d of a ring")?.number("R_d of a ring in cm⁻²")?;
         if value.is_finite() { Ok(value / (MM * MM)) } else { Err(refuse(format!("R_d of {value}"))) }
     };
     let rd = (0..rings).map(ring).collect::<Result<_>>()?;
-    Ok((dr_mm, rd))
+    Ok((dr_mm, rd, mirrored))
 }
