@@ -56,9 +56,12 @@ fn every_file_belongs_to_a_pass_and_says_what_it_is() {
     for file in files {
         let before = paths.insert(file.stem(), file.path);
         assert!(before.is_none_or(|before| before == file.path), "two files called {}", file.stem());
-        assert!(source(file.path).starts_with("// "), "{}: the first line says what it is", file.path);
-        // Files are joined as they stand.
-        assert!(file.text.ends_with('\n'), "{}", file.path);
+        let source = source(file.path);
+        assert!(source.starts_with("// "), "{}: the first line says what it is", file.path);
+        assert!(source.ends_with('\n'), "{}: the last line ends", file.path);
+        // `build.rs` takes comments out line by line, from `//` on; it knows no others, and no strings.
+        assert!(!file.text.contains("/*"), "{}: a comment that `//` does not begin", file.path);
+        assert!(!file.text.contains('"'), "{}: a string, in which `//` would begin no comment", file.path);
     }
 }
 

@@ -14,12 +14,13 @@ fn subsurf_panic(_: &core::panic::PanicInfo<'_>) -> ! {
 }
 
 // Divisions of 64 bits on 32-bit ARM come from a library of Rust's that unwinds, and name the function by which it does: it lies in the
-// standard library. This one in its place says that there is no way on (`_URC_FAILURE` of ARM's EHABI), and is not exported.
+// standard library. This one in its place says that there is no way on (`_URC_FAILURE` of ARM's EHABI), is not exported, and is weak, so that
+// the standard library's is taken where another library of Rust's brings it along.
 #[cfg(all(unix, panic = "abort", target_arch = "arm"))]
 core::arch::global_asm!(
     ".arm",
     ".hidden rust_eh_personality",
-    ".globl rust_eh_personality",
+    ".weak rust_eh_personality",
     ".type rust_eh_personality, %function",
     "rust_eh_personality:",
     "mov r0, #9",

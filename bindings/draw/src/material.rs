@@ -252,6 +252,8 @@ pub unsafe extern "C" fn subsurf_material_info(
             Technique::Separable(_) => SubsurfTechnique::Separable,
             Technique::Btf(_) => SubsurfTechnique::Btf,
             Technique::Kernel => SubsurfTechnique::Kernel,
+            // What no call loads: the gather; and LinSSS, which the runtime has where a crate of the build asks for its feature `reference`,
+            // so that no arm can name it here, and an arm for all others may or may not be reached.
             _ => SubsurfTechnique::Automatic,
         };
         let (materials, gpu_bytes) = (open.materials, open.material.gpu_bytes());

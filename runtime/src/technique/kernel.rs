@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use subsurf_shaders::passes::table;
+use subsurf_shaders::passes::kernel;
 use subsurf_shaders::uniform::{ScreenDomain, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder};
 
@@ -100,10 +100,10 @@ impl Passes {
         Ok(Self {
             depth: options.depth,
             is_jittered: options.jittered_taps,
-            gbuffer: MeshPass::lit(gpu, table::KERNEL_GBUFFER.only(), &[map; 2], options)?,
-            rows: FullscreenPass::new(gpu, table::BLUR_KERNEL.only(), &[map])?,
-            columns: FullscreenPass::new(gpu, table::SUM_KERNEL.only(), &[map])?,
-            shade: MeshPass::picture(gpu, table::SHADE_KERNEL.only(), options)?,
+            gbuffer: MeshPass::lit(gpu, kernel::KERNEL_GBUFFER.only(), &[map; 2], options)?,
+            rows: FullscreenPass::new(gpu, kernel::BLUR_KERNEL.only(), &[map])?,
+            columns: FullscreenPass::new(gpu, kernel::SUM_KERNEL.only(), &[map])?,
+            shade: MeshPass::picture(gpu, kernel::SHADE_KERNEL.only(), options)?,
         })
     }
 

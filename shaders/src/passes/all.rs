@@ -1,7 +1,7 @@
 //! All passes.
 
 use super::pass::Pass;
-use super::{linsss, table};
+use super::{kernel, linsss, table};
 
 /// All passes.
 pub static ALL: [&Pass; 34] = [
@@ -28,10 +28,10 @@ pub static ALL: [&Pass; 34] = [
     &table::SUM_SCREEN,
     &table::BLUR_SCREEN_LAST,
     &table::SHADE_SEPARABLE,
-    &table::KERNEL_GBUFFER,
-    &table::BLUR_KERNEL,
-    &table::SUM_KERNEL,
-    &table::SHADE_KERNEL,
+    &kernel::KERNEL_GBUFFER,
+    &kernel::BLUR_KERNEL,
+    &kernel::SUM_KERNEL,
+    &kernel::SHADE_KERNEL,
     &linsss::LINSSS_GBUFFER,
     &linsss::LINSSS_BLUR,
     &linsss::LINSSS_REDUCE,

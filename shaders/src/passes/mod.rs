@@ -1,11 +1,12 @@
 //! The passes: which WGSL files each is joined from, its entry points, its bindings.
 //!
-//! [`table`] has a row for each file under `wgsl/pass/`, [`linsss`] those of a rival. A row may leave open how the material, the intermediate targets and so
-//! on are stored; a [`Variant`] has chosen.
+//! [`table`] has a row for each file under `wgsl/pass/`, but for those of separable kernels, in [`kernel`], and of a rival, in
+//! [`linsss`]. A row may leave open how the material, the intermediate targets and so on are stored; a [`Variant`] has chosen.
 
 mod all;
 mod binding;
 mod file;
+pub mod kernel;
 mod layout;
 pub mod linsss;
 mod pass;

@@ -1,4 +1,4 @@
-//! The table of passes; those of rivals are in [`linsss`](super::linsss).
+//! The table of passes; those of separable kernels are in [`kernel`](super::kernel), those of rivals in [`linsss`](super::linsss).
 
 use super::binding::Binding::{
     self, Filtered, FilteredLayers, Float, FloatLayers, Nearest, Sampler, Target, TargetLayers, Uniform,
@@ -32,14 +32,11 @@ pub(super) const UPSAMPLING: Part = Part::File(wgsl!("lib/screen/upsampling"));
 const SEPARABLE_BASIS: Part = Part::File(wgsl!("lib/blur/separable_basis"));
 const BLUR: Part = Part::File(wgsl!("lib/blur/blur"));
 const DOMAIN_PATCH: Part = Part::File(wgsl!("lib/blur/domain_patch"));
-const SCREEN: Part = Part::File(wgsl!("lib/blur/screen"));
+pub(super) const SCREEN: Part = Part::File(wgsl!("lib/blur/screen"));
 const DOMAIN_SCREEN: Part = Part::File(wgsl!("lib/blur/domain_screen"));
 const MAPS_IRRADIANCE: Part = Part::File(wgsl!("lib/blur/maps_irradiance"));
 const MAPS_STAGE: Part = Part::File(wgsl!("lib/blur/maps_stage"));
 const STAGE_SUM: Part = Part::File(wgsl!("lib/blur/stage_sum"));
-const KERNEL: Part = Part::File(wgsl!("lib/blur/kernel"));
-const KERNEL_PROFILE: Part = Part::File(wgsl!("lib/blur/kernel_profile"));
-const KERNEL_TRANSMISSION: Part = Part::File(wgsl!("lib/screen/kernel_transmission"));
 
 /// Whether the shader encodes for the display; an override of passes that draw pictures of meshes.
 pub const ENCODE_SRGB: &str = "ENCODE_SRGB";
@@ -311,67 +308,6 @@ pub static SHADE_SEPARABLE: Pass = shaded(
         SHADING,
     ],
     &[LIT, Group::Maps(&[FilteredLayers, Sampler, Uniform, TargetLayers]), OF_OBJECT, OF_HOST],
-);
-
-/// G-buffer for separable kernels on the screen, with light that is transmitted from behind.
-pub static KERNEL_GBUFFER: Pass = Pass {
-    overrides: &[HOST_SHADOWS],
-    ..pass(
-        wgsl!("pass/kernel/kernel_gbuffer"),
-        &[
-            Part::TargetFormat,
-            FRESNEL,
-            OBJECT,
-            SCENE,
-            HOST_SHADOW,
-            TSM_VISIBILITY,
-            VISIBILITIES,
-            VERTEX_NONE,
-            VERTEX,
-            KERNEL_PROFILE,
-            KERNEL_TRANSMISSION,
-        ],
-        "project",
-        &[Group::Fixed(&[Uniform, Target]), Group::Fixed(&[Uniform, Float, Target]), OF_OBJECT, OF_HOST],
-    )
-};
-
-/// Blur by a term of a separable kernel on the screen, along rows.
-pub static BLUR_KERNEL: Pass = fullscreen(
-    wgsl!("pass/kernel/blur_kernel"),
-    &[Part::TargetFormat, FULLSCREEN, SCREEN, KERNEL],
-    &[Group::Fixed(&[Uniform, Uniform, Target])],
-);
-
-/// Blur by a term of a separable kernel on the screen along columns, and the sum over the terms so far.
-pub static SUM_KERNEL: Pass = fullscreen(
-    wgsl!("pass/kernel/sum_kernel"),
-    &[Part::TargetFormat, FULLSCREEN, SCREEN, KERNEL],
-    &[Group::Fixed(&[Uniform, Uniform, Target, Target])],
-);
-
-/// Picture of a mesh from light that a separable kernel has blurred on the screen.
-pub static SHADE_KERNEL: Pass = shaded(
-    wgsl!("pass/kernel/shade_kernel"),
-    &[
-        Part::TargetFormat,
-        TONE,
-        DISPLAY,
-        FRESNEL,
-        OBJECT,
-        SCENE,
-        COAT,
-        HOST_SHADOW,
-        TSM_VISIBILITY,
-        VISIBILITIES,
-        VERTEX_NONE,
-        VERTEX,
-        NEIGHBOURS,
-        UPSAMPLING,
-        KERNEL_PROFILE,
-        SHADING,
-    ],
-    &[LIT, Group::Fixed(&[Uniform, Target, Uniform]), OF_OBJECT, OF_HOST],
 );
 
 /// Values and light samples of a BTF for lists of directions.

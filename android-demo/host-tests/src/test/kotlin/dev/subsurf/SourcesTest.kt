@@ -37,4 +37,52 @@ class SourcesTest {
         }
         assertEquals(emptyList<String>(), missing)
     }
+
+    /** Numbers of the C API are places in Kotlin's enums. */
+    @Test
+    fun enumsAreThoseOfTheHeader() {
+        val header = File("../../bindings/include/subsurf.h").readText()
+        val constant = Regex("""SUBSURF_(\w+) = (\d+),""")
+
+        fun same(
+            name: String,
+            entries: List<Enum<*>>,
+            elsewhere: List<String> = emptyList(),
+        ) {
+            val prefix = name.replace(Regex("(?<=[a-z])(?=[A-Z])"), "_").uppercase() + "_"
+            val body = Regex("""\nenum Subsurf$name\n.*?\n};""", RegexOption.DOT_MATCHES_ALL).find(header)!!.value
+            val found = constant.findAll(body).map { it.groupValues[1].removePrefix(prefix) to it.groupValues[2].toInt() }.toList()
+            assertEquals(name, found.filterNot { it.first in elsewhere }, entries.map { it.name to it.ordinal })
+        }
+        same("Family", Family.entries)
+        same("Coding", Coding.entries)
+        same("Addressing", Addressing.entries)
+        same("PlaneKind", PlaneKind.entries)
+        same("Format", PlaneFormat.entries)
+        same("Backend", Backend.entries, listOf("METAL", "DX12"))
+        same("Technique", Technique.entries)
+        same("WindowSystem", SubsurfRenderer.Companion.Windows.entries, listOf("X11", "WAYLAND"))
+        same("Shape", Shape.entries)
+        same("LightKind", Light.Kind.entries)
+        same("Mapping", Mapping.entries)
+    }
+
+    /** Attributes in XML have a name for each entry, and its place. */
+    @Test
+    fun attributesAreTheEnums() {
+        val xml = File(module, "main/res/values/attrs.xml").readText()
+        val constant = Regex("""<enum name="(\w+)" value="(\d+)" />""")
+
+        fun same(
+            name: String,
+            entries: List<Enum<*>>,
+        ) {
+            val body = xml.substringAfter("<attr name=\"$name\"").substringBefore("</attr>")
+            val found = constant.findAll(body).map { it.groupValues[1] to it.groupValues[2].toInt() }.toList()
+            assertEquals(name, found, entries.map { it.name.lowercase() to it.ordinal })
+        }
+        same("subsurfShape", Shape.entries)
+        same("subsurfTechnique", Technique.entries)
+        same("subsurfBackend", Backend.entries)
+    }
 }

@@ -25,6 +25,9 @@ public enum class Technique {
 
     /** BTF, as it is. */
     BTF,
+
+    /** Separable kernel of a homogeneous material. */
+    KERNEL,
 }
 
 /**

@@ -13,6 +13,9 @@ public enum class Family {
 
     /** Bidirectional texture functions as factors: [SubsurfFile.btf], after [Btf.expand]. */
     FACTORED_BTF,
+
+    /** Separable kernel of a homogeneous material. */
+    KERNEL,
 }
 
 /** Encoding of the mixtures of a patch. */

@@ -114,7 +114,11 @@ public class SceneObject
         }
 
         internal val mappingOrUsual: Mapping
-            get() = mapping ?: if (material.file.family == Family.BSSRDF) Mapping.BOX else Mapping.UV
+            get() =
+                mapping ?: when (material.file.family) {
+                    Family.BSSRDF, Family.KERNEL -> Mapping.BOX
+                    Family.NESTED_BTF, Family.FACTORED_BTF, Family.OTHER -> Mapping.UV
+                }
 
         private companion object {
             const val MATRIX = 16
