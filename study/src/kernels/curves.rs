@@ -14,21 +14,27 @@ const BEYOND: f64 = 0.03;
 const DECADES: f64 = 1e-6;
 /// Mean free paths that are shown.
 const PATHS: f64 = 24.0;
+/// Mean free paths from where on logarithmic charts of R_d begin: its peak, as high as the innermost ring is narrow, would take all
+/// decades.
+const NEAREST: f64 = 0.1;
 
 /// Charts of a material, as SVG.
 pub(super) fn charts(name: &str, profile: &Profile) -> anyhow::Result<String> {
     let medium = Medium::measured(name).expect("names are those of the list");
     let weighted = |r: f64, rd: f64| std::f64::consts::TAU * r * rd;
-    let of = |radial: &Radial, end: f64, value: &dyn Fn(f64, f64) -> f64, unit: f64| -> Vec<(f64, f64)> {
+    let of = |radial: &Radial, [start, end]: [f64; 2], value: &dyn Fn(f64, f64) -> f64, unit: f64| -> Vec<(f64, f64)> {
         let rings = radial.edges_mm().windows(2).zip(radial.rd());
         let points = rings.map(|(edges, rd)| (0.5 * (edges[0] + edges[1]), *rd));
-        points.filter(|(r, rd)| *r <= end && *rd > 0.0).map(|(r, rd)| (r / unit, value(r, rd))).collect()
+        points
+            .filter(|(r, rd)| (start..=end).contains(r) && *rd > 0.0)
+            .map(|(r, rd)| (r / unit, value(r, rd)))
+            .collect()
     };
     let channels = |end: f64, value: &dyn Fn(f64, f64) -> f64, paths: bool| -> Vec<Series> {
         let series = |c: usize| {
             let unit = if paths { medium.mean_free_path_mm(c) } else { 1.0 };
-            let end = if paths { end * unit } else { end };
-            Series { title: CHANNELS[c].to_owned(), points: of(&profile.channels[c], end, value, unit), joined: true }
+            let range = if paths { [NEAREST * unit, end * unit] } else { [0.0, end] };
+            Series { title: CHANNELS[c].to_owned(), points: of(&profile.channels[c], range, value, unit), joined: true }
         };
         // The legend's colours go by the order: blue, red, green.
         [2, 0, 1].map(series).into()
@@ -50,10 +56,10 @@ pub(super) fn charts(name: &str, profile: &Profile) -> anyhow::Result<String> {
     // Green beside models.
     let dipole = Profile::dipole(&medium, Medium::measured_eta(name))?;
     let burley = Profile::normalised_diffusion(profile.reflectance(), &medium)?;
-    let end = PATHS * medium.mean_free_path_mm(1);
+    let range = [NEAREST, PATHS].map(|paths| paths * medium.mean_free_path_mm(1));
     let series = [("Monte Carlo", profile), ("dipole", &dipole), ("Burley", &burley)].map(|(title, profile)| Series {
         title: title.to_owned(),
-        points: of(&profile.channels[1], end, &|_, rd| rd, medium.mean_free_path_mm(1)),
+        points: of(&profile.channels[1], range, &|_, rd| rd, medium.mean_free_path_mm(1)),
         joined: true,
     });
     let title = format!("{name}: R_d(r) of green beside models");
