@@ -11,19 +11,7 @@ use subsurf_decoder::{Bssrdf, Content, Family, File, Kernel, ReadError};
 /// The 232 bytes of section 6.3, from literals: nothing here uses the crate's own layout.
 #[rustfmt::skip]
 fn example() -> Vec<u8> {
-    let mut file = vec![
-        0x89, 0x53, 0x53, 0x46, 0x0D, 0x0A, 0x1A, 0x0A,  // magic
-        0x01, 0x00, 0x00, 0x00,                          // version 1.0
-        0x04, 0x00, 0x00, 0x00,                          // sections
-        0xE8, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,  // file_bytes
-    ];
-    for (kind, offset, length) in [(b"KERN", 124_u64, 24_u64), (b"KOFF", 148, 12), (b"KWGT", 160, 36), (b"TAIL", 196, 36)] {
-        file.extend(kind);
-        file.extend([0; 4]);
-        file.extend(offset.to_le_bytes());
-        file.extend(length.to_le_bytes());
-    }
-    file.extend([0; 4]);                                 // header_crc
+    let mut file = common::begin(0xE8, [(b"KERN", 124, 24), (b"KOFF", 148, 12), (b"KWGT", 160, 36), (b"TAIL", 196, 36)]);
     file.extend([
         0x02, 0x01, 0x01, 0x05,                          // pre-integrated, colour space, 1 term, 5 taps
         0x03, 0x00, 0x00, 0x00,                          // m

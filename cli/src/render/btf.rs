@@ -44,10 +44,7 @@ pub(crate) fn draw_btf(
         facts.insert(name.to_owned(), json!(material.gpu_bytes()));
         let mut session =
             RenderSession::new(gpu, GpuAsset::btf(gpu, mesh, copies, material, number)?, scene, large, options)?;
-        scene.camera.exposure = match exposure {
-            Some(exposure) => exposure,
-            None => session.exposure(gpu, scene)?,
-        };
+        session.expose(gpu, scene, exposure)?;
         anyhow::Ok(average_down(&session.picture(gpu, scene)?, large))
     };
     let picture = draw(BtfMaterial::upload(gpu, btf)?, number, &mut scene, request.exposure, "gpu_bytes")?;

@@ -25,10 +25,7 @@ pub(super) fn draw_kernel(
     facts.insert("triangles".to_owned(), json!(mesh.triangles.len()));
     facts.insert("gpu_bytes".to_owned(), json!(asset.material_bytes()));
     let mut session = RenderSession::new(gpu, asset, &scene, large, request.options)?;
-    scene.camera.exposure = match request.exposure {
-        Some(exposure) => exposure,
-        None => session.exposure(gpu, &scene)?,
-    };
+    session.expose(gpu, &mut scene, request.exposure)?;
     let picture = average_down(&session.picture(gpu, &scene)?, large);
     Ok(Drawing { picture, exposure: scene.camera.exposure, facts })
 }

@@ -35,10 +35,7 @@ pub(crate) fn draw_mesh(
                 Asset::compute(material, mesh, mapping, &scene, technique, None)?.upload(gpu, material, mesh)?;
             facts.insert("gpu_bytes".to_owned(), json!(asset.material_bytes()));
             let mut session = RenderSession::new(gpu, asset, &scene, large, request.options)?;
-            scene.camera.exposure = match request.exposure {
-                Some(exposure) => exposure,
-                None => session.exposure(gpu, &scene)?,
-            };
+            session.expose(gpu, &mut scene, request.exposure)?;
             session.picture(gpu, &scene)?
         }
         None => {

@@ -37,6 +37,7 @@ impl<'a> Bssrdf<'a> {
     }
 
     /// Reads and checks all sections.
+    #[inline(never)]
     pub(crate) fn read(sections: &Sections<'a>) -> Result<Self, ReadError> {
         let header = BssrdfHeader::parse(detect::header(sections, Section::BssrdfHeader, Family::Bssrdf)?)?;
         let planes = Planes { sections, header: &header };

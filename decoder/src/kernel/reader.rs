@@ -58,6 +58,7 @@ impl<'a> Kernel<'a> {
     }
 
     /// Reads and checks all sections.
+    #[inline(never)]
     pub(crate) fn read(sections: &Sections<'a>) -> Result<Self, ReadError> {
         let header = KernelHeader::parse(detect::header(sections, Section::KernelHeader, Family::Kernel)?)?;
         let sized = |section| sections.sized(section, header.section_bytes(section));
@@ -65,7 +66,7 @@ impl<'a> Kernel<'a> {
         let kernel = Self {
             header,
             offsets: offsets(sized(Section::KernelOffsets)?, header.radius_mm)?,
-            weights: within(weights, [-MAX_WEIGHT, MAX_WEIGHT])?,
+            weights: checked(weights, &mut |_, _| [-MAX_WEIGHT, MAX_WEIGHT])?,
             tail: tail(sized(Section::KernelTail)?)?,
             two_gaussians: if sections.has(Section::TwoGaussians) {
                 Some(TwoGaussians::parse(sized(Section::TwoGaussians)?)?)
@@ -112,37 +113,33 @@ impl<'a> Kernel<'a> {
     }
 }
 
-/// Offsets that begin with 0, rise and stay within the radius.
-fn offsets(section: SectionBytes<'_>, radius_mm: f32) -> Result<F32Le<'_>, ReadError> {
+/// Values of a section, each within the range that `range` gives for its number and itself.
+fn checked<'a>(
+    section: SectionBytes<'a>,
+    range: &mut dyn FnMut(usize, f32) -> [f32; 2],
+) -> Result<F32Le<'a>, ReadError> {
     let values = F32Le::new(section.bytes);
-    let mut range = [0.0, 0.0];
-    for (k, offset) in values.iter().enumerate() {
-        section.origin.at_item(k, size_of::<f32>()).number(0, offset, range)?;
-        range = [offset.next_up(), radius_mm.next_down()];
+    for (k, value) in values.iter().enumerate() {
+        section.origin.at_item(k, size_of::<f32>()).number(0, value, range(k, value))?;
     }
     Ok(values)
 }
 
-/// Values that are all in a range.
-fn within(section: SectionBytes<'_>, range: [f32; 2]) -> Result<F32Le<'_>, ReadError> {
-    let values = F32Le::new(section.bytes);
-    for (k, value) in values.iter().enumerate() {
-        section.origin.at_item(k, size_of::<f32>()).number(0, value, range)?;
-    }
-    Ok(values)
+/// Offsets that begin with 0, rise and stay within the radius.
+fn offsets(section: SectionBytes<'_>, radius_mm: f32) -> Result<F32Le<'_>, ReadError> {
+    let mut next = [0.0, 0.0];
+    checked(section, &mut |_, offset| core::mem::replace(&mut next, [offset.next_up(), radius_mm.next_down()]))
 }
 
 /// Rows of rgb that begin within 0 to 1, never rise and end with 0.
 fn tail(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
-    let values = F32Le::new(section.bytes);
-    let last = values.len().saturating_sub(RGB);
-    let mut most = [1.0; RGB];
-    for (k, (value, channel)) in values.iter().zip((0..RGB).cycle()).enumerate() {
-        let Some(most) = most.get_mut(channel) else { continue };
-        let range = [0.0, if k < last { *most } else { 0.0 }];
-        *most = section.origin.at_item(k, size_of::<f32>()).number(0, value, range)?;
-    }
-    Ok(values)
+    let last = F32Le::new(section.bytes).len().saturating_sub(RGB);
+    let mut before = [1.0; RGB];
+    checked(section, &mut |k, value| {
+        let [red, green, blue] = before;
+        before = [green, blue, value];
+        [0.0, if k < last { red } else { 0.0 }]
+    })
 }
 
 impl TwoGaussians {
@@ -153,14 +150,15 @@ impl TwoGaussians {
 
     /// Reads and checks the section.
     fn parse(section: SectionBytes<'_>) -> Result<Self, ReadError> {
-        let values = F32Le::new(section.bytes);
-        let [weight, tau_near, tau_far] = [0, RGB, RGB.wrapping_add(RGB)].map(|at| values.rgb_at(at));
         let [least, most] = VARIANCES;
-        let ranges = tau_near.map(|near| [near, most]);
-        let ranges = [[[0.0, 1.0]; RGB], [[least, most]; RGB], ranges];
-        for (k, (value, range)) in values.iter().zip(ranges.into_iter().flatten()).enumerate() {
-            section.origin.at_item(k, size_of::<f32>()).number(0, value, range)?;
-        }
+        // Each far variance is at least the near one, three numbers before.
+        let mut before = [least; RGB];
+        let values = checked(section, &mut |k, value| {
+            let [red, green, blue] = before;
+            before = [green, blue, value];
+            if k < RGB { [0.0, 1.0] } else { [if k < 2 * RGB { least } else { red }, most] }
+        })?;
+        let [weight, tau_near, tau_far] = [0, RGB, RGB.wrapping_add(RGB)].map(|at| values.rgb_at(at));
         Ok(Self { weight, tau_near, tau_far })
     }
 }

@@ -38,22 +38,28 @@ pub(crate) fn seal(file: &mut [u8]) {
     file[120..124].copy_from_slice(&crc.to_le_bytes());
 }
 
-/// The 216 bytes.
-#[rustfmt::skip]
-pub(crate) fn example() -> Vec<u8> {
+/// File header of version 1.0 and table of four sections, each a kind, an offset and a length; CRCs are 0.
+pub(crate) fn begin(file_bytes: u8, sections: [(&[u8; 4], u64, u64); 4]) -> Vec<u8> {
     let mut file = vec![
-        0x89, 0x53, 0x53, 0x46, 0x0D, 0x0A, 0x1A, 0x0A,  // magic
-        0x01, 0x00, 0x00, 0x00,                          // version 1.0
-        0x04, 0x00, 0x00, 0x00,                          // sections
-        0xD8, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,  // file_bytes
+        0x89, 0x53, 0x53, 0x46, 0x0D, 0x0A, 0x1A, 0x0A, // magic
+        0x01, 0x00, 0x00, 0x00, // version 1.0
+        0x04, 0x00, 0x00, 0x00, // sections
+        file_bytes, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,
     ];
-    for (kind, offset, length) in [(b"BSSR", 124_u64, 32_u64), (b"PROF", 156, 48), (b"MIXR", 204, 8), (b"BIDX", 212, 4)] {
+    for (kind, offset, length) in sections {
         file.extend(kind);
         file.extend([0; 4]);
         file.extend(offset.to_le_bytes());
         file.extend(length.to_le_bytes());
     }
-    file.extend([0; 4]);                                 // header_crc
+    file.extend([0; 4]); // header_crc
+    file
+}
+
+/// The 216 bytes.
+#[rustfmt::skip]
+pub(crate) fn example() -> Vec<u8> {
+    let mut file = begin(0xD8, [(b"BSSR", 124, 32), (b"PROF", 156, 48), (b"MIXR", 204, 8), (b"BIDX", 212, 4)]);
     file.extend([
         0x02, 0x01, 0x00, 0x00,                          // model, colour space, addressing, reserved
         0x02, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00,  // width, height

@@ -59,34 +59,18 @@ struct Shared {
     kernel: Vec<(bool, Arc<kernel::Maps>)>,
 }
 
-impl Shared {
-    /// Maps for so many terms, made by the first material that wants them.
-    fn of_terms(
-        &mut self,
-        terms: usize,
-        make: impl FnOnce() -> Result<separable::Maps>,
-    ) -> Result<Arc<separable::Maps>> {
-        if let Some((_, maps)) = self.separable.iter().find(|(of, _)| *of == terms) {
-            return Ok(maps.clone());
-        }
-        let maps = Arc::new(make()?);
-        self.separable.push((terms, maps.clone()));
-        Ok(maps)
+/// Maps of a kind, made by the first material that wants them.
+fn made_once<K: PartialEq, M>(
+    known: &mut Vec<(K, Arc<M>)>,
+    kind: K,
+    make: impl FnOnce() -> Result<M>,
+) -> Result<Arc<M>> {
+    if let Some((_, maps)) = known.iter().find(|(of, _)| *of == kind) {
+        return Ok(maps.clone());
     }
-
-    /// Maps for kernels of one term or of several, made by the first material that wants them.
-    fn of_kernel(
-        &mut self,
-        has_several: bool,
-        make: impl FnOnce() -> Result<kernel::Maps>,
-    ) -> Result<Arc<kernel::Maps>> {
-        if let Some((_, maps)) = self.kernel.iter().find(|(of, _)| *of == has_several) {
-            return Ok(maps.clone());
-        }
-        let maps = Arc::new(make()?);
-        self.kernel.push((has_several, maps.clone()));
-        Ok(maps)
-    }
+    let maps = Arc::new(make()?);
+    known.push((kind, maps.clone()));
+    Ok(maps)
 }
 
 impl Renderer {
@@ -242,7 +226,8 @@ impl Renderer {
             Material::Separable(material) => {
                 let terms = material.terms();
                 let passes = self.separable.of(terms)?;
-                let maps = shared.of_terms(terms, || separable::Maps::new(gpu, plan, &self.options, terms))?;
+                let make = || separable::Maps::new(gpu, plan, &self.options, terms);
+                let maps = made_once(&mut shared.separable, terms, make)?;
                 passes.bind(gpu, material, common, lights, &maps)
             }
             #[cfg(feature = "reference")]
@@ -253,8 +238,8 @@ impl Renderer {
             }
             Material::Kernel(material) => {
                 let (passes, has_several) = (self.kernel.of(())?, material.terms() > 1);
-                let maps =
-                    shared.of_kernel(has_several, || kernel::Maps::new(gpu, plan, &self.options, has_several))?;
+                let make = || kernel::Maps::new(gpu, plan, &self.options, has_several);
+                let maps = made_once(&mut shared.kernel, has_several, make)?;
                 passes.bind(gpu, material, common, lights, &maps)
             }
             Material::Btf(material, number) => self.btf.of(material.layout())?.bind(gpu, material, *number),

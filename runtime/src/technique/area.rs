@@ -4,6 +4,8 @@ use glam::Vec2;
 use subsurf_scene::{BoundingSphere, View};
 use subsurf_shaders::uniform::Upsampling;
 
+use super::mesh_pass::Viewport;
+
 /// Area that maps lie over: a rectangle of the texels that the whole picture would have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct MapArea {
@@ -21,6 +23,12 @@ const MARGIN: f32 = 1.0;
 #[allow(clippy::cast_precision_loss, reason = "pictures are a few thousand pixels wide")]
 fn float(side: u32) -> f32 {
     side as f32
+}
+
+/// Pixels of the picture to a side of a texel of the maps: whole, as many as are `wanted`, 1 to `most`.
+pub(crate) fn divisor_of(wanted: f32, most: f32) -> f32 {
+    // Of what is no number nothing is left.
+    wanted.floor().clamp(1.0, most).max(1.0)
 }
 
 impl MapArea {
@@ -68,6 +76,11 @@ impl MapArea {
         let width = (texels / height).clamp(1.0, whole.x);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "texels of a picture")]
         [width, height].map(|side| (side - 1e-3).ceil() as u32)
+    }
+
+    /// Where a picture is drawn that the maps lie over a part of.
+    pub(crate) fn viewport(&self) -> Viewport {
+        Viewport { origin: self.first.map(|texel| -i64::from(texel)), size: self.whole, scissor: [[0; 2], self.size] }
     }
 
     /// Texels that a length spans which is as long as it is far from the eye, along rows and columns.

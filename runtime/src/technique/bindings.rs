@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use subsurf_scene::BoundingSphere;
-use subsurf_shaders::uniform::{self, Upsampling};
+use subsurf_shaders::uniform::{self, ScreenDomain, Upsampling};
 use wgpu::{BindGroup, CommandEncoder};
 
 use super::area::MapArea;
@@ -89,6 +89,19 @@ impl<'a> Group<'a> {
             return 1.0;
         }
         (self.bounds.centre_mm - self.input.view.eye_mm()).dot(self.input.view.forward())
+    }
+
+    /// Block of how large things are on maps over an area, for a material whose pixels are `pitch_mm` apart.
+    pub(crate) fn screen(&self, area: &MapArea, pitch_mm: f32, is_jittered: bool) -> ScreenDomain {
+        let view = &self.input.view;
+        ScreenDomain {
+            size: area.size,
+            focal_texels: area.texels_per_tangent(view).map(|texels| texels * pitch_mm),
+            middle_mm: self.middle_mm(),
+            pitch_mm,
+            perspective: if view.is_parallel() { 0.0 } else { 1.0 },
+            is_jittered: u32::from(is_jittered),
+        }
     }
 
     /// Block of how pixels of the target lie on maps over an area.

@@ -8,10 +8,10 @@ use subsurf_shaders::passes::kernel;
 use subsurf_shaders::uniform::{ScreenDomain, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder};
 
-use super::area::MapArea;
+use super::area::{self, MapArea};
 use super::bindings::{Bindings, Group, Lap};
 use super::common::Common;
-use super::mesh_pass::{Attachments, DepthFormat, MeshPass, SharedGroups, Viewport, cleared};
+use super::mesh_pass::{Attachments, DepthFormat, MeshPass, SharedGroups, cleared};
 use super::tsm::{FAR_MM, TranslucentShadowMaps};
 use crate::asset::KernelMaterial;
 use crate::error::Result;
@@ -60,9 +60,7 @@ struct Bound {
 
 /// Pixels of the picture to a side of a texel of the maps, when a mm covers `pixels_per_mm`: the innermost tap is a texel away.
 pub(crate) fn divisor(material: &KernelMaterial, pixels_per_mm: f32) -> f32 {
-    let divisor = (material.narrowest_mm() * pixels_per_mm).floor().clamp(1.0, 4.0);
-    // Of what is no number nothing is left.
-    divisor.max(1.0)
+    area::divisor_of(material.narrowest_mm() * pixels_per_mm, 4.0)
 }
 
 impl Maps {
@@ -149,36 +147,26 @@ impl Bindings for Bound {
     fn update(&mut self, gpu: &Gpu, group: &Group<'_>) {
         let (view, plan) = (&group.input.view, group.plan);
         self.area = MapArea::over(view, &group.bounds, plan.size, plan.blur_size, plan.divisor);
-        let domain = ScreenDomain {
-            size: self.area.size,
-            focal_texels: self.area.texels_per_tangent(view),
-            middle_mm: group.middle_mm(),
-            pitch_mm: 1.0,
-            perspective: if view.is_parallel() { 0.0 } else { 1.0 },
-            is_jittered: u32::from(self.passes.is_jittered),
-        };
+        // A kernel is in mm.
+        let domain = group.screen(&self.area, 1.0, self.passes.is_jittered);
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&group.upsampling(&self.area)));
     }
 
     fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, shared: SharedGroups<'_>, lap: Lap<'_>) {
-        let (maps, MapArea { whole, first, size }) = (&*self.maps, self.area);
+        let maps = &*self.maps;
         let colours = [&maps.entered, maps.sums_before(0)].map(|map| cleared(&map.view, self.far));
         let attachments = Attachments {
             colours: &colours,
             depth: &maps.depth.view,
             depth_ops: self.passes.depth.own(),
-            viewport: Some(Viewport {
-                origin: first.map(|texel| -i64::from(texel)),
-                size: whole,
-                scissor: [[0; 2], size],
-            }),
+            viewport: Some(self.area.viewport()),
         };
         let [scene, profile] = &self.gbuffer;
         let Passes { gbuffer, rows, columns, .. } = &*self.passes;
         gbuffer.record(encoder, &attachments, [scene, profile], shared, group.draws());
         lap(gbuffer.name(), encoder);
-        let all = Rows::all(size);
+        let all = Rows::all(self.area.size);
         for (term, [along_rows, along_columns]) in self.terms.iter().enumerate() {
             rows.record(encoder, &[&maps.between.view], &[along_rows], all);
             lap(rows.name(), encoder);

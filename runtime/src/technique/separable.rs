@@ -7,11 +7,11 @@ use subsurf_shaders::passes::{Choice, table};
 use subsurf_shaders::uniform::{ScreenDomain, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder};
 
-use super::area::MapArea;
+use super::area::{self, MapArea};
 use super::bindings::{Bindings, Group, Lap};
 use super::cascade::{BlurPasses, Cascade, CascadeMaps};
 use super::common::Common;
-use super::mesh_pass::{Attachments, DepthFormat, MeshPass, SharedGroups, Viewport, cleared};
+use super::mesh_pass::{Attachments, DepthFormat, MeshPass, SharedGroups, cleared};
 use super::tsm::{FAR_MM, TranslucentShadowMaps};
 use crate::asset::SeparableMaterial;
 use crate::error::{Error, Result};
@@ -62,10 +62,7 @@ pub(crate) fn divisor(material: &SeparableMaterial, pixels_per_mm: f32) -> f32 {
 
 /// The same where the narrowest Gaussian has so many pixels of the material of a pitch in mm.
 pub(crate) fn divisor_of(narrowest_pixels: f32, pitch_mm: f32, pixels_per_mm: f32) -> f32 {
-    let narrowest = narrowest_pixels * pitch_mm * pixels_per_mm;
-    let divisor = (narrowest / NARROWEST_TEXELS).floor().clamp(1.0, 4.0);
-    // Of what is no number nothing is left.
-    divisor.max(1.0)
+    area::divisor_of(narrowest_pixels * pitch_mm * pixels_per_mm / NARROWEST_TEXELS, 4.0)
 }
 
 impl Maps {
@@ -143,39 +140,27 @@ impl Bindings for Bound {
     fn update(&mut self, gpu: &Gpu, group: &Group<'_>) {
         let (view, plan) = (&group.input.view, group.plan);
         self.area = MapArea::over(view, &group.bounds, plan.size, plan.blur_size, plan.divisor);
-        let domain = ScreenDomain {
-            size: self.area.size,
-            focal_texels: self.area.texels_per_tangent(view).map(|texels| texels * self.pitch_mm),
-            middle_mm: group.middle_mm(),
-            pitch_mm: self.pitch_mm,
-            perspective: if view.is_parallel() { 0.0 } else { 1.0 },
-            is_jittered: 0,
-        };
+        let domain = group.screen(&self.area, self.pitch_mm, false);
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&group.upsampling(&self.area)));
     }
 
     fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, shared: SharedGroups<'_>, lap: Lap<'_>) {
         let Maps { cascade: maps, depth } = &*self.maps;
-        let MapArea { whole, first, size } = self.area;
         let layers = maps.irradiance().layers.iter().chain(&maps.begun_sums().layers);
         let colours: Vec<_> = layers.map(|view| cleared(view, self.far)).collect();
         let attachments = Attachments {
             colours: &colours,
             depth: &depth.view,
             depth_ops: self.passes.depth.own(),
-            viewport: Some(Viewport {
-                origin: first.map(|texel| -i64::from(texel)),
-                size: whole,
-                scissor: [[0; 2], size],
-            }),
+            viewport: Some(self.area.viewport()),
         };
         let [scene, basis] = &self.gbuffer;
         let Passes { gbuffer, blur, last, .. } = &*self.passes;
         gbuffer.record(encoder, &attachments, [scene, basis], shared, group.draws());
         lap(gbuffer.name(), encoder);
         let targets: Vec<_> = maps.sums().layers.iter().collect();
-        self.cascade.record(encoder, size, blur, None, (last, &targets), lap);
+        self.cascade.record(encoder, self.area.size, blur, None, (last, &targets), lap);
     }
 
     fn shade(&self) -> (&MeshPass, &BindGroup) {

@@ -2,10 +2,12 @@
 
 use super::binding::Binding::{Float, Target, Uniform};
 use super::file::wgsl;
+use super::layout::TERMS_1;
 use super::pass::{Group, Part, Pass};
 use super::table::{
     COAT, DISPLAY, FRESNEL, FULLSCREEN, HOST_SHADOW, HOST_SHADOWS, LIT, NEIGHBOURS, OBJECT, OF_HOST, OF_OBJECT, SCENE,
-    SCREEN, SHADING, TONE, TSM_VISIBILITY, UPSAMPLING, VERTEX, VERTEX_NONE, VISIBILITIES, fullscreen, pass, shaded,
+    SCREEN, SHADING, SPREAD, SUMS, TONE, TSM_VISIBILITY, UPSAMPLING, VERTEX, VERTEX_NONE, VISIBILITIES, fullscreen,
+    pass, shaded,
 };
 
 const KERNEL: Part = Part::File(wgsl!("lib/blur/kernel"));
@@ -27,6 +29,7 @@ pub static KERNEL_GBUFFER: Pass = Pass {
             VISIBILITIES,
             VERTEX_NONE,
             VERTEX,
+            SPREAD,
             KERNEL_PROFILE,
             KERNEL_TRANSMISSION,
         ],
@@ -67,6 +70,8 @@ pub static SHADE_KERNEL: Pass = shaded(
         VERTEX,
         NEIGHBOURS,
         UPSAMPLING,
+        Part::File(TERMS_1),
+        SUMS,
         KERNEL_PROFILE,
         SHADING,
     ],

@@ -142,10 +142,13 @@ impl BtfLayout {
     }
 }
 
+/// One map of irradiance.
+pub(super) const TERMS_1: File = wgsl!("lib/blur/terms_1");
+
 /// Files for L weighted irradiance maps, 1 or 2.
 pub(super) const fn terms(terms: usize) -> &'static [File] {
     match terms {
-        1 => &[wgsl!("lib/blur/terms_1")],
+        1 => &[TERMS_1],
         _ => &[wgsl!("lib/blur/terms_2")],
     }
 }

@@ -5,8 +5,8 @@ use super::file::wgsl;
 use super::pass::{Group, Part, Pass};
 use super::table::{
     COAT, DISPLAY, FRESNEL, FULLSCREEN, HOST_SHADOW, HOST_SHADOWS, LIT, MAPPING, NEIGHBOURS, OBJECT, OF_HOST,
-    OF_OBJECT, PATCH_LAYERS, SCENE, SHADING, TONE, TSM_VISIBILITY, UPSAMPLING, VERTEX, VERTEX_NONE, VISIBILITIES,
-    fullscreen, pass, shaded,
+    OF_OBJECT, PATCH_LAYERS, SCENE, SHADING, SPREAD, TONE, TSM_VISIBILITY, UPSAMPLING, VERTEX, VERTEX_NONE,
+    VISIBILITIES, fullscreen, pass, shaded,
 };
 
 const LINSSS: Part = Part::File(wgsl!("lib/linsss"));
@@ -29,6 +29,7 @@ pub static LINSSS_GBUFFER: Pass = Pass {
             VISIBILITIES,
             VERTEX_NONE,
             VERTEX,
+            SPREAD,
             LINSSS,
         ],
         "project",

@@ -27,8 +27,10 @@ const TSM: Part = Part::File(wgsl!("lib/screen/tsm"));
 pub(super) const HOST_SHADOW: Part = Part::File(wgsl!("lib/screen/host_shadow"));
 pub(super) const TSM_VISIBILITY: Part = Part::File(wgsl!("lib/screen/tsm_visibility"));
 const TRANSMISSION: Part = Part::File(wgsl!("lib/screen/transmission"));
+pub(super) const SPREAD: Part = Part::File(wgsl!("lib/screen/spread"));
 pub(super) const NEIGHBOURS: Part = Part::File(wgsl!("lib/screen/neighbours"));
 pub(super) const UPSAMPLING: Part = Part::File(wgsl!("lib/screen/upsampling"));
+pub(super) const SUMS: Part = Part::File(wgsl!("lib/screen/sums"));
 const SEPARABLE_BASIS: Part = Part::File(wgsl!("lib/blur/separable_basis"));
 const BLUR: Part = Part::File(wgsl!("lib/blur/blur"));
 const DOMAIN_PATCH: Part = Part::File(wgsl!("lib/blur/domain_patch"));
@@ -250,6 +252,7 @@ pub static SEPARABLE_GBUFFER: Pass = Pass {
             VISIBILITIES,
             VERTEX_NONE,
             VERTEX,
+            SPREAD,
             TRANSMISSION,
         ],
         "project",
@@ -305,6 +308,7 @@ pub static SHADE_SEPARABLE: Pass = shaded(
         VERTEX,
         NEIGHBOURS,
         UPSAMPLING,
+        SUMS,
         SHADING,
     ],
     &[LIT, Group::Maps(&[FilteredLayers, Sampler, Uniform, TargetLayers]), OF_OBJECT, OF_HOST],

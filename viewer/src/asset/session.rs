@@ -61,6 +61,18 @@ impl RenderSession {
     pub fn exposure(&mut self, gpu: &Gpu, scene: &Scene) -> Result<f32> {
         self.with(scene, |renderer, frame, input, picture| chosen_exposure(gpu, renderer, frame, input, picture))
     }
+
+    /// Gives a scene the exposure that is `asked` for, else the one that suits its picture.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn expose(&mut self, gpu: &Gpu, scene: &mut Scene, asked: Option<f32>) -> Result<()> {
+        scene.camera.exposure = match asked {
+            Some(exposure) => exposure,
+            None => self.exposure(gpu, scene)?,
+        };
+        Ok(())
+    }
 }
 
 /// The exposure that suits a picture.

@@ -46,6 +46,7 @@ impl<'a> FactoredBtf<'a> {
     }
 
     /// Reads and checks all sections.
+    #[inline(never)]
     pub(crate) fn read(sections: &Sections<'a>) -> Result<Self, ReadError> {
         let catalog = Catalog::read(sections, Family::FactoredBtf)?;
         let grid = catalog.grid();

@@ -40,6 +40,7 @@ impl<'a> NestedBtf<'a> {
     }
 
     /// Reads and checks all sections.
+    #[inline(never)]
     pub(crate) fn read(sections: &Sections<'a>) -> Result<Self, ReadError> {
         let catalog = Catalog::read(sections, Family::NestedBtf)?;
         let codebooks = NestedCodebooks::parse(sections, catalog.grid(), catalog.texels())?;

@@ -7,6 +7,11 @@ pub(super) fn gaussian(sigma: f64, radius: usize) -> Vec<f64> {
     (0..=radius).map(|d| scale * (-0.5 * (d as f64 / sigma).powi(2)).exp()).collect()
 }
 
+/// Sum of a symmetric kernel over both sides, of which it has one from the middle on.
+pub(super) fn mass(kernel: &[f64]) -> f64 {
+    2.0 * kernel.iter().sum::<f64>() - kernel[0]
+}
+
 /// Convolution of a plane of `size` pixels.
 pub(super) fn convolve(plane: &[f32], kernel: &[f64], size: [usize; 2]) -> Vec<f32> {
     #[allow(clippy::cast_possible_truncation, reason = "single precision")]

@@ -1,6 +1,6 @@
 //! A fitted material, and the patch under a light.
 
-use super::convolve::{convolve, gaussian, of_ones};
+use super::convolve::{convolve, gaussian, mass, of_ones};
 use super::pyramid::{Pyramid, sampled_variance};
 use crate::capture::Capture;
 
@@ -49,7 +49,7 @@ impl LinSss {
         let of = |(sigmas, planes): (&[f32; 3], &[Vec<f32>; 3])| {
             let masses = sigmas.map(|sigma| {
                 let kernel = gaussian(sigma.into(), self.radius);
-                (2.0 * kernel.iter().sum::<f64>() - kernel[0]).powi(2) as f32
+                mass(&kernel).powi(2) as f32
             });
             let weights = (0..planes[0].len()).map(|pixel| [0, 1, 2].map(|c| masses[c] * planes[c][pixel])).collect();
             (sigmas.map(|sigma| sampled_variance(sigma.into()).sqrt() as f32), weights)
@@ -86,7 +86,7 @@ impl LinSss {
             let sigma = f64::from(self.sigmas[h][c]);
             // Weights of the whole Gaussian, of which the fit saw the part within the window, at whole pixels.
             let kernel = gaussian(sigma, self.radius);
-            let mass = 2.0 * kernel.iter().sum::<f64>() - kernel[0];
+            let mass = mass(&kernel);
             let kernel: Vec<f64> = kernel.iter().map(|value| value / mass).collect();
             let inside = of_ones(&kernel, self.size);
             let weights = &self.weights[h][c];

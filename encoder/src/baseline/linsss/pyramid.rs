@@ -1,6 +1,6 @@
 //! A pyramid of smaller and smaller pictures of the light, between whose levels any Gaussian is looked up.
 
-use super::convolve::{convolve, gaussian};
+use super::convolve::{convolve, gaussian, mass};
 
 /// Weights of the filter before a plane is halved, at offsets −1, 0, 1, 2 of a pixel's two: binomial, of variance 3/4.
 const HALVING: [f32; 4] = [0.125, 0.375, 0.375, 0.125];
@@ -97,5 +97,5 @@ pub(super) fn sampled_variance(sigma: f64) -> f64 {
     let kernel = gaussian(sigma, (6.0 * sigma).ceil() as usize + 1);
     #[allow(clippy::cast_precision_loss, reason = "a few dozen pixels")]
     let moment: f64 = kernel.iter().enumerate().map(|(d, weight)| 2.0 * weight * (d * d) as f64).sum();
-    moment / (2.0 * kernel.iter().sum::<f64>() - kernel[0])
+    moment / mass(&kernel)
 }

@@ -11,7 +11,7 @@ use crate::asset::LinsssMaterial;
 use crate::gpu::{Gpu, Rows, Tracked};
 use crate::technique::area::MapArea;
 use crate::technique::bindings::{Bindings, Group, Lap};
-use crate::technique::mesh_pass::{Attachments, MeshPass, SharedGroups, Viewport, cleared};
+use crate::technique::mesh_pass::{Attachments, MeshPass, SharedGroups, cleared};
 
 /// Block and bind group of one pass over the maps.
 #[derive(Debug)]
@@ -69,17 +69,13 @@ impl Bindings for Bound {
 
     fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, shared: SharedGroups<'_>, lap: Lap<'_>) {
         let (passes, maps) = (&*self.passes, &self.maps);
-        let MapArea { whole, first, size } = self.area;
+        let size = self.area.size;
         let colours = [&maps.levels[0], &maps.weighted.view, &maps.through.view].map(|view| cleared(view, self.far));
         let attachments = Attachments {
             colours: &colours,
             depth: &maps.depth.view,
             depth_ops: passes.depth.own(),
-            viewport: Some(Viewport {
-                origin: first.map(|texel| -i64::from(texel)),
-                size: whole,
-                scissor: [[0; 2], size],
-            }),
+            viewport: Some(self.area.viewport()),
         };
         // The first Gaussian comes last: with it, what comes through from behind.
         for (h, gbuffer) in self.gbuffers.iter().enumerate().rev() {

@@ -3,6 +3,8 @@
 use subsurf_decoder::bssrdf::BssrdfHeader;
 use subsurf_shaders::uniform::MAX_RINGS;
 
+use crate::technique::area::divisor_of;
+
 /// Edge of samples of the first ring, in pixels of the material.
 const SAMPLE_PIXELS: f32 = 1.0;
 /// Where a ring begins to fade out, in edges of its samples.
@@ -72,7 +74,5 @@ pub(crate) fn divisor(header: &BssrdfHeader, radius_mm: f32, light_texels: u32, 
     let levels = SplatLevels::new(header, radius_mm, light_texels);
     #[allow(clippy::cast_precision_loss, reason = "small")]
     let sample_mm = 2.0 * radius_mm / light_texels as f32 * (1_u32 << levels.first) as f32;
-    let divisor = (sample_mm * pixels_per_mm / TEXELS_PER_SAMPLE).floor().clamp(1.0, 8.0);
-    // Of what is no number nothing is left.
-    divisor.max(1.0)
+    divisor_of(sample_mm * pixels_per_mm / TEXELS_PER_SAMPLE, 8.0)
 }

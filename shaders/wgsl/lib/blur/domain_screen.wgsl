@@ -64,8 +64,7 @@ fn whole_of(taps: Taps, steady: f32, weights: f32, stretch: f32) -> f32 {
 fn blurred(x: vec2<i32>) -> array<vec4<f32>, TERMS> {
     let centre = maps_at(x)[0];
     var sums: array<vec4<f32>, TERMS>;
-    // Depth of the background is beyond everything.
-    if centre.w > 50000.0 {
+    if centre.w > BACKGROUND_MM {
         sums[0].w = centre.w;
         return sums;
     }

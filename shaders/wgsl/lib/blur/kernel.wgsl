@@ -17,8 +17,6 @@ struct KernelTerm {
 // Light that is blurred; depth in mm in the fourth channel.
 @group(0) @binding(2) var light: TargetTexture;
 
-// Depth of the background is beyond everything.
-const BACKGROUND_MM: f32 = 50000.0;
 // A product of two even kernels looks the same after a quarter of a turn.
 const HALF_PI: f32 = 1.5707963;
 

@@ -16,3 +16,6 @@ struct ScreenDomain {
 }
 
 @group(0) @binding(1) var<uniform> domain: ScreenDomain;
+
+// Depth of the background is beyond everything.
+const BACKGROUND_MM: f32 = 50000.0;

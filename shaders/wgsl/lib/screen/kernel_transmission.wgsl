@@ -15,21 +15,11 @@ fn tail_at(d: f32) -> vec3<f32> {
     return mix(low, high, clamp(place - f32(node), 0.0, 1.0));
 }
 
-// Distance of places around a position that light spreads to on its way, in texels of `texel_mm`.
-fn spread_texels(texel_mm: f32) -> f32 {
-    return clamp(0.8 * profile.spread_mm / texel_mm, 1.0, 128.0);
-}
-
-// Binomial weight of the place that is `step` away in columns and rows, each -1 to 1.
-fn spread_weight(step: vec2<i32>) -> f32 {
-    return f32((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
-}
-
 // Light of source i that enters d away along the light and reaches a position in mm.
 fn transmitted_of_map(i: u32, position_mm: vec3<f32>) -> vec3<f32> {
     let coord = tsm_coord(i, position_mm);
     let depth = light_depth(i, position_mm);
-    let reach = spread_texels(coord.texel_mm);
+    let reach = spread_texels(profile.spread_mm, coord.texel_mm);
     var total = vec3<f32>(0.0);
     for (var k = 0; k < 9; k++) {
         let step = vec2<i32>(k % 3 - 1, k / 3 - 1);
@@ -45,25 +35,20 @@ fn transmitted_of_map(i: u32, position_mm: vec3<f32>) -> vec3<f32> {
 // The same by a map of the host's, which tells the distance alone: there the light is taken to enter as large an angle from the normal
 // as here. `facing_away` is the cosine here.
 fn transmitted_by_host(i: u32, position_mm: vec3<f32>, facing_away: f32) -> vec3<f32> {
-    let source = scene.light[min(i, MAX_LIGHTS - 1u)];
     let from_light = incident(i, position_mm);
     let coord = host_coord(i, position_mm);
     if !coord.is_inside {
         return vec3<f32>(0.0);
     }
-    // Depth along the ray to the light is (z + t dz) / (w + t dw), t mm away.
-    let start = source.clip_from_world * vec4<f32>(position_mm, 1.0);
-    let slope = source.clip_from_world * vec4<f32>(from_light.towards, 0.0);
-    let furthest = select(1.0, 0.0, source.shadow == HOST_SHADOW_REVERSED);
-    let reach = spread_texels(coord.texel_mm);
+    let ray = host_ray(i, position_mm, from_light.towards);
+    let reach = spread_texels(profile.spread_mm, coord.texel_mm);
     var total = vec3<f32>(0.0);
     for (var k = 0; k < 9; k++) {
         let step = vec2<i32>(k % 3 - 1, k / 3 - 1);
         let depth = host_depth(i, coord, floor(coord.texel + vec2<f32>(step) * reach));
-        let change = slope.z - depth * slope.w;
-        // Nothing enters where nothing is seen.
-        if depth != furthest && change != 0.0 {
-            total += spread_weight(step) * tail_at(abs((depth * start.w - start.z) / change));
+        let d = thickness(ray, depth);
+        if d >= 0.0 {
+            total += spread_weight(step) * tail_at(d);
         }
     }
     return total * from_light.irradiance * fresnel_transmittance(facing_away, object.eta);

@@ -33,16 +33,9 @@ fn attenuated(light: array<vec3<f32>, TERMS>, d: f32) -> array<vec3<f32>, TERMS>
     return left;
 }
 
-// Distance of places around a position that light spreads to on its way, in texels of `texel_mm`: nine of them, as far apart as
-// the widest Gaussian reaches from one to the next.
-fn spread_texels(texel_mm: f32) -> f32 {
-    let widest_mm = transmission.weights[min(4u * (transmission.gaussians - 1u), 31u)].w;
-    return clamp(0.8 * widest_mm / texel_mm, 1.0, 128.0);
-}
-
-// Binomial weight of the place that is `step` away in columns and rows, each -1 to 1.
-fn spread_weight(step: vec2<i32>) -> f32 {
-    return f32((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
+// Standard deviation of the widest Gaussian in mm.
+fn widest_mm() -> f32 {
+    return transmission.weights[min(4u * (transmission.gaussians - 1u), 31u)].w;
 }
 
 // Light of source i that enters d away along the light and reaches a position in mm, shape [m] (Dachsbacher and Stamminger
@@ -51,7 +44,7 @@ fn transmitted_of_map(i: u32, position_mm: vec3<f32>) -> array<vec3<f32>, TERMS>
     let coord = tsm_coord(i, position_mm);
     let depth = light_depth(i, position_mm);
     var total: array<vec3<f32>, TERMS>;
-    let reach = spread_texels(coord.texel_mm);
+    let reach = spread_texels(widest_mm(), coord.texel_mm);
     for (var k = 0; k < 9; k++) {
         let step = vec2<i32>(k % 3 - 1, k / 3 - 1);
         let texel = tsm_texel(i, vec2<i32>(floor(coord.texel + vec2<f32>(step) * reach)));
@@ -80,7 +73,6 @@ fn transmitted_by_host(
     facing_away: f32,
     c: array<vec3<f32>, LAYERS>,
 ) -> array<vec3<f32>, TERMS> {
-    let source = scene.light[min(i, MAX_LIGHTS - 1u)];
     let from_light = incident(i, position_mm);
     let e = from_light.irradiance * fresnel_transmittance(facing_away, object.eta);
     // Only variables can be indexed by what is not constant.
@@ -94,18 +86,14 @@ fn transmitted_by_host(
     if !coord.is_inside {
         return total;
     }
-    // Depth along the ray to the light is (z + t dz) / (w + t dw), t mm away.
-    let start = source.clip_from_world * vec4<f32>(position_mm, 1.0);
-    let slope = source.clip_from_world * vec4<f32>(from_light.towards, 0.0);
-    let furthest = select(1.0, 0.0, source.shadow == HOST_SHADOW_REVERSED);
-    let reach = spread_texels(coord.texel_mm);
+    let ray = host_ray(i, position_mm, from_light.towards);
+    let reach = spread_texels(widest_mm(), coord.texel_mm);
     for (var k = 0; k < 9; k++) {
         let step = vec2<i32>(k % 3 - 1, k / 3 - 1);
         let depth = host_depth(i, coord, floor(coord.texel + vec2<f32>(step) * reach));
-        let change = slope.z - depth * slope.w;
-        // Nothing enters where nothing is seen.
-        if depth != furthest && change != 0.0 {
-            var left = attenuated(entered, (depth * start.w - start.z) / change);
+        let d = thickness(ray, depth);
+        if d >= 0.0 {
+            var left = attenuated(entered, d);
             for (var m = 0u; m < TERMS; m++) {
                 total[m] += spread_weight(step) * left[m];
             }

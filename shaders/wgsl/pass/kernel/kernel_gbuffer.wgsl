@@ -1,4 +1,4 @@
-// Needs: <target format>, fresnel, object, scene, host_shadow, tsm_visibility, visibilities, vertex_none, vertex, kernel_profile, kernel_transmission.
+// Needs: <target format>, fresnel, object, scene, host_shadow, tsm_visibility, visibilities, vertex_none, vertex, spread, kernel_profile, kernel_transmission.
 // G-buffer for separable kernels on the screen: light that enters, and light that is transmitted from behind; depth in mm in the fourth
 // channel.
 

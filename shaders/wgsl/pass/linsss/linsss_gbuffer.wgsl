@@ -1,4 +1,4 @@
-// Needs: <target format>, fresnel, object, scene, mapping, host_shadow, tsm_visibility, patch_layers, visibilities, vertex_none, vertex, linsss.
+// Needs: <target format>, fresnel, object, scene, mapping, host_shadow, tsm_visibility, patch_layers, visibilities, vertex_none, vertex, spread, linsss.
 // G-buffer for LinSSS: light E that enters, W_h E for one Gaussian, and light that comes through from behind; depth in mm in the
 // fourth channel.
 
@@ -21,7 +21,7 @@ fn transmitted(i: u32, position_mm: vec3<f32>, own: array<vec3<f32>, MAX_LINSSS_
     let coord = tsm_coord(i, position_mm);
     let depth = light_depth(i, position_mm);
     let widest = linsss.sigmas_mm[min(linsss.gaussians, MAX_LINSSS_GAUSSIANS) - 1u].xyz;
-    let reach = clamp(0.8 * max(widest.x, max(widest.y, widest.z)) / coord.texel_mm, 1.0, 128.0);
+    let reach = spread_texels(max(widest.x, max(widest.y, widest.z)), coord.texel_mm);
     var total = vec3<f32>(0.0);
     for (var k = 0; k < 9; k++) {
         let step = vec2<i32>(k % 3 - 1, k / 3 - 1);
@@ -29,8 +29,7 @@ fn transmitted(i: u32, position_mm: vec3<f32>, own: array<vec3<f32>, MAX_LINSSS_
         let flux = unpack(textureLoad(tsm_fluxes, texel, 0));
         let d = abs(depth - unpack(textureLoad(tsm_positions, texel, 0)).x);
         let uv = unpack(textureLoad(tsm_uvs, texel, 0)).xy;
-        let share = f32((2 - abs(step.x)) * (2 - abs(step.y))) / 16.0;
-        let e = flux.xyz * select(0.0, 0.5, is_of_group(flux.w)) * share;
+        let e = flux.xyz * select(0.0, 0.5, is_of_group(flux.w)) * spread_weight(step);
         for (var h = 0u; h < min(linsss.gaussians, MAX_LINSSS_GAUSSIANS); h++) {
             let sigma = linsss.sigmas_mm[h].xyz;
             let left = exp(-0.5 * min(d * d / (sigma * sigma), vec3<f32>(80.0)));

@@ -1,4 +1,4 @@
-// Needs: <target format>, <terms>, fresnel, object, scene, mapping, host_shadow, tsm_visibility, patch_layers, separable_basis, visibilities, vertex_none, vertex, transmission.
+// Needs: <target format>, <terms>, fresnel, object, scene, mapping, host_shadow, tsm_visibility, patch_layers, separable_basis, visibilities, vertex_none, vertex, spread, transmission.
 // G-buffer for the separable blurs on the screen: c_l E of the light that enters, and S_m of the light that is transmitted
 // from behind; depth in mm in the fourth channel.
 
