@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use glam::Vec3;
-use subsurf_decoder::Bssrdf;
+use subsurf_decoder::{Bssrdf, Kernel};
 use subsurf_encoder::metrics::psnr_db;
 use subsurf_runtime::{
     BACKGROUND, Backend, BssrdfPlanes, Frame, GatherMaterial, Gpu, GpuMesh, GpuPoints, Input, Load, Material, Object,
@@ -121,6 +121,19 @@ impl Loaded {
         };
         let known = VertexData { ambient: Some(shares), ..Default::default() };
         Self { mesh: GpuMesh::upload(gpu, mesh, known).unwrap(), material, mapping: Mapping::Uv([2.0, 1.0]) }
+    }
+
+    /// A homogeneous material, with the light from all around that vertices have.
+    ///
+    /// # Panics
+    /// If the device takes none of it.
+    #[must_use]
+    pub fn kernel(gpu: &Gpu, file: &[u8], mesh: &Mesh) -> Self {
+        let kernel = Kernel::parse(file).unwrap();
+        let shares = AmbientTransfer::of_kernel(mesh, &kernel).unwrap();
+        let known = VertexData { ambient: Some(&shares), ..Default::default() };
+        let material = Load::kernel(gpu, &kernel).unwrap().finish().unwrap().into();
+        Self { mesh: GpuMesh::upload(gpu, mesh, known).unwrap(), material, mapping: Mapping::Box }
     }
 
     /// As a renderer takes it.

@@ -46,14 +46,8 @@ pub fn two_gaussians(of: TwoGaussians, reflectance: [f32; 3], taps: u16) -> Kern
         })
     });
     let tail = (0..NODES).map(|k| {
-        let d = radius * (f32::from(k) / f32::from(NODES - 1)).powi(2);
-        [0, 1, 2].map(|c| {
-            let plane = |d: f32| {
-                let gaussian = |tau: f32| (-0.5 * d * d / tau).exp();
-                of.weight[c] * gaussian(of.tau_near[c]) + (1.0 - of.weight[c]) * gaussian(of.tau_far[c])
-            };
-            reflectance[c] * (plane(d) - plane(radius)) / (1.0 - plane(radius))
-        })
+        let share = share_through(of, radius, radius * (f32::from(k) / f32::from(NODES - 1)).powi(2));
+        [0, 1, 2].map(|c| reflectance[c] * share[c])
     });
     KernelModel {
         method: KernelMethod::TwoGaussians,
@@ -74,6 +68,18 @@ pub fn share_beyond(of: TwoGaussians, radius: f32, d: f32) -> [f32; 3] {
     [0, 1, 2].map(|c| 0.5 - 0.5 * within(&of, d.min(radius), c) / within(&of, radius, c))
 }
 
+/// Share of a profile within `radius` that lies farther than `d` from its middle, both in mm: what comes through a plate of that thickness.
+#[must_use]
+pub fn share_through(of: TwoGaussians, radius: f32, d: f32) -> [f32; 3] {
+    [0, 1, 2].map(|c| {
+        let beyond = |d: f32| {
+            let gaussian = |tau: f32| (-0.5 * d * d / tau).exp();
+            of.weight[c] * gaussian(of.tau_near[c]) + (1.0 - of.weight[c]) * gaussian(of.tau_far[c])
+        };
+        (beyond(d.min(radius)) - beyond(radius)) / (1.0 - beyond(radius))
+    })
+}
+
 /// Integral of a profile in one dimension from 0 to x in mm, of one channel.
 fn within(of: &TwoGaussians, x: f32, c: usize) -> f32 {
     let gaussian = |tau: f32| 0.5 * libm::erff(x / (2.0 * tau).sqrt());
@@ -86,12 +92,14 @@ pub fn skin(taps: u16) -> KernelModel {
     two_gaussians(SKIN, [0.8, 0.6, 0.5], taps)
 }
 
+/// Profile of [`difference`], but for its reflectance: the wide Gaussians of [`SKIN`].
+pub const WIDE: TwoGaussians = TwoGaussians { weight: [0.0; 3], ..SKIN };
+
 /// Two terms, the second taken away: of red and green what three tenths of the light would do, of blue nothing.
 #[must_use]
 pub fn difference(taps: u16) -> KernelModel {
-    let wide = TwoGaussians { weight: [0.0; 3], ..SKIN };
     let narrow = TwoGaussians { weight: [1.0; 3], tau_far: SKIN.tau_far, ..SKIN };
-    let first = two_gaussians(wide, [0.9, 0.7, 0.5], taps);
+    let first = two_gaussians(WIDE, [0.9, 0.7, 0.5], taps);
     let mut second = two_gaussians(narrow, [0.3, 0.3, 0.0], taps).terms.remove(0);
     second.sign = [-1, -1, 1];
     let reflectance = [0.6, 0.4, 0.5];

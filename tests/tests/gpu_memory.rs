@@ -8,6 +8,7 @@ use subsurf_runtime::{Backend, Error, Frame, Gpu, PictureTarget, Purpose, Runtim
 use subsurf_scene::{AmbientTransfer, Light, Scene, Shadow, torus};
 use subsurf_tests::drawable;
 use subsurf_tests::frames::{Loaded, RenderMode, SIZE, device, scene};
+use subsurf_tests::kernels::{difference, skin};
 
 fn prepared(gpu: &Gpu, loaded: &Loaded, scene: &Scene, budget_bytes: Option<u64>) -> Result<Frame, Error> {
     let options = RuntimeOptions { budget_bytes, ..RuntimeOptions::default() };
@@ -20,27 +21,32 @@ fn budgets_are_kept_or_refused() {
     let mesh = torus(9.0, 4.0, 24);
     let scene = scene(&mesh);
     for gpu in Backend::ALL.map(device) {
-        for mode in [RenderMode::Splat, RenderMode::Separable, RenderMode::Gather] {
-            let loaded = Loaded::new(&gpu, mode, &file, &mesh);
+        for mode in ["splat", "separable", "gather", "kernel"] {
+            let loaded = match mode {
+                "splat" => Loaded::new(&gpu, RenderMode::Splat, &file, &mesh),
+                "separable" => Loaded::new(&gpu, RenderMode::Separable, &file, &mesh),
+                "gather" => Loaded::new(&gpu, RenderMode::Gather, &file, &mesh),
+                _ => Loaded::kernel(&gpu, &skin(25).to_bytes().unwrap(), &mesh),
+            };
             let before = gpu.ledger().bytes();
             let frame = prepared(&gpu, &loaded, &scene, None).unwrap();
             let whole = gpu.ledger().bytes();
             let best = *frame.plan();
             drop(frame);
-            assert_eq!(gpu.ledger().bytes(), before, "{mode:?}: all of a frame is gone");
+            assert_eq!(gpu.ledger().bytes(), before, "{mode}: all of a frame is gone");
 
             let frame = prepared(&gpu, &loaded, &scene, Some(whole - 1)).unwrap();
-            assert!(gpu.ledger().bytes() < whole, "{mode:?}: {} bytes of {whole}", gpu.ledger().bytes());
-            assert_ne!(*frame.plan(), best, "{mode:?}: something had to become coarser");
+            assert!(gpu.ledger().bytes() < whole, "{mode}: {} bytes of {whole}", gpu.ledger().bytes());
+            assert_ne!(*frame.plan(), best, "{mode}: something had to become coarser");
             drop(frame);
 
             match prepared(&gpu, &loaded, &scene, Some(before + 1_000)) {
                 Err(Error::OverBudget { need_bytes, budget_bytes }) => {
                     assert!(need_bytes > budget_bytes, "{need_bytes} {budget_bytes}");
                 }
-                other => panic!("{mode:?}: {other:?}"),
+                other => panic!("{mode}: {other:?}"),
             }
-            assert_eq!(gpu.ledger().bytes(), before, "{mode:?}: nothing was allocated");
+            assert_eq!(gpu.ledger().bytes(), before, "{mode}: nothing was allocated");
         }
     }
 }
@@ -112,6 +118,46 @@ fn views_of_lights_and_separable_frames_are_small() {
             let fine = RuntimeOptions { map_bytes_per_pixel: 100.0, ..options };
             let frame = loaded.prepare(&gpu, &loaded.renderer(&gpu, fine).unwrap(), &far, size).unwrap();
             assert_eq!(frame.plan().blur_size, size, "full size");
+        }
+    }
+}
+
+/// Kernels of 25 taps take 1.2 kB as a file, and 1.3 kB with a second term; 2.8 and 4.4 kB on the device. A frame of 1280 × 720 pixels
+/// takes 20 MB with the view of its light and its picture; maps have 28 bytes a texel, and 36 where there are several terms.
+#[test]
+fn kernels_and_their_frames_are_small() {
+    let size = [1280, 720];
+    let mesh = torus(9.0, 4.0, 24);
+    let near = scene(&mesh);
+    let mut far = near.clone();
+    far.camera.eye_mm *= 50.0;
+    for gpu in Backend::ALL.map(device) {
+        for (model, file_bytes, gpu_bytes, texel_bytes) in
+            [(skin(25), 1_184, 2_816, 28), (difference(25), 1_280, 4_352, 36)]
+        {
+            let file = model.to_bytes().unwrap();
+            let terms = model.terms.len();
+            assert!(file.len() <= file_bytes, "{terms} terms: a file of {} bytes", file.len());
+            let loaded = Loaded::kernel(&gpu, &file, &mesh);
+            assert_eq!(loaded.material.gpu_bytes(), gpu.ledger().bytes_of(Purpose::Material), "{terms} terms");
+            println!("{terms} terms: file {}, device {}", file.len(), loaded.material.gpu_bytes());
+            assert!(loaded.material.gpu_bytes() <= gpu_bytes, "{terms} terms: {} bytes", loaded.material.gpu_bytes());
+            let kept = Purpose::ALL.map(|purpose| gpu.ledger().bytes_of(purpose));
+            let options = RuntimeOptions::default();
+            let renderer = loaded.renderer(&gpu, options).unwrap();
+            for scene in [&near, &far] {
+                let picture = PictureTarget::new(&gpu, size, &options).unwrap();
+                let frame = loaded.prepare(&gpu, &renderer, scene, size).unwrap();
+                let bytes = Purpose::ALL.map(|purpose| gpu.ledger().bytes_of(purpose) - kept[purpose as usize]);
+                let [width, height] = frame.plan().blur_size.map(u64::from);
+                println!("{terms} terms, maps {width} x {height}: {bytes:?}");
+                let maps = texel_bytes * width * height;
+                let all: u64 = bytes.iter().sum();
+                let others = all - bytes[Purpose::LightView as usize] - bytes[Purpose::Other as usize];
+                assert!(maps <= others && others <= maps + 100_000, "{terms} terms: {others} bytes, {maps} of maps");
+                assert!(all <= 20_000_000, "{terms} terms: {all} bytes, {bytes:?}");
+                drop((frame, picture));
+            }
         }
     }
 }

@@ -26,12 +26,18 @@ fn fine() -> RuntimeOptions {
     RuntimeOptions { map_bytes_per_pixel: 100.0, jittered_taps: false, ..RuntimeOptions::default() }
 }
 
-fn light(towards: Vec3, irradiance: [f32; 3]) -> Light {
+pub(super) fn light(towards: Vec3, irradiance: [f32; 3]) -> Light {
     Light { shape: LightShape::Directional { towards }, irradiance, shadow: Shadow::None }
 }
 
 /// Draws some meshes, each of a file.
-fn drawn(gpu: &Gpu, of: &[(&Mesh, &[u8])], scene: &Scene, size: [u32; 2], options: RuntimeOptions) -> Vec<[u8; 3]> {
+pub(super) fn drawn(
+    gpu: &Gpu,
+    of: &[(&Mesh, &[u8])],
+    scene: &Scene,
+    size: [u32; 2],
+    options: RuntimeOptions,
+) -> Vec<[u8; 3]> {
     let renderer = Renderer::for_technique(gpu, Technique::Kernel, options).unwrap();
     let load = |(mesh, bytes): &(&Mesh, &[u8])| {
         let material = Load::new(gpu, &File::parse(bytes).unwrap()).unwrap().finish().unwrap();
@@ -114,7 +120,7 @@ fn kernels_on_gles_3_0() {
 }
 
 /// Rectangle at z = 0, from `left` to `right`, 8 mm up and down, with one normal.
-fn rectangle(left: f32, right: f32, normal: Vec3) -> Mesh {
+pub(super) fn rectangle(left: f32, right: f32, normal: Vec3) -> Mesh {
     let positions = [[left, -8.0], [right, -8.0], [right, 8.0], [left, 8.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
     Mesh {
         positions: positions.to_vec(),
@@ -126,7 +132,7 @@ fn rectangle(left: f32, right: f32, normal: Vec3) -> Mesh {
 }
 
 /// Two rectangles as one mesh.
-fn joined(a: &Mesh, b: &Mesh) -> Mesh {
+pub(super) fn joined(a: &Mesh, b: &Mesh) -> Mesh {
     let first = u32::try_from(a.positions.len()).unwrap();
     let mut both = a.clone();
     both.positions.extend(&b.positions);
@@ -135,16 +141,19 @@ fn joined(a: &Mesh, b: &Mesh) -> Mesh {
     both
 }
 
+/// Irradiance of the lights of planes.
+pub(super) const IRRADIANCE: f32 = 4.0;
 /// Towards the light of all planes: 45° from the normal.
 const ASLANT: Vec3 = Vec3::new(1.0, 0.0, 1.0);
 /// Normal of what faces the eye, and of what the light only grazes.
-const NORMALS: [Vec3; 2] = [Vec3::Z, Vec3::new(-std::f32::consts::FRAC_1_SQRT_2, 0.0, std::f32::consts::FRAC_1_SQRT_2)];
-const PLANES: [u32; 2] = [120, 80];
+pub(super) const NORMALS: [Vec3; 2] =
+    [Vec3::Z, Vec3::new(-std::f32::consts::FRAC_1_SQRT_2, 0.0, std::f32::consts::FRAC_1_SQRT_2)];
+pub(super) const PLANES: [u32; 2] = [120, 80];
 
 /// Planes under one light, seen from afar, without a sky; `high` mm fit into the upper half of the picture.
-fn planes(high: f32) -> Scene {
+pub(super) fn planes(high: f32) -> Scene {
     Scene {
-        lights: vec![light(ASLANT, [4.0; 3])],
+        lights: vec![light(ASLANT, [IRRADIANCE; 3])],
         environment: Environment::uniform([0.0; 3]),
         roughness: 0.0,
         camera: Camera {
@@ -157,16 +166,20 @@ fn planes(high: f32) -> Scene {
 }
 
 /// Linear values of what is drawn of planes.
-fn linear() -> RuntimeOptions {
+pub(super) fn linear() -> RuntimeOptions {
     RuntimeOptions { tone_mapping: false, ..fine() }
 }
 
 /// Value of an exitance of 1 times what enters under the light of [`planes`], on a surface of that normal.
 fn value(model: &KernelModel, normal: Vec3) -> f32 {
-    let entered =
-        cpu::fresnel_transmittance(std::f32::consts::FRAC_1_SQRT_2, model.eta) * std::f32::consts::FRAC_1_SQRT_2;
+    value_of(model, std::f32::consts::FRAC_1_SQRT_2, normal)
+}
+
+/// The same where a light as bright comes in by an angle of that cosine.
+pub(super) fn value_of(model: &KernelModel, cosine: f32, normal: Vec3) -> f32 {
+    let entered = cpu::fresnel_transmittance(cosine, model.eta) * cosine;
     let leaves = cpu::fresnel_transmittance(normal.z, model.eta) / (cpu::diffuse_transmittance(model.eta) * PI);
-    4.0 * entered * leaves * 255.0
+    IRRADIANCE * entered * leaves * 255.0
 }
 
 /// Under even light a plane is as bright as its reflectance says, up to its borders.

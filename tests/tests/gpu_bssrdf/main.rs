@@ -3,6 +3,7 @@
 //! The GL backend must really be GLES 3.0: `.cargo/config.toml` sets Mesa's overrides for `cargo test`.
 
 mod kernel;
+mod kernel_transmission;
 mod projected;
 
 use std::sync::Arc;
