@@ -252,9 +252,12 @@ pub unsafe extern "C" fn subsurf_material_info(
             Technique::Separable(_) => SubsurfTechnique::Separable,
             Technique::Btf(_) => SubsurfTechnique::Btf,
             Technique::Kernel => SubsurfTechnique::Kernel,
-            // What no call loads: the gather; and LinSSS, which the runtime has where a crate of the build asks for its feature `reference`,
-            // so that no arm can name it here, and an arm for all others may or may not be reached.
-            _ => SubsurfTechnique::Automatic,
+            // The gather, which no call loads; and LinSSS, which the runtime has where a crate of the build asks for its feature
+            // `reference`, so that no arm can name it here. A technique that is new says so before anyone takes it for another.
+            other => {
+                let text = format!("a material drawn by {other:?}, which has no SubsurfTechnique");
+                return Err(Fault::Told(SubsurfStatus::Unsupported, text));
+            }
         };
         let (materials, gpu_bytes) = (open.materials, open.material.gpu_bytes());
         // SAFETY: the caller's struct.
