@@ -31,6 +31,8 @@ fn tables_are_read_as_people_write_them() {
         rows.replace(',', "\t"),
         rows.replace(',', "  ").replace('\n', " # here\r\n\r\n"),
         "r_from_mm,r_to_mm,rd_red,rd_green,rd_blue\n0,1,0.2,0.1,0.05\n1,2,0.02,0.01,0.005\n".to_owned(),
+        "\"r_from_mm\",\"r_to_mm\", \"rd_red\"\n\"0\",1,0.2,0.1,0.05\n1,2,0.02,0.01,0.005\n".to_owned(),
+        "\"r_from_mm\";\"r_to_mm\"\n0;\"1\";0,2;0,1;0,05\n1;2;0,02;0,01;0,005\n".to_owned(),
         "r,rd,g,b,error\n0.5,0.2,0.1,0.05,9\n1.5,0.02,0.01,0.005,9\n".to_owned(),
         // Decimal commas beside tabs, and a tab before a comment.
         rows.replace(',', "\t").replace('.', ",").replace('\n', "\t# here\n"),
@@ -58,6 +60,7 @@ fn tables_that_are_none_are_refused_in_one_line() {
         ("0,1,2,3\n1,2\n", "2 columns in line 2; expected as many as in the first row"),
         ("0,1\n1,x\n", "1,x in line 2; expected finite numbers"),
         ("0,1\n1,inf\n", "1,inf in line 2"),
+        ("\"r, mm\",rd\n\"0,1\n1,1\n", "\"0,1 in line 2"),
         ("0,1\n1,NaN\n", "1,NaN in line 2"),
         ("0,1\n0,2\n", "r = 0 mm after 0 mm in line 2; expected radii that ascend"),
         ("-1,1\n0,2\n", "a radius of -1 mm in line 1"),

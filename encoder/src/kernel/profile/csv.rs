@@ -121,10 +121,16 @@ fn rows(path: &Path, text: &str) -> Result<(bool, Vec<Row>)> {
 fn fields(line: &str) -> Vec<String> {
     let separator = [';', '\t', ','].into_iter().find(|separator| line.contains(*separator));
     match separator {
-        Some(',') => line.split(',').map(|field| field.trim().to_owned()).collect(),
-        Some(separator) => line.split(separator).map(|field| field.trim().replace(',', ".")).collect(),
-        None => line.split_whitespace().map(str::to_owned).collect(),
+        Some(',') => line.split(',').map(|field| unquoted(field).to_owned()).collect(),
+        Some(separator) => line.split(separator).map(|field| unquoted(field).replace(',', ".")).collect(),
+        None => line.split_whitespace().map(|field| unquoted(field).to_owned()).collect(),
     }
+}
+
+/// A field without blanks around it, and without the quotes in which some programs write titles or all fields.
+fn unquoted(field: &str) -> &str {
+    let field = field.trim();
+    field.strip_prefix('"').and_then(|field| field.strip_suffix('"')).map_or(field, str::trim)
 }
 
 /// Whether a line that begins with this field is a title, rather than numbers with a slip.
