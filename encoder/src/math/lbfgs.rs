@@ -30,7 +30,7 @@ pub(crate) struct Limits<'a> {
 }
 
 /// Parameters of the lowest cost found from `start`, which lies within the bounds. The search has no history.
-pub(crate) fn minimise(objective: &impl Objective, bounds: &Bounds, start: Vec<f64>, limits: &Limits<'_>) -> Vec<f64> {
+pub(crate) fn minimise(objective: &dyn Objective, bounds: &Bounds, start: Vec<f64>, limits: &Limits<'_>) -> Vec<f64> {
     let stop = CancellationToken::new();
     let problem = Problem { objective, bounds, is_stopped: limits.is_stopped, stop: stop.clone() };
     let solver = Lbfgs::new().with_relative_cost_reduction_tolerance(limits.relative_reduction);
@@ -40,15 +40,15 @@ pub(crate) fn minimise(objective: &impl Objective, bounds: &Bounds, start: Vec<f
     run.expect("a start within its bounds and a cost that cannot fail").param().clone()
 }
 
-/// An objective as `basin` sees it.
-struct Problem<'a, O> {
-    objective: &'a O,
+/// An objective as `basin` sees it: of one type, so that the solver is compiled once.
+struct Problem<'a> {
+    objective: &'a dyn Objective,
     bounds: &'a Bounds,
     is_stopped: &'a (dyn Fn() -> bool + Sync),
     stop: CancellationToken,
 }
 
-impl<O: Objective> Problem<'_, O> {
+impl Problem<'_> {
     fn evaluate(&self, parameters: &[f64]) -> (f64, Vec<f64>) {
         if (self.is_stopped)() {
             self.stop.cancel();
@@ -57,7 +57,7 @@ impl<O: Objective> Problem<'_, O> {
     }
 }
 
-impl<O: Objective> CostFunction for Problem<'_, O> {
+impl CostFunction for Problem<'_> {
     type Param = Vec<f64>;
     type Output = f64;
     type Error = Infallible;
@@ -67,7 +67,7 @@ impl<O: Objective> CostFunction for Problem<'_, O> {
     }
 }
 
-impl<O: Objective> Gradient for Problem<'_, O> {
+impl Gradient for Problem<'_> {
     type Gradient = Vec<f64>;
 
     fn gradient(&self, parameters: &Vec<f64>) -> Result<Vec<f64>, Infallible> {
@@ -79,7 +79,7 @@ impl<O: Objective> Gradient for Problem<'_, O> {
     }
 }
 
-impl<O: Objective> Constraints for Problem<'_, O> {
+impl Constraints for Problem<'_> {
     type Set = ConstraintSet<BoxBounds<Vec<f64>>>;
 
     fn constraints(&self) -> <Self::Set as ConstraintDescription>::Borrowed<'_> {
