@@ -2,13 +2,13 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rayon::prelude::*;
 
 use crate::bssrdf::field::Field;
 use crate::bssrdf::normal::Normal;
 use crate::math::banded::Banded;
 use crate::math::k_means::KMeans;
 use crate::math::lanes::{self, Lanes, ZERO};
+use crate::math::parallel;
 use crate::progress::Progress;
 
 /// Rounds of Lloyd's iteration, at most.
@@ -55,7 +55,7 @@ impl KMeans for Profiles<'_> {
     type Assignment = Vec<usize>;
 
     fn assign(&self, centres: &Vec<Lanes>) -> Vec<usize> {
-        (0..self.pixels).into_par_iter().map(|pixel| nearest(self.metric, centres, self.field.at(pixel)).0).collect()
+        parallel::map(self.pixels, |pixel| nearest(self.metric, centres, self.field.at(pixel)).0)
     }
 
     /// Means; a centre that lost all its pixels stays where it is.
@@ -88,9 +88,8 @@ fn first_centres(metric: &Banded, profiles: &Field, pixels: usize, count: usize,
     let mut distances = vec![f64::INFINITY; pixels];
     for _ in 1..count.min(pixels) {
         let newest = &centres[centres.len() - metric.nodes()..];
-        distances.par_iter_mut().enumerate().for_each(|(pixel, distance)| {
-            *distance = distance.min(squared_distance(metric, newest, profiles.at(pixel)));
-        });
+        distances =
+            parallel::map(pixels, |pixel| distances[pixel].min(squared_distance(metric, newest, profiles.at(pixel))));
         let total: f64 = distances.iter().sum();
         if total <= 0.0 {
             // Fewer distinct profiles than clusters.

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
 use subsurf_decoder::bssrdf::layout::MAX_CODED_RATIO;
 use subsurf_decoder::bssrdf::{Coding, Mixture};
 
@@ -10,6 +9,7 @@ use crate::bssrdf::clusters::Clusters;
 use crate::bssrdf::field::Field;
 use crate::bssrdf::normal::{BLOCK_ROWS, BLOCKS_AT_ONCE, Normal};
 use crate::math::lanes::{self, Lanes, ZERO};
+use crate::math::parallel;
 
 /// A K-BMPP model relative to the mean profile.
 pub(crate) struct Model {
@@ -115,8 +115,7 @@ impl Model {
 
     /// Replaces all pixels' profiles, border included.
     pub(crate) fn write_to(&self, field: &mut Field) {
-        let profiles: Vec<Vec<Lanes>> =
-            (0..self.mixtures.len()).into_par_iter().map(|pixel| self.profile(pixel)).collect();
+        let profiles: Vec<Vec<Lanes>> = parallel::map(self.mixtures.len(), |pixel| self.profile(pixel));
         for (pixel, profile) in profiles.iter().enumerate() {
             field.set(pixel, profile);
         }
@@ -128,7 +127,7 @@ impl Model {
     pub(crate) fn gather(&self, normal: &Normal, v: impl Fn(usize, &mut [Lanes]) + Sync) -> Vec<Lanes> {
         let nodes = self.nodes;
         let [width, height] = normal.geometry.size;
-        let block = |&first: &usize| {
+        let block = |first: usize| {
             let mut sums = vec![ZERO; self.bases.len()];
             let mut image = vec![ZERO; nodes];
             for pixel in first * width..(first + BLOCK_ROWS).min(height) * width {
@@ -144,7 +143,7 @@ impl Model {
         let firsts: Vec<usize> = (0..height).step_by(BLOCK_ROWS).collect();
         let mut total = vec![ZERO; self.bases.len()];
         for firsts in firsts.chunks(BLOCKS_AT_ONCE) {
-            let blocks: Vec<Vec<Lanes>> = firsts.par_iter().map(block).collect();
+            let blocks: Vec<Vec<Lanes>> = parallel::map(firsts.len(), |k| block(firsts[k]));
             for sums in &blocks {
                 for (total, sum) in total.iter_mut().zip(sums) {
                     lanes::add(total, sum);

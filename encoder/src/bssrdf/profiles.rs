@@ -1,12 +1,11 @@
 //! Per-pixel local scattering profiles (Song et al. 2009; Yatagawa et al. 2020, eq. 1-3): where the direct method starts.
 
-use rayon::prelude::*;
-
 use crate::bssrdf::field::Field;
 use crate::bssrdf::normal::regulariser::regulariser;
 use crate::bssrdf::normal::{Matrix, Normal};
 use crate::math::banded::Cholesky;
 use crate::math::lanes::{self, Lanes, ZERO};
+use crate::math::parallel;
 use crate::progress::Progress;
 
 /// Largest residual of the solution, relative to the right-hand side.
@@ -28,10 +27,10 @@ pub(crate) fn fit(normal: &Normal, progress: &dyn Progress) -> Field {
         block.add_scaled(1.0, &regulariser);
         block.cholesky()
     };
-    let preconditioners: Vec<Cholesky> = normal.matrices.par_iter().map(own_block).collect();
+    let preconditioners: Vec<Cholesky> = parallel::map(normal.matrices.len(), |k| own_block(&normal.matrices[k]));
     let precondition = |residual: &[Lanes]| {
         let mut out = residual.to_vec();
-        out.par_chunks_mut(nodes).enumerate().for_each(|(pixel, profile)| {
+        parallel::for_chunks(&mut out, nodes, |pixel, profile| {
             preconditioners[normal.matrix_of[pixel] as usize].solve(profile);
         });
         out
@@ -54,7 +53,7 @@ pub(crate) fn fit(normal: &Normal, progress: &dyn Progress) -> Field {
             direction.set(pixel, profile);
         }
         direction.fill_border();
-        image.par_chunks_mut(nodes).enumerate().for_each(|(pixel, image)| {
+        parallel::for_chunks(&mut image, nodes, |pixel, image| {
             normal.cross(&direction, &deltas, pixel, image);
             normal.matrix(pixel).all.multiply_add(direction.at(pixel), image);
             regulariser.multiply_add(direction.at(pixel), image);

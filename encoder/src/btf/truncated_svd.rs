@@ -2,12 +2,12 @@
 //! direction. All encoders but the baselines begin with it.
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use subsurf_decoder::btf::ColourEncoding;
 
 use crate::btf::materials::common_tone;
 use crate::capture::Images;
 use crate::error::Result;
+use crate::math::parallel;
 use crate::math::svd::{Columns, LowRank, PASSES};
 use crate::progress::Progress;
 
@@ -82,7 +82,7 @@ impl Channels<'_> {
             }
             (sum / self.texels as f32 + 0.5 * FLAT_VARIANCE).powf(-0.5 * FOLLOWING)
         };
-        let weights: Vec<f32> = (0..pairs).into_par_iter().map(weigh).collect();
+        let weights: Vec<f32> = parallel::map(pairs, weigh);
         let mean = weights.iter().sum::<f32>() / pairs as f32;
         weights.iter().map(|weight| weight / mean).collect()
     }
@@ -105,7 +105,7 @@ impl Channels<'_> {
         };
         let starts: Vec<usize> = (0..weights.len()).step_by(share).collect();
         let mut total = vec![[0.0_f32; 3]; self.texels];
-        for part in starts.par_iter().map(|first| sums(*first)).collect::<Vec<_>>() {
+        for part in parallel::map(starts.len(), |k| sums(starts[k])) {
             for (total, part) in total.iter_mut().zip(part) {
                 *total = std::array::from_fn(|k| total[k] + part[k]);
             }

@@ -6,5 +6,6 @@ pub(crate) mod k_means;
 pub(crate) mod lanes;
 pub(crate) mod lbfgs;
 pub(crate) mod matrix;
+pub(crate) mod parallel;
 pub(crate) mod side_by_side;
 pub(crate) mod svd;

@@ -4,9 +4,9 @@ use nalgebra::DMatrix;
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
-use rayon::prelude::*;
 
 use crate::math::eigen::Eigen;
+use crate::math::parallel;
 use crate::progress::Progress;
 
 /// Approximation of low rank A ≈ texelsᵀ · basisᵀ: U S in the rows of texels, V in the columns of the basis.
@@ -91,7 +91,8 @@ impl<F: Fn(usize, &mut [f32]) + Sync> Columns<F> {
             (0..self.rows).step_by(ROWS).map(|row| DMatrix::zeros(ROWS.min(self.rows - row), right.ncols())).collect();
         self.blocks(progress, |first, block| {
             let right = right.rows(first, block.ncols());
-            parts.par_iter_mut().enumerate().for_each(|(number, part)| {
+            parallel::for_chunks(&mut parts, 1, |number, part| {
+                let part = &mut part[0];
                 part.gemm(1.0, &block.rows(number * ROWS, part.nrows()), &right, 1.0);
             });
         });
@@ -108,8 +109,8 @@ impl<F: Fn(usize, &mut [f32]) + Sync> Columns<F> {
         let mut product = DMatrix::zeros(self.columns, right.ncols());
         self.blocks(progress, |first, block| {
             let starts: Vec<usize> = (0..block.ncols()).step_by(SHARE).collect();
-            let part = |start: &usize| block.columns(*start, SHARE.min(block.ncols() - start)).tr_mul(right);
-            let parts: Vec<DMatrix<f32>> = starts.par_iter().map(part).collect();
+            let part = |start: usize| block.columns(start, SHARE.min(block.ncols() - start)).tr_mul(right);
+            let parts = parallel::map(starts.len(), |k| part(starts[k]));
             for (start, part) in starts.iter().zip(parts) {
                 product.rows_mut(first + start, part.nrows()).copy_from(&part);
             }
@@ -122,11 +123,9 @@ impl<F: Fn(usize, &mut [f32]) + Sync> Columns<F> {
         for first in (0..self.columns).step_by(BLOCK) {
             let count = BLOCK.min(self.columns - first);
             let mut block = DMatrix::zeros(self.rows, count);
-            block
-                .as_mut_slice()
-                .par_chunks_mut(self.rows * self.group)
-                .enumerate()
-                .for_each(|(number, columns)| (self.fill)(first / self.group + number, columns));
+            parallel::for_chunks(block.as_mut_slice(), self.rows * self.group, |number, columns| {
+                (self.fill)(first / self.group + number, columns);
+            });
             work(first, &block);
             progress.advance(count as u64);
         }

@@ -1,12 +1,12 @@
 //! Error of BTF files against the images they were made from.
 
-use rayon::prelude::*;
 use subsurf_decoder::btf::factored::ExpansionMemory;
 use subsurf_decoder::btf::{ColourEncoding, Evaluate};
 use subsurf_decoder::{Content, Family, File, ReadError};
 
 use super::image::{psnr_of_mse_db, ssim_of_planes};
 use crate::capture::Images;
+use crate::math::parallel;
 use crate::progress::Progress;
 
 /// Error of a BTF file, means over pairs of directions.
@@ -75,14 +75,11 @@ pub fn compare_images(
 ) -> BtfError {
     progress.begin("comparing", pairs.len() as u64);
     let width = images.size()[0] as usize;
-    let each: Vec<(Option<[f64; 3]>, f64)> = pairs
-        .par_iter()
-        .map(|pair| {
-            let found = of_pair(images, &decode(*pair), *pair, tone, width);
-            progress.advance(1);
-            found
-        })
-        .collect();
+    let each: Vec<(Option<[f64; 3]>, f64)> = parallel::map(pairs.len(), |k| {
+        let found = of_pair(images, &decode(pairs[k]), pairs[k], tone, width);
+        progress.advance(1);
+        found
+    });
     let count = each.len() as f64;
     let mse = each.iter().map(|(_, mse)| mse).sum::<f64>() / count;
     BtfError { mssim: mean(each.iter().map(|(mssim, _)| *mssim)), psnr_db: psnr_of_mse_db(mse), pairs: pairs.len() }

@@ -3,12 +3,12 @@
 mod factored;
 mod nested;
 
-use rayon::prelude::*;
 use subsurf_decoder::bssrdf::layout::{MODEL_2BMPP, MODEL_PER_PIXEL};
 use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, Coding, Mixture};
 use subsurf_decoder::{Bssrdf, Section};
 
 use crate::bssrdf::{mixtures, profiles, write_file};
+use crate::math::parallel;
 pub use factored::factored;
 pub use nested::NestedShape;
 
@@ -125,16 +125,18 @@ impl Shape {
 pub fn capture_row(material: &Bssrdf<'_>, y: u32) -> Vec<f32> {
     let header = material.header();
     let radius = i32::from(header.window_radius);
-    let windows = (0..header.width).into_par_iter().flat_map_iter(|x| {
+    let window = |x: u32| -> Vec<[f32; 3]> {
         let from = [x.cast_signed(), y.cast_signed()];
         let steps = (-radius..=radius).flat_map(|dy| (-radius..=radius).map(move |dx| [dx, dy]));
-        steps.flat_map(move |[dx, dy]| {
+        let entry = |[dx, dy]: [i32; 2]| {
             let to = [from[0] + dx, from[1] + dy];
             let same = |k: i32, n: u32| header.addressing.map(k, n).cast_signed() == k;
             let inside =
                 header.addressing != Addressing::Clamp || (same(to[0], header.width) && same(to[1], header.height));
             if inside { material.rd(from, to) } else { [f32::NAN; 3] }
-        })
-    });
-    windows.collect()
+        };
+        steps.map(entry).collect()
+    };
+    let columns: Vec<u32> = (0..header.width).collect();
+    parallel::map(columns.len(), |k| window(columns[k])).concat().into_flattened()
 }

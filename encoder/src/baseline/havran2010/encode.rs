@@ -1,6 +1,5 @@
 //! Three steps of sampling (Havran et al. 2010, section 5.1.1).
 
-use rayon::prelude::*;
 use subsurf_decoder::btf::{BtfHeader, BtfModel, Grid};
 
 use super::functions::Functions;
@@ -15,6 +14,7 @@ use crate::btf::nested::Database;
 use crate::btf::{common_tone, materials as records};
 use crate::capture::Images;
 use crate::error::Result;
+use crate::math::parallel;
 use crate::progress::Progress;
 
 /// Options of the encoder of Havran et al. 2010.
@@ -104,7 +104,8 @@ pub fn encode(materials: &[Images], options: &Options, progress: &dyn Progress) 
             progress.advance(1);
             index.find(function)
         };
-        texels.par_extend(functions.means(groups).par_iter().map(find));
+        let found = functions.means(groups);
+        texels.extend(parallel::map(found.len(), |k| find(&found[k])));
     }
     (chain.scales[0], chain.texels) = quantised(&texels, 8);
     Ok(Database {

@@ -8,6 +8,7 @@ use subsurf_decoder::btf::{ColourEncoding, Grid};
 use super::rows::Slices;
 use crate::btf::Resampler;
 use crate::capture::Images;
+use crate::math::parallel;
 
 /// Texels that are fitted at a time by one thread.
 const CHUNK: usize = 32;
@@ -48,7 +49,7 @@ impl<'a> Functions<'a> {
         let measured = self.measured(groups);
         let (pairs, count) = (self.materials[0].pairs(), groups.len());
         let starts: Vec<usize> = (0..count).step_by(CHUNK).collect();
-        let chunk = |start: &usize| {
+        let chunk = |start: usize| {
             let group = |column: usize| start + column / 3;
             let columns = 3 * CHUNK.min(count - start);
             let values =
@@ -57,7 +58,7 @@ impl<'a> Functions<'a> {
             let function = |k: usize| self.function([0, 1, 2].map(|c| tables.column(3 * k + c).as_slice().to_vec()));
             (0..columns / 3).map(function).collect::<Vec<_>>()
         };
-        starts.par_iter().flat_map_iter(chunk).collect()
+        parallel::map(starts.len(), |k| chunk(starts[k])).into_iter().flatten().collect()
     }
 
     /// Mean channels of groups of texels, `[pair][group]`.

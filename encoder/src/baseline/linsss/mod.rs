@@ -19,11 +19,11 @@ mod widths;
 
 pub use model::LinSss;
 
-use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Addressing;
 
 use crate::capture::Capture;
 use crate::error::{Error, Result};
+use crate::math::parallel;
 use crate::progress::Progress;
 use channel::Channel;
 use sums::RingSums;
@@ -48,15 +48,12 @@ pub fn fit(capture: &Capture, gaussians: usize, progress: &dyn Progress) -> Resu
     }
     let sums = RingSums::read(capture)?;
     progress.begin("fitting LinSSS", 3);
-    let fitted: Vec<(Vec<f64>, Vec<Vec<f32>>)> = (0..3_usize)
-        .into_par_iter()
-        .map(|c| {
-            let channel = Channel::new(&sums, c);
-            let sigmas = widths::descend(&channel, gaussians, progress);
-            let weights = weights::solve(&channel, &sigmas, None, weights::ROUNDS, progress);
-            progress.advance(1);
-            (sigmas, weights)
-        })
-        .collect();
+    let fitted: Vec<(Vec<f64>, Vec<Vec<f32>>)> = parallel::map(3, |c| {
+        let channel = Channel::new(&sums, c);
+        let sigmas = widths::descend(&channel, gaussians, progress);
+        let weights = weights::solve(&channel, &sigmas, None, weights::ROUNDS, progress);
+        progress.advance(1);
+        (sigmas, weights)
+    });
     Ok(LinSss::new(capture, &fitted))
 }

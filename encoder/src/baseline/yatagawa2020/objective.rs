@@ -1,6 +1,5 @@
 //! Eq. 6 with its gradient: E_LS + λ_reg E_reg + λ_barr E_barr, indices fixed.
 
-use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Mixture;
 
 use super::EDGE;
@@ -9,6 +8,7 @@ use crate::bssrdf::normal::Normal;
 use crate::bssrdf::normal::regulariser::SMOOTHNESS;
 use crate::math::lanes::{self, ZERO};
 use crate::math::lbfgs::{Bounds, Objective};
+use crate::math::parallel;
 
 /// λ_barr and γ.
 const BARRIER: f64 = 1e-3;
@@ -74,21 +74,17 @@ impl Objective for Energy<'_> {
 
         // ∂E_LS/∂p_x = A p_x + Σ_y φ n a aᵀ p_y − b of every pixel.
         let mut slopes = vec![ZERO; normal.geometry.pixels() * nodes];
-        let costs: Vec<f64> = slopes
-            .par_chunks_mut(nodes)
-            .enumerate()
-            .map(|(pixel, slope)| {
-                normal.image(&field, &deltas, pixel, slope);
-                for (slope, b) in slope.iter_mut().zip(normal.b(pixel)) {
-                    for c in 0..4 {
-                        slope[c] -= b[c];
-                    }
+        let costs: Vec<f64> = parallel::map_chunks(&mut slopes, nodes, |pixel, slope| {
+            normal.image(&field, &deltas, pixel, slope);
+            for (slope, b) in slope.iter_mut().zip(normal.b(pixel)) {
+                for c in 0..4 {
+                    slope[c] -= b[c];
                 }
-                let [r, g, b, _] = lanes::dot(field.at(pixel), slope);
-                let [r_b, g_b, b_b, _] = lanes::dot(field.at(pixel), normal.b(pixel));
-                (r - r_b) + (g - g_b) + (b - b_b)
-            })
-            .collect();
+            }
+            let [r, g, b, _] = lanes::dot(field.at(pixel), slope);
+            let [r_b, g_b, b_b, _] = lanes::dot(field.at(pixel), normal.b(pixel));
+            (r - r_b) + (g - g_b) + (b - b_b)
+        });
         let mut cost = 0.5 * (costs.iter().sum::<f64>() + normal.y2);
         let slope_of = |pixel: usize| &slopes[pixel * nodes..][..nodes];
 

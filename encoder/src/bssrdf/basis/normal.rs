@@ -9,10 +9,10 @@
 //! The last is that of the heat equation, ∂G/∂V = ½ ∇²G with V the variance: exact for wide Gaussians.
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use super::params::Params;
 use super::patch::{Lit, Patch};
+use crate::math::parallel;
 
 /// Samples whose rows are multiplied at a time.
 const ROWS: usize = 256;
@@ -25,7 +25,7 @@ pub(super) fn normals(params: &Params, patches: &[Patch]) -> [Normal; 3] {
     [0, 1, 2].map(|c| {
         let tasks: Vec<(&Patch, &Lit)> =
             patches.iter().flat_map(|patch| patch.lit.iter().map(move |lit| (patch, lit))).collect();
-        let all: Vec<DMatrix<f64>> = tasks.par_iter().map(|(patch, lit)| of_light(params, patch, lit, c)).collect();
+        let all = parallel::map(tasks.len(), |k| of_light(params, tasks[k].0, tasks[k].1, c));
         Normal(all.into_iter().reduce(|sum, normal| sum + normal).expect("there is uniform light at least"))
     })
 }

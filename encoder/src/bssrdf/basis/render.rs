@@ -1,9 +1,8 @@
 //! What a basis makes of the lights, by the blurs of the renderer.
 
-use rayon::prelude::*;
-
 use super::params::Params;
 use super::patch::{Lit, Patch};
+use crate::math::parallel;
 
 /// Σ (M − target)² / peak² over all lights of the fit, samples and channels.
 pub(super) fn loss(params: &Params, patches: &[Patch]) -> f64 {
@@ -29,7 +28,10 @@ pub(super) fn psnr_db(params: &Params, patches: &[Patch]) -> f64 {
 /// Squared errors of every task, summed over its samples and channels.
 fn errors(params: &Params, tasks: &[(&Patch, &Lit)]) -> Vec<f64> {
     let all: Vec<(&Patch, &Lit, usize)> = tasks.iter().flat_map(|(p, lit)| [0, 1, 2].map(|c| (*p, *lit, c))).collect();
-    let errors: Vec<f64> = all.par_iter().map(|(patch, lit, c)| error(params, patch, lit, *c)).collect();
+    let errors = parallel::map(all.len(), |k| {
+        let (patch, lit, c) = all[k];
+        error(params, patch, lit, c)
+    });
     errors.chunks(3).map(|of_channels| of_channels.iter().sum()).collect()
 }
 

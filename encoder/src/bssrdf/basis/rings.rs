@@ -1,5 +1,6 @@
 //! Distances of pixels in a window, and f_x at them.
 
+use crate::math::parallel;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::{Knot, LocalProfile};
 
@@ -44,13 +45,12 @@ impl Rings {
 
 /// f_x = exp(½ P̂_x) in mm⁻¹ of some pixels at some distances, shape `[pixel][distance][rgb]`.
 pub(super) fn profiles(material: &Bssrdf<'_>, pixels: &[[i32; 2]], radii_mm: &[f32]) -> Vec<[f32; 3]> {
-    use rayon::prelude::*;
     let knots: Vec<_> = radii_mm.iter().map(|r_mm| material.knot(*r_mm)).collect();
-    let of_pixel = |pixel: &[i32; 2]| -> Vec<[f32; 3]> {
-        let profile = material.profile(*pixel);
+    let of_pixel = |pixel: [i32; 2]| -> Vec<[f32; 3]> {
+        let profile = material.profile(pixel);
         knots.iter().map(|knot| root_at(&profile, *knot)).collect()
     };
-    pixels.par_iter().flat_map_iter(of_pixel).collect()
+    parallel::map(pixels.len(), |k| of_pixel(pixels[k])).concat()
 }
 
 /// f_x = exp(½ P̂_x) in mm⁻¹ of one profile; 0 beyond its end.

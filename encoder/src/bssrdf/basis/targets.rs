@@ -1,10 +1,10 @@
 //! What the fit is to reach: the gather of the file at some pixels of a patch, under all lights at once.
 
-use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::Addressing;
 
 use super::rings::{Rings, root_at};
+use crate::math::parallel;
 
 /// Exitance at `samples`, numbers of pixels, under each light; shape `[light][c][sample]`.
 pub(super) fn gather(
@@ -20,7 +20,7 @@ pub(super) fn gather(
     let lit: Vec<f32> = (0..pixels.len()).flat_map(|pixel| lights.iter().map(move |light| light[pixel])).collect();
     let width = size[0] as usize;
     let area = material.header().pitch_mm * material.header().pitch_mm;
-    let sums = |&sample: &usize| {
+    let sums = |sample: usize| {
         let place = [sample % width, sample / width].map(|k| i32::try_from(k).expect("a side is below 65,536"));
         let profile = material.profile(pixels[sample]);
         let own: Vec<[f32; 3]> = knots.iter().map(|knot| root_at(&profile, *knot)).collect();
@@ -38,7 +38,7 @@ pub(super) fn gather(
         }
         sums
     };
-    let all: Vec<Vec<f32>> = samples.par_iter().map(sums).collect();
+    let all: Vec<Vec<f32>> = parallel::map(samples.len(), |k| sums(samples[k]));
     let of = |light: usize, c: usize| all.iter().map(|sums| sums[c * lights.len() + light]).collect();
     (0..lights.len()).map(|light| [0, 1, 2].map(|c| of(light, c))).collect()
 }

@@ -4,12 +4,11 @@
 //! up where the cost hardly sees them, and the eye does. The last sweeps of the search therefore also weigh the
 //! relative error of each pixel's albedo, linearised around the current model.
 
-use rayon::prelude::*;
-
 use crate::bssrdf::field::Field;
 use crate::bssrdf::normal::Normal;
 use crate::bssrdf::window::Geometry;
 use crate::math::lanes::{Lanes, ZERO};
+use crate::math::parallel;
 
 /// √Rd of every pixel at the distance of every ring: Rd(i, j) is the product of two entries (eq. 1).
 pub(super) struct Albedo {
@@ -35,10 +34,8 @@ const TRUSTED: f32 = 10.0;
 impl Albedo {
     pub(super) fn new(normal: &Normal, profiles: &Field, weight: f32) -> Self {
         let mut roots = Field::new(Geometry { nodes: normal.rings.len(), ..normal.geometry });
-        let rows: Vec<Vec<Lanes>> = (0..normal.geometry.pixels())
-            .into_par_iter()
-            .map(|pixel| square_roots(normal, profiles.at(pixel)))
-            .collect();
+        let rows: Vec<Vec<Lanes>> =
+            parallel::map(normal.geometry.pixels(), |pixel| square_roots(normal, profiles.at(pixel)));
         for (pixel, row) in rows.iter().enumerate() {
             roots.set(pixel, row);
         }

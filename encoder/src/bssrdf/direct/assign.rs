@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 
-use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Mixture;
 
 use super::albedo::Albedo;
@@ -10,6 +9,7 @@ use super::mix::{Curvatures, Tilt, product};
 use crate::bssrdf::field::Field;
 use crate::bssrdf::model::Model;
 use crate::bssrdf::normal::Normal;
+use crate::math::parallel;
 
 /// Pixels this far apart in x and in y change together: φ is small between them, and threads have work.
 const COLOURS: usize = 4;
@@ -20,12 +20,10 @@ const SHARED: u32 = 4;
 /// `albedo` the error of the pixel's albedo counts too.
 pub(super) fn search(normal: &Normal, model: &mut Model, field: &mut Field, mut albedo: Option<&mut Albedo>) {
     let deltas = normal.deltas(field);
-    let tables: Vec<Option<Curvatures>> = normal
-        .matrices
-        .par_iter()
-        .zip(normal.matrix_users())
-        .map(|(matrix, users)| (users >= SHARED).then(|| Curvatures::new(&matrix.curvature(), model)))
-        .collect();
+    let users = normal.matrix_users();
+    let tables: Vec<Option<Curvatures>> = parallel::map(users.len(), |k| {
+        (users[k] >= SHARED).then(|| Curvatures::new(&normal.matrices[k].curvature(), model))
+    });
 
     let [width, height] = normal.geometry.size;
     for colour in 0..COLOURS * COLOURS {
@@ -34,7 +32,7 @@ pub(super) fn search(normal: &Normal, model: &mut Model, field: &mut Field, mut 
             .step_by(COLOURS)
             .flat_map(|y| (x0..width).step_by(COLOURS).map(move |x| x + y * width))
             .collect();
-        let best = |&pixel: &usize| {
+        let best = |pixel: usize| {
             let matrix = normal.matrix_of[pixel] as usize;
             let curvatures = match &tables[matrix] {
                 Some(table) => Cow::Borrowed(table),
@@ -47,7 +45,7 @@ pub(super) fn search(normal: &Normal, model: &mut Model, field: &mut Field, mut 
             });
             curvatures.best(&u, tilt.as_ref(), model, &model.mixtures[pixel])
         };
-        let best: Vec<Mixture> = pixels.par_iter().map(best).collect();
+        let best: Vec<Mixture> = parallel::map(pixels.len(), |k| best(pixels[k]));
         for (&pixel, &mixture) in pixels.iter().zip(&best) {
             model.mixtures[pixel] = mixture;
             let profile = model.profile(pixel);

@@ -1,13 +1,12 @@
 //! Step P: the base profiles, indices and ratios fixed.
 
-use rayon::prelude::*;
-
 use crate::bssrdf::field::Field;
 use crate::bssrdf::model::Model;
 use crate::bssrdf::normal::Normal;
 use crate::bssrdf::normal::regulariser::regulariser;
 use crate::math::banded::{Banded, Cholesky};
 use crate::math::lanes::{self, Lanes, ZERO};
+use crate::math::parallel;
 
 /// Steps of conjugate gradients in one round; the next round goes on from there.
 const ITERATIONS: usize = 6;
@@ -22,7 +21,7 @@ pub(crate) fn solve(normal: &Normal, model: &mut Model, field: &mut Field) {
     let preconditioners = preconditioners(normal, model);
     let precondition = |residual: &[Lanes]| {
         let mut out = residual.to_vec();
-        out.par_chunks_mut(nodes).zip(&preconditioners).for_each(|(base, matrix)| matrix.solve(base));
+        parallel::for_chunks(&mut out, nodes, |base, profile| preconditioners[base].solve(profile));
         out
     };
 

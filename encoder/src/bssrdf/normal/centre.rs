@@ -1,10 +1,9 @@
 //! The mean profile, and normal equations relative to it.
 
-use rayon::prelude::*;
-
 use super::Normal;
 use super::regulariser::regularise;
 use crate::math::lanes::{Lanes, ZERO};
+use crate::math::parallel;
 
 impl Normal {
     /// Solves for the mean profile p̄, and makes b and y relative to it.
@@ -38,7 +37,7 @@ impl Normal {
 
         // b_i − 2 A_i p̄.
         let mut centred = vec![ZERO; b.len()];
-        centred.par_chunks_mut(nodes).enumerate().for_each(|(pixel, out)| {
+        parallel::for_chunks(&mut centred, nodes, |pixel, out| {
             let [d0, d1, _] = &self.matrix(pixel).all.diagonals;
             let b = &b[pixel * nodes..][..nodes];
             for h in 0..nodes {

@@ -1,10 +1,9 @@
 //! How many directions of each pair were measured.
 
-use rayon::prelude::*;
-
 use super::read::{ALL_CHANNELS, BLOCK_ROWS};
 use crate::bssrdf::window::{Geometry, Ring};
 use crate::math::lanes::{Lanes, ZERO};
+use crate::math::parallel;
 
 /// Lanes of a packed count.
 pub(super) static COUNTS: [Lanes; 64] = {
@@ -36,7 +35,7 @@ pub(super) fn counts(geometry: &Geometry, rings: &[Ring], measured: &[Option<Vec
     // Three bits spread to two bits each.
     let spread = |channels: u8| (channels & 1) | (channels & 2) << 1 | (channels & 4) << 2;
     let mut counts = vec![0; geometry.pixels() * places];
-    counts.par_chunks_mut(places).enumerate().for_each(|(pixel, counts)| {
+    parallel::for_chunks(&mut counts, places, |pixel, counts| {
         let offsets = rings.iter().flat_map(|ring| &ring.offsets);
         for (count, offset) in counts.iter_mut().zip(offsets) {
             if let Some(other) = geometry.neighbour(pixel, offset.step) {

@@ -2,13 +2,13 @@
 
 use std::collections::HashMap;
 
-use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Addressing;
 
 use super::counts::COUNTS;
 use crate::bssrdf::window::{Geometry, Ring};
 use crate::math::banded::Banded;
 use crate::math::lanes::{self, ZERO};
+use crate::math::parallel;
 
 /// A_i, and the part of it that comes from pairs of a pixel with itself.
 #[derive(Clone, Debug)]
@@ -54,8 +54,7 @@ pub(super) fn matrices(geometry: &Geometry, rings: &[Ring], counts: Option<&[u8]
     };
     let numbers = 0..u32::try_from(geometry.pixels()).expect("captures have fewer than 2³² pixels");
     if counts.is_some() {
-        let matrices = (0..geometry.pixels()).into_par_iter().map(matrix).collect();
-        return (matrices, numbers.collect());
+        return (parallel::map(geometry.pixels(), matrix), numbers.collect());
     }
     let mut known: HashMap<[usize; 4], u32> = HashMap::new();
     let mut matrices = Vec::new();

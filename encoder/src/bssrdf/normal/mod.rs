@@ -19,13 +19,12 @@ mod read;
 pub(crate) mod regulariser;
 mod sums;
 
-use rayon::prelude::*;
-
 use crate::bssrdf::window::{Geometry, Ring, rings};
 use crate::capture::Capture;
 use crate::error::{Error, Result};
 use crate::math::banded::Banded;
 use crate::math::lanes::Lanes;
+use crate::math::parallel;
 use crate::progress::Progress;
 pub(crate) use matrices::Matrix;
 use read::Block;
@@ -67,8 +66,8 @@ impl Normal {
         progress.begin("reading the capture", geometry.pixels() as u64);
         let firsts: Vec<usize> = (0..geometry.size[1]).step_by(BLOCK_ROWS).collect();
         for firsts in firsts.chunks(BLOCKS_AT_ONCE) {
-            let blocks: Vec<Block> =
-                firsts.par_iter().map(|&first| Block::read(capture, &geometry, &rings, first, progress)).collect();
+            let block = |k: usize| Block::read(capture, &geometry, &rings, firsts[k], progress);
+            let blocks: Vec<Block> = parallel::map(firsts.len(), block);
             for block in blocks {
                 block.add_to(&geometry, &mut b, &mut exchange);
                 y2 += block.y2;

@@ -1,11 +1,10 @@
 //! Products of the normal equations with fields of profiles, and the cost of a field.
 
-use rayon::prelude::*;
-
 use super::Normal;
 use super::counts::COUNTS;
 use crate::bssrdf::field::Field;
 use crate::math::lanes::{self, Lanes, ZERO};
+use crate::math::parallel;
 
 impl Normal {
     /// Σ_j φ n_ij a aᵀ p_j of one pixel, itself included.
@@ -103,16 +102,13 @@ impl Normal {
     pub(crate) fn cost(&self, field: &Field) -> f64 {
         let deltas = self.deltas(field);
         let nodes = self.geometry.nodes;
-        let rows: Vec<f64> = (0..self.geometry.pixels())
-            .into_par_iter()
-            .map(|pixel| {
-                let mut image = vec![ZERO; nodes];
-                self.image(field, &deltas, pixel, &mut image);
-                let quadratic = lanes::dot(field.at(pixel), &image);
-                let linear = lanes::dot(field.at(pixel), self.b(pixel));
-                (0..3).map(|c| quadratic[c] - 2.0 * linear[c]).sum()
-            })
-            .collect();
+        let rows: Vec<f64> = parallel::map(self.geometry.pixels(), |pixel| {
+            let mut image = vec![ZERO; nodes];
+            self.image(field, &deltas, pixel, &mut image);
+            let quadratic = lanes::dot(field.at(pixel), &image);
+            let linear = lanes::dot(field.at(pixel), self.b(pixel));
+            (0..3).map(|c| quadratic[c] - 2.0 * linear[c]).sum()
+        });
         0.5 * (rows.iter().sum::<f64>() + self.y2)
     }
 }

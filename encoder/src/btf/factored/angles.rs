@@ -1,11 +1,11 @@
 //! Tables as axes of views, axes of lights and a sparse core between them.
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use subsurf_decoder::btf::factored::model::MAX_NUMBER;
 
 use super::streams;
 use crate::math::eigen::Eigen;
+use crate::math::parallel;
 
 /// Tables of all columns as a Tucker decomposition, in whole steps.
 pub(super) struct Tucker {
@@ -143,18 +143,14 @@ impl Tucker {
             .map(|column| DMatrix::from_column_slice(lights, views, column.clone_owned().as_slice()))
             .collect();
         let grams = |of: &(dyn Fn(&DMatrix<f32>) -> DMatrix<f32> + Sync)| {
-            let parts: Vec<DMatrix<f32>> = matrices
-                .par_iter()
-                .zip(energies)
-                .map(|(matrix, energy)| {
-                    let mut weighted = matrix.clone() * energy.sqrt();
-                    for (view, mut column) in weighted.column_iter_mut().enumerate() {
-                        let of_view = weights.views[view];
-                        column.iter_mut().zip(&weights.lights).for_each(|(value, weight)| *value *= of_view * weight);
-                    }
-                    of(&weighted)
-                })
-                .collect();
+            let parts = parallel::map(matrices.len(), |k| {
+                let mut weighted = matrices[k].clone() * energies[k].sqrt();
+                for (view, mut column) in weighted.column_iter_mut().enumerate() {
+                    let of_view = weights.views[view];
+                    column.iter_mut().zip(&weights.lights).for_each(|(value, weight)| *value *= of_view * weight);
+                }
+                of(&weighted)
+            });
             parts.iter().skip(1).fold(parts[0].clone(), |sum, part| sum + part)
         };
         let of_views = axes(grams(&|x| x.tr_mul(x)), fineness.axes[0], &weights.views);
@@ -163,12 +159,10 @@ impl Tucker {
         let core_from_views = projection(&view_axes, &weights.views);
         let core_from_lights = projection(&light_axes, &weights.lights);
         // [light axis × view axis], whose columns are rows of the core, in units of its steps.
-        let exact: Vec<DMatrix<f32>> = matrices
-            .par_iter()
-            .zip(energies)
-            .map(|(matrix, energy)| &core_from_lights * matrix * core_from_views.transpose() * root(*energy))
-            .collect();
-        let quantised = |step: f32| exact.par_iter().map(|matrix| quantise(matrix, step)).collect::<Vec<_>>();
+        let exact = parallel::map(matrices.len(), |k| {
+            &core_from_lights * &matrices[k] * core_from_views.transpose() * root(energies[k])
+        });
+        let quantised = |step: f32| parallel::map(exact.len(), |k| quantise(&exact[k], step));
         // Finer steps would cut the largest numbers.
         let largest = exact.iter().map(DMatrix::amax).fold(0.0_f32, f32::max);
         let least = largest / (MAX_NUMBER as f32 - 1.0);
@@ -205,15 +199,11 @@ impl Tucker {
     fn exact(&self, lights: usize) -> DMatrix<f32> {
         let [views_from_core, lights_from_core] = [0, 1].map(|k| decoded(&self.axes[k], &self.scales[k]));
         let count = [views_from_core.ncols(), lights_from_core.ncols()];
-        let columns: Vec<Vec<f32>> = self
-            .core
-            .par_iter()
-            .zip(&self.core_steps)
-            .map(|(core, step)| {
-                let core = DMatrix::from_fn(count[1], count[0], |j, i| core[i * count[1] + j] as f32 * step);
-                (&lights_from_core * core * views_from_core.transpose()).as_slice().to_vec()
-            })
-            .collect();
+        let columns = parallel::map(self.core.len(), |k| {
+            let (core, step) = (&self.core[k], self.core_steps[k]);
+            let core = DMatrix::from_fn(count[1], count[0], |j, i| core[i * count[1] + j] as f32 * step);
+            (&lights_from_core * core * views_from_core.transpose()).as_slice().to_vec()
+        });
         DMatrix::from_vec(lights * views_from_core.nrows(), columns.len(), columns.concat())
     }
 

@@ -1,10 +1,10 @@
 //! Components on the grid: tables whose interpolation is orthonormal where it was measured.
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use crate::btf::resample::{Measured, Resampler};
 use crate::math::eigen::Eigen;
+use crate::math::parallel;
 
 /// Share of the largest eigenvalue that is added to all, where a few components cannot be told apart on the grid.
 const RIDGE: f32 = 1e-4;
@@ -48,7 +48,7 @@ impl Space<'_> {
             values.iter_mut().zip(self.weights).for_each(|(value, weight)| *value *= weight);
             values
         };
-        let columns: Vec<Vec<f32>> = (0..tables.ncols()).into_par_iter().map(read).collect();
+        let columns: Vec<Vec<f32>> = parallel::map(tables.ncols(), read);
         DMatrix::from_vec(self.weights.len(), columns.len(), columns.concat())
     }
 

@@ -3,10 +3,10 @@
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rayon::prelude::*;
 
 use crate::math::k_means::KMeans;
 use crate::math::k_means::euclidean::{Choice, Euclidean};
+use crate::math::parallel;
 use crate::progress::Progress;
 
 /// Size of one stage.
@@ -41,8 +41,8 @@ pub(super) fn steps(stages: usize) -> u64 {
 /// Adds the chosen codewords, times `sign`.
 fn add(columns: &mut DMatrix<f32>, chosen: &[Choice], words: &DMatrix<f32>, sign: f32) {
     let (rows, count) = (columns.nrows(), words.nrows());
-    columns.as_mut_slice().par_chunks_mut(rows).zip(chosen).for_each(|(column, (word, _))| {
-        let word = words.column(usize::from(*word));
+    parallel::for_chunks(columns.as_mut_slice(), rows, |number, column| {
+        let word = words.column(usize::from(chosen[number].0));
         column[..count].iter_mut().zip(word.iter()).for_each(|(value, other)| *value += sign * other);
     });
 }

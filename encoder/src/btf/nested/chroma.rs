@@ -1,7 +1,6 @@
 //! Codebooks of chroma: tints of texels, and how chroma varies with directions beside them.
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use subsurf_decoder::btf::Grid;
 
 use super::database::{Chroma, Item};
@@ -9,6 +8,7 @@ use super::luma::Built;
 use super::scales::gain;
 use crate::math::k_means::weighted::Weighted;
 use crate::math::matrix::product;
+use crate::math::parallel;
 
 /// Most entries of the codebooks of chroma.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -151,7 +151,8 @@ impl Hues<'_> {
             }
             (values, weights)
         };
-        let (values, weights): (Vec<_>, Vec<_>) = members.par_iter().map(of_entry).unzip();
+        let entries = parallel::map(members.len(), |entry| of_entry(&members[entry]));
+        let (values, weights): (Vec<_>, Vec<_>) = entries.into_iter().unzip();
         Slices { values: values.concat(), weights: weights.concat() }
     }
 

@@ -1,7 +1,6 @@
 //! From what is known of materials to nested codebooks.
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use subsurf_decoder::btf::{BtfHeader, BtfModel, ColourEncoding, Grid};
 
 use super::chroma::{ChromaSizes, Hues};
@@ -14,6 +13,7 @@ use crate::btf::mipmaps::Mipmaps;
 use crate::btf::resample::{Measured, Resampler};
 use crate::capture::Images;
 use crate::error::Result;
+use crate::math::parallel;
 use crate::progress::Progress;
 
 /// What a file of nested codebooks is to be.
@@ -107,14 +107,11 @@ impl<'a> Prepared<'a> {
 
 /// Tables of components at nodes, without the weights of pairs.
 fn fitted(resampler: &Resampler, svd: &TruncatedSvd, basis: &DMatrix<f32>) -> DMatrix<f32> {
-    let columns: Vec<Vec<f32>> = (0..basis.ncols())
-        .into_par_iter()
-        .map(|component| {
-            let plain: Vec<f32> =
-                basis.column(component).iter().zip(&svd.weights).map(|(value, weight)| value / weight).collect();
-            resampler.fit(&plain)
-        })
-        .collect();
+    let columns = parallel::map(basis.ncols(), |component| {
+        let plain: Vec<f32> =
+            basis.column(component).iter().zip(&svd.weights).map(|(value, weight)| value / weight).collect();
+        resampler.fit(&plain)
+    });
     DMatrix::from_vec(resampler.nodes(), columns.len(), columns.concat())
 }
 

@@ -1,7 +1,6 @@
 //! Codebooks of luma: clustered top-down, 4-D to 1-D, then chosen anew bottom-up against what is decoded.
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use subsurf_decoder::btf::Grid;
 use subsurf_decoder::btf::nested::layout::Scales;
 
@@ -12,6 +11,7 @@ use super::slices::{Slices, from_bytes, to_bytes};
 use crate::btf::resample::Measured;
 use crate::math::k_means::shape_gain::{Match, Samples};
 use crate::math::matrix::product;
+use crate::math::parallel;
 use crate::progress::Progress;
 
 /// Fineness of scales of P6, P4, P3 and P2.
@@ -89,7 +89,7 @@ impl Space<'_> {
         let transposed = self.basis.transpose();
         for first in (0..decoded.ncols()).step_by(BLOCK) {
             let count = BLOCK.min(decoded.ncols() - first);
-            let values: Vec<Vec<f32>> = (first..first + count).into_par_iter().map(read).collect();
+            let values: Vec<Vec<f32>> = parallel::map(count, |k| read(first + k));
             lengths.extend(values.iter().map(|values| values.iter().map(|value| value * value).sum::<f32>().sqrt()));
             let values = DMatrix::from_vec(self.weights.len(), count, values.concat());
             coefficients.columns_mut(first, count).copy_from(&product(&transposed, &values));
@@ -185,7 +185,8 @@ impl Built {
     pub(super) fn remainder(&self, texels: &DMatrix<f32>) -> DMatrix<f32> {
         let mut left = texels.clone();
         let scales = self.chain.scales[0];
-        left.as_mut_slice().par_chunks_mut(texels.nrows()).zip(&self.chain.texels).for_each(|(left, item)| {
+        parallel::for_chunks(left.as_mut_slice(), texels.nrows(), |texel, left| {
+            let item = &self.chain.texels[texel];
             let gain = gain(scales, item.code, self.chain.is_signed);
             for (left, value) in left.iter_mut().zip(self.projected.column(item.index as usize).iter()) {
                 *left -= gain * value;
@@ -229,7 +230,8 @@ fn quantised(matches: &[Match], fineness: Fineness, is_signed: bool) -> (Scales,
 /// Entries of `count` items each, out of the codewords below.
 fn decoded(below: &DMatrix<f32>, items: &[Item], scales: Scales, count: usize, is_signed: bool) -> DMatrix<f32> {
     let mut values = DMatrix::zeros(below.nrows() * count, items.len() / count);
-    values.as_mut_slice().par_chunks_mut(below.nrows()).zip(items).for_each(|(out, item)| {
+    parallel::for_chunks(values.as_mut_slice(), below.nrows(), |number, out| {
+        let item = &items[number];
         let gain = gain(scales, item.code, is_signed);
         for (out, value) in out.iter_mut().zip(below.column(item.index as usize).iter()) {
             *out = gain * value;

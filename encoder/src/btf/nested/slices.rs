@@ -1,10 +1,9 @@
 //! P1: slices of luma along β, in bytes.
 
-use rayon::prelude::*;
-
 use super::database::slice_mean;
 use crate::math::k_means::KMeans;
 use crate::math::k_means::shape_gain::Match;
+use crate::math::parallel;
 use crate::math::side_by_side::{SideBySide, WIDTH};
 
 /// Slices of `nodes` values, each with weights of its own for all of them.
@@ -55,7 +54,7 @@ impl Slices<'_> {
             }
             Match { index: u32::try_from(best.0).expect("fewer than 2³² rows"), gain: best.1 }
         };
-        (0..self.len()).into_par_iter().map(find).collect()
+        parallel::map(self.len(), find)
     }
 
     /// Rows along Σ w g W x / Σ w g² W, their largest magnitude 1; those that none chose become slices that are large.

@@ -1,9 +1,9 @@
 //! k-means by Euclidean distance, of the columns of a matrix.
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use super::KMeans;
+use crate::math::parallel;
 
 /// Columns that one thread compares at a time.
 const BLOCK: usize = 1_024;
@@ -24,8 +24,8 @@ impl KMeans for Euclidean<'_> {
         let count = words.nrows();
         let halves: Vec<f32> = words.column_iter().map(|word| 0.5 * word.norm_squared()).collect();
         let starts: Vec<usize> = (0..columns.ncols()).step_by(BLOCK).collect();
-        let of_block = |start: &usize| {
-            let block = columns.view((0, *start), (count, BLOCK.min(columns.ncols() - start)));
+        let of_block = |start: usize| {
+            let block = columns.view((0, start), (count, BLOCK.min(columns.ncols() - start)));
             let products = words.tr_mul(&block);
             let best = |(column, products): (usize, nalgebra::DVectorView<'_, f32>)| {
                 let mut best = (0, f32::INFINITY);
@@ -41,7 +41,7 @@ impl KMeans for Euclidean<'_> {
             };
             products.column_iter().enumerate().map(|(k, column)| best((k, column.as_view()))).collect::<Vec<_>>()
         };
-        starts.par_iter().flat_map_iter(of_block).collect()
+        parallel::map(starts.len(), |k| of_block(starts[k])).concat()
     }
 
     /// Means of the columns of every codeword; those that nothing chose start again at what is farthest from its own.

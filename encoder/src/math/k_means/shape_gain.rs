@@ -3,11 +3,11 @@
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rayon::prelude::*;
 
 use super::KMeans;
 use crate::math::eigen::Eigen;
 use crate::math::matrix::product;
+use crate::math::parallel;
 
 /// Vectors that are multiplied at a time.
 const BLOCK: usize = 512;
@@ -69,12 +69,12 @@ impl Samples {
             row *= *inverse;
         }
         let starts: Vec<usize> = (0..self.len()).step_by(BLOCK).collect();
-        let block = |start: &usize| {
+        let block = |start: usize| {
             let count = BLOCK.min(self.len() - start);
-            let scores = &transposed * vectors.columns(*start, count);
+            let scores = &transposed * vectors.columns(start, count);
             scores.column_iter().map(|scores| self.best(scores.as_slice(), &inverse_lengths)).collect::<Vec<_>>()
         };
-        starts.par_iter().flat_map_iter(block).collect()
+        parallel::map(starts.len(), |k| block(starts[k])).concat()
     }
 
     /// The largest score, which is the length of a vector along a codeword.
@@ -100,8 +100,8 @@ impl Samples {
         }
         let dimensions = self.vectors.nrows();
         let mut shapes = DMatrix::zeros(dimensions, count);
-        shapes.as_mut_slice().par_chunks_mut(dimensions).zip(&members).for_each(|(shape, members)| {
-            for &sample in members {
+        parallel::for_chunks(shapes.as_mut_slice(), dimensions, |number, shape| {
+            for &sample in &members[number] {
                 let weight = self.weights[sample] * matches[sample].gain;
                 for (sum, value) in shape.iter_mut().zip(self.vectors.column(sample).iter()) {
                     *sum += weight * value;
@@ -126,9 +126,8 @@ impl Samples {
             let along = vector.dot(&shapes.column(found.index as usize));
             self.weights[sample] * (vector.norm_squared() - along * along)
         };
-        let mut order: Vec<(f32, usize)> =
-            (0..self.len()).into_par_iter().map(|sample| (left(sample), sample)).collect();
-        order.par_sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut order: Vec<(f32, usize)> = parallel::map(self.len(), |sample| (left(sample), sample));
+        order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         order.into_iter().map(|(_, sample)| sample).collect()
     }
 
@@ -192,10 +191,9 @@ fn leading_axes(vectors: &DMatrix<f32>, weights: &[f32]) -> DMatrix<f32> {
         &part * part.transpose()
     };
     // A fixed number of shares, added in order: the same on any number of threads.
-    let shares: Vec<DMatrix<f32>> = starts
-        .par_chunks(starts.len().div_ceil(8))
-        .map(|starts| starts.iter().map(gram).reduce(|a, b| a + b).expect("no share is empty"))
-        .collect();
+    let shares: Vec<&[usize]> = starts.chunks(starts.len().div_ceil(8)).collect();
+    let shares =
+        parallel::map(shares.len(), |k| shares[k].iter().map(gram).reduce(|a, b| a + b).expect("no share is empty"));
     let gram = shares.into_iter().reduce(|a, b| a + b).expect("there are vectors");
     Eigen::of(gram).leading(REDUCED)
 }

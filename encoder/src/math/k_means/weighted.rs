@@ -1,8 +1,7 @@
 //! k-means of vectors whose values count differently.
 
-use rayon::prelude::*;
-
 use super::KMeans;
+use crate::math::parallel;
 use crate::math::side_by_side::{SideBySide, WIDTH};
 
 /// Vectors of some dimensions, one after the other, with a weight for each value.
@@ -47,7 +46,7 @@ impl Weighted<'_> {
             }
             u32::try_from(best.0).expect("fewer than 2³² centres")
         };
-        (0..self.len()).into_par_iter().map(find).collect()
+        parallel::map(self.len(), find)
     }
 
     /// Mean weighted squared error, Σ w (x − c)² / Σ w.
@@ -72,14 +71,12 @@ impl Weighted<'_> {
         let heaviest =
             |sizes: &[f32]| (0..sizes.len()).max_by(|a, b| sizes[*a].total_cmp(&sizes[*b]).then(b.cmp(a))).unwrap_or(0);
         let weight = |number: usize| self.at(number).map(|(_, weight)| weight).sum::<f32>();
-        let weights: Vec<f32> = (0..self.len()).into_par_iter().map(weight).collect();
+        let weights: Vec<f32> = parallel::map(self.len(), weight);
         let mut centres = vector(heaviest(&weights)).to_vec();
         let mut distances = vec![f32::INFINITY; self.len()];
         while centres.len() < count * self.dimensions {
             let newest = centres[centres.len() - self.dimensions..].to_vec();
-            distances.par_iter_mut().enumerate().for_each(|(number, distance)| {
-                *distance = distance.min(self.distance(number, &newest));
-            });
+            distances = parallel::map(self.len(), |number| distances[number].min(self.distance(number, &newest)));
             let farthest = heaviest(&distances);
             if distances[farthest] <= 0.0 {
                 break;

@@ -1,12 +1,12 @@
 //! Capture and file evaluated side by side, on every measured pair.
 
-use rayon::prelude::*;
 use subsurf_decoder::Bssrdf;
 
 use super::light::Light;
 use super::relit::Relit;
 use crate::capture::Capture;
 use crate::error::{Error, Result};
+use crate::math::parallel;
 use crate::metrics::image::{psnr_db, ssim};
 use crate::progress::Progress;
 
@@ -75,21 +75,18 @@ pub fn compare(capture: &Capture, material: &Bssrdf<'_>, progress: &dyn Progress
     progress.begin("comparing", pixels as u64);
     let firsts: Vec<usize> = (0..capture.height()).step_by(BLOCK_ROWS).collect();
     for firsts in firsts.chunks(BLOCKS_AT_ONCE) {
-        let blocks: Vec<(Comparison, u64)> = firsts
-            .par_iter()
-            .map(|&first| {
-                let mut block = new();
-                let mut faint = 0;
-                let last = (first + BLOCK_ROWS).min(capture.height());
-                for y in first..last {
-                    for x in 0..capture.width() {
-                        faint += add_source(capture, material, [x, y], &mut block);
-                    }
-                    progress.advance(capture.width() as u64);
+        let blocks: Vec<(Comparison, u64)> = parallel::map(firsts.len(), |k| {
+            let mut block = new();
+            let mut faint = 0;
+            let last = (firsts[k] + BLOCK_ROWS).min(capture.height());
+            for y in firsts[k]..last {
+                for x in 0..capture.width() {
+                    faint += add_source(capture, material, [x, y], &mut block);
                 }
-                (block, faint)
-            })
-            .collect();
+                progress.advance(capture.width() as u64);
+            }
+            (block, faint)
+        });
         for (block, of_block) in &blocks {
             faint += of_block;
             total.albedo.add(&block.albedo);

@@ -5,12 +5,12 @@ use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use memmap2::Mmap;
-use rayon::prelude::*;
 
 use super::sensor::Sensor;
 use super::slab::Slab;
 use crate::capture::{Capture, CaptureWriter, neighbour, way_back};
 use crate::error::{Error, Result};
+use crate::math::parallel;
 use crate::progress::Progress;
 
 /// Processing of the solutions.
@@ -62,8 +62,7 @@ pub fn simulate(
     let mut asymmetry = Mean::default();
     writer.write(|sink| {
         for y in 0..height {
-            let pixels = (y * width..(y + 1) * width).into_par_iter();
-            let windows: Vec<(Vec<f32>, Mean)> = pixels.map(|pixel| entries.finished(pixel, finish)).collect();
+            let windows = parallel::map(width, |x| entries.finished(y * width + x, finish));
             for (window, of_window) in windows {
                 asymmetry.add(&of_window);
                 sink(&window)?;
@@ -82,13 +81,14 @@ pub fn expose(clean: &Capture, sensor: &Sensor, writer: &CaptureWriter<'_>) -> R
     let [width, height] = [clean.width(), clean.height()];
     writer.write(|sink| {
         for y in 0..height {
-            let exposed = (y * width..(y + 1) * width).into_par_iter().map(|pixel| {
+            let exposed = parallel::map(width, |x| {
+                let pixel = y * width + x;
                 let mut window = vec![0.0; clean.window_len()];
                 clean.read_window(pixel, &mut window);
                 sensor.expose(pixel, clean.pitch_mm().into(), &mut window);
                 window
             });
-            exposed.collect::<Vec<Vec<f32>>>().iter().try_for_each(|window| sink(window))?;
+            exposed.iter().try_for_each(|window| sink(window))?;
         }
         Ok(())
     })

@@ -1,11 +1,11 @@
 //! Virtual measurement: what a camera and a projector would see of a slab of given media.
 
-use rayon::prelude::*;
 use subsurf_decoder::bssrdf::Addressing;
 
 use super::grid::{Grid, Scales};
 use super::medium::Medium;
 use super::solver::{Rgb, System};
+use crate::math::parallel;
 use crate::progress::Progress;
 use crate::simulate::fresnel::boundary_a;
 
@@ -68,11 +68,8 @@ impl Slab<'_> {
         for first in (0..height).step_by(rows_at_once) {
             let count = rows_at_once.min(height - first);
             let rows = &mut rows[..count * row_len];
-            let shares: Vec<f64> = rows
-                .par_chunks_mut(row_len)
-                .enumerate()
-                .map(|(k, row)| self.measure_row(&grid, first + k, row, progress))
-                .collect();
+            let shares =
+                parallel::map_chunks(rows, row_len, |k, row| self.measure_row(&grid, first + k, row, progress));
             share += shares.iter().sum::<f64>();
             sink(rows)?;
         }

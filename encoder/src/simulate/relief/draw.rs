@@ -1,7 +1,6 @@
 //! Images of a relief from all sides, under light from all sides.
 
 use glam::Vec3;
-use rayon::prelude::*;
 
 use super::camera::Camera;
 use super::height_field::{DIRECTIONS, Relief};
@@ -10,6 +9,7 @@ use super::reflectance::Finish;
 use super::samples::Sample;
 use crate::capture::{Direction, bonn};
 use crate::error::Result;
+use crate::math::parallel;
 use crate::progress::Progress;
 
 /// Rays to a pixel in x and in y.
@@ -53,21 +53,18 @@ fn draw(
 ) -> Result<()> {
     progress.begin("light", directions.len() as u64);
     let exchange = relief.exchange();
-    let lights: Vec<LightOn> = directions
-        .par_iter()
-        .map(|light| {
-            let on = LightOn::new(relief, &exchange, light.unit());
-            progress.advance(1);
-            on
-        })
-        .collect();
+    let lights = parallel::map(directions.len(), |k| {
+        let on = LightOn::new(relief, &exchange, directions[k].unit());
+        progress.advance(1);
+        on
+    });
     progress.begin("images", (directions.len() * directions.len()) as u64);
     for view in directions {
         let towards_eye = view.unit();
         let hits = relief.seen_from(towards_eye);
         let footprint = camera.footprint(towards_eye);
         let image = |light: &LightOn| footprint.blur(&picture(relief, &hits, light, towards_eye, side), side);
-        let images: Vec<Vec<[f32; 3]>> = lights.par_iter().map(image).collect();
+        let images: Vec<Vec<[f32; 3]>> = parallel::map(lights.len(), |k| image(&lights[k]));
         for (light, image) in directions.iter().zip(&images) {
             sink(*light, *view, image)?;
             progress.advance(1);

@@ -3,9 +3,9 @@
 use glam::Vec3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rayon::prelude::*;
 
 use super::reflectance::Finish;
+use crate::math::parallel;
 
 /// A relief and what it is made of.
 pub(super) struct Relief {
@@ -97,7 +97,7 @@ impl Relief {
             let place = begin - end * towards_eye;
             self.texel_at(place.x, place.y)
         };
-        (0..self.len()).into_par_iter().map(hit).collect()
+        parallel::map(self.len(), hit)
     }
 
     /// How far along a ray the relief is first above it, within `length`.
@@ -156,6 +156,6 @@ impl Relief {
                 }
             })
         };
-        (0..self.len()).into_par_iter().map(look).collect()
+        parallel::map(self.len(), look)
     }
 }

@@ -1,10 +1,10 @@
 //! f_x(r) ≈ Σ_l c_l(x) g_l(r): the radial functions that all pixels share, by a weighted singular value decomposition.
 
 use nalgebra::{DMatrix, SymmetricEigen};
-use rayon::prelude::*;
 use subsurf_decoder::bssrdf::BssrdfHeader;
 
 use crate::bssrdf::basis::patch::{Patch, RADII};
+use crate::math::parallel;
 
 /// Least weight of a radius in pixels: weights are shares of the area, max(r, this), so that light near the beam counts.
 const LEAST_RADIUS: f64 = 0.3;
@@ -43,8 +43,8 @@ impl Radial {
                 // The sign is arbitrary; with this one the first function is a mean profile.
                 let sign = vector.sum().signum();
                 let g: Vec<f64> = (0..RADII).map(|k| sign * vector[k] / weight[k].sqrt()).collect();
-                let of_pixel = |f: &&[[f32; 3]]| (0..RADII).map(|k| weight[k] * f64::from(f[k][c]) * g[k]).sum();
-                let of_pixels: Vec<f64> = samples.par_iter().map(of_pixel).collect();
+                let of_pixel = |f: &[[f32; 3]]| (0..RADII).map(|k| weight[k] * f64::from(f[k][c]) * g[k]).sum();
+                let of_pixels: Vec<f64> = parallel::map(samples.len(), |x| of_pixel(samples[x]));
                 let scale = of_pixels.iter().fold(0.0_f64, |most, value| most.max(value.abs())).max(1e-30);
                 radial.functions[c].push(g.iter().map(|g| g * scale).collect());
                 radial.coefficients[c].push(of_pixels.iter().map(|value| value / scale).collect());
@@ -70,6 +70,7 @@ fn gram(samples: &[&[[f32; 3]]], weight: &[f64], c: usize) -> DMatrix<f64> {
         let scaled = DMatrix::from_fn(RADII, block.len(), |k, x| f64::from(block[x][k][c]) * weight[k].sqrt());
         &scaled * scaled.transpose()
     };
-    let blocks: Vec<DMatrix<f64>> = samples.par_chunks(BLOCK).map(of_block).collect();
+    let blocks: Vec<_> = samples.chunks(BLOCK).collect();
+    let blocks: Vec<DMatrix<f64>> = parallel::map(blocks.len(), |k| of_block(blocks[k]));
     blocks.iter().fold(DMatrix::zeros(RADII, RADII), |sum, block| sum + block)
 }
