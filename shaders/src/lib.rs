@@ -12,7 +12,8 @@
 //! * `btf_query`: its twin is the decoder.
 //! * `tsm_render`, `tsm_reduce`, `surface_gbuffer`, `splat`, `splat_resolve`, `shade_splat`: they approximate what
 //!   [`cpu::surface_gather`] computes exactly, from what lights and the camera see; their pictures are held to its pictures.
-//! * `separable_gbuffer`, `blur_screen`, `sum_screen`, `blur_screen_last`, `shade_separable`: likewise.
+//! * `separable_gbuffer`, `blur_screen`, `sum_screen`, `blur_screen_last`, `shade_separable`, `fill_volume`, `blur_volume`, `sum_volume`:
+//!   likewise.
 //! * `linsss_gbuffer`, `linsss_blur`, `linsss_reduce`, `linsss_lookup`, `shade_linsss`: a rival, compared with those pictures.
 
 pub mod cpu;

@@ -20,6 +20,8 @@ pub struct GpuMesh {
     has_uvs: bool,
     /// Where the mesh is, in its own space.
     pub(crate) bounds: BoundingSphere,
+    /// Lowest and highest corner of the box around it, in its own space.
+    pub(crate) corners: [Vec3; 2],
 }
 
 #[repr(C)]
@@ -99,6 +101,7 @@ impl GpuMesh {
             points: known.points.into_iter().flatten().max().map_or(0, |largest| *largest as usize + 1),
             has_uvs: mesh.uvs.is_some(),
             bounds: mesh.bounding_sphere(),
+            corners: mesh.bounds(),
         })
     }
 

@@ -19,7 +19,10 @@ pub struct SeparableMaterial {
     pub(crate) layers: PatchLayers,
     /// Blocks of the flat patch, of the transmission, and of the stages: along rows and along columns for each Gaussian a.
     blocks: Blocks,
-    narrowest_pixels: f32,
+    /// What the blocks of the stages along rows say.
+    stages: Vec<BlurStage>,
+    /// Standard deviations of the Gaussians in pixels of the patch, narrowest first.
+    sigmas: Vec<f32>,
 }
 
 impl SeparableMaterial {
@@ -38,7 +41,8 @@ impl SeparableMaterial {
             terms,
             layers: PatchLayers::new(gpu, basis.header(), terms + 1)?,
             blocks: Blocks::new(gpu, Purpose::Material, "blocks of a basis", blocks),
-            narrowest_pixels: basis.sigmas().first().copied().unwrap_or(1.0),
+            stages: stages.into_iter().map(|[rows, _]| rows).collect(),
+            sigmas: basis.sigmas().to_vec(),
         })
     }
 
@@ -94,12 +98,22 @@ impl SeparableMaterial {
 
     /// Standard deviation of the narrowest Gaussian, in pixels of the patch.
     pub(crate) fn narrowest_pixels(&self) -> f32 {
-        self.narrowest_pixels
+        self.sigmas.first().copied().unwrap_or(1.0)
+    }
+
+    /// Standard deviations of the Gaussians in mm, narrowest first.
+    pub(crate) fn sigmas_mm(&self) -> impl Iterator<Item = f32> {
+        self.sigmas.iter().map(|sigma| sigma * self.header.pitch_mm)
+    }
+
+    /// What the blocks of the stages along rows say.
+    pub(crate) fn stages(&self) -> &[BlurStage] {
+        &self.stages
     }
 
     /// Number of Gaussians A, each of which is a stage of the cascade.
     pub(crate) fn gaussians(&self) -> usize {
-        self.blocks.len() / 2 - 1
+        self.stages.len()
     }
 
     /// Blocks of stage a, along rows and along columns.

@@ -174,6 +174,16 @@ impl<'a> Object<'a> {
         self.mesh.bounds.transformed(&self.world_from_mesh)
     }
 
+    /// Lowest and highest corner of a box that holds the object, in the world.
+    pub(crate) fn corners(&self) -> [glam::Vec3; 2] {
+        let [low, high] = self.mesh.corners;
+        let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let centre = self.world_from_mesh.transform_point3(centre);
+        let axes = [0, 1, 2].map(|k| half[k] * self.world_from_mesh.col(k).truncate().abs());
+        let reach = axes[0] + axes[1] + axes[2];
+        [centre - reach, centre + reach]
+    }
+
     /// Refuses a transform that changes angles.
     pub(crate) fn expect_rigid(&self) -> Result<()> {
         let [x, y, z] = [0, 1, 2].map(|k| self.world_from_mesh.col(k).truncate());

@@ -15,7 +15,7 @@ use crate::gpu::Gpu;
 #[cfg(feature = "reference")]
 use crate::technique::linsss;
 use crate::technique::{
-    Bindings, Common, MapArea, TranslucentShadowMaps, kernel, reflection_sampler, separable, splat,
+    Bindings, Common, MapArea, TranslucentShadowMaps, kernel, reflection_sampler, separable, splat, volume,
 };
 
 /// How much finer or coarser than a view needs maps may be before others serve it better.
@@ -110,7 +110,8 @@ impl Renderer {
         };
         let bytes = |plan: &Plan| {
             let blocks = UNIFORMS * (1 + materials.len() as u64) + Common::bytes_of(self.options.objects);
-            self.map_bytes(&materials, plan) + TranslucentShadowMaps::bytes_of(gpu, plan) + blocks
+            let volumes: u64 = terms_of(&materials).into_iter().map(|terms| volume::Maps::bytes_of(terms)).sum();
+            volumes + self.map_bytes(&materials, plan) + TranslucentShadowMaps::bytes_of(gpu, plan) + blocks
         };
         let plan = plan.within(self.options.budget_bytes, gpu.ledger().bytes(), bytes)?;
         let common = Common::new(gpu, self.tsm.of(&plan), self.options.objects)?;

@@ -40,11 +40,6 @@ impl Blocks {
         BindingResource::Buffer(BufferBinding { buffer: &self.buffer, offset, size })
     }
 
-    /// Number of blocks.
-    pub(crate) fn len(&self) -> usize {
-        self.places.len()
-    }
-
     /// Bytes on the device.
     pub(crate) fn bytes(&self) -> u64 {
         self.buffer.bytes()

@@ -2,6 +2,7 @@
 
 use std::fmt::Debug;
 
+use glam::Vec3;
 use subsurf_scene::BoundingSphere;
 use subsurf_shaders::uniform::{self, ScreenDomain, Upsampling};
 use wgpu::{BindGroup, CommandEncoder};
@@ -76,6 +77,16 @@ impl<'a> Group<'a> {
         let (slot, objects) = (self.slot, self.input.objects.iter());
         let drawn = self.placed.iter().zip(objects).filter(move |(placed, _)| placed.is_visible && placed.slot == slot);
         drawn.map(|(placed, object)| (object.mesh, placed.offset))
+    }
+
+    /// Lowest and highest corner of a box that holds the visible objects of the group, in mm.
+    pub(crate) fn extent(&self) -> [Vec3; 2] {
+        let objects = self.placed.iter().zip(self.input.objects);
+        let of_group = objects.filter(|(placed, _)| placed.is_visible && placed.slot == self.slot);
+        of_group.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], (_, object)| {
+            let [lowest, highest] = object.corners();
+            [low.min(lowest), high.max(highest)]
+        })
     }
 
     /// Number of the group in the blocks of shaders, from 1.

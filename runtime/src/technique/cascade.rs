@@ -26,6 +26,11 @@ impl Maps {
         Ok(Self { layers, surface })
     }
 
+    /// Bytes on the device.
+    pub(crate) fn bytes_of(size: [u32; 2], terms: usize) -> u64 {
+        Self::spec("", size, terms, HALF).bytes()
+    }
+
     /// All maps, to read.
     pub(crate) fn all(&self) -> BindingResource<'_> {
         BindingResource::TextureView(&self.surface.view)
@@ -78,7 +83,7 @@ impl CascadeMaps {
 
     /// Bytes on the device.
     pub(crate) fn bytes_of(size: [u32; 2], terms: usize) -> u64 {
-        3 * Maps::spec("", size, terms, HALF).bytes()
+        3 * Maps::bytes_of(size, terms)
     }
 
     /// Maps c_l E before the first stage.
@@ -118,16 +123,10 @@ pub(crate) struct Cascade {
 #[derive(Debug)]
 struct Stage {
     rows: BindGroup,
-    end: End,
-}
-
-/// Bind groups of what follows the blur along rows.
-#[derive(Debug)]
-enum End {
-    /// Blur along columns, and the sum.
-    Between(BindGroup, BindGroup),
-    /// The pass that does both in the end.
-    Last(BindGroup),
+    columns: BindGroup,
+    sum: BindGroup,
+    /// Of the pass that blurs along columns and adds up, should the stage be the last.
+    last: BindGroup,
 }
 
 impl Cascade {
@@ -142,26 +141,31 @@ impl Cascade {
         domain: &BindingResource<'_>,
         maps: &Arc<CascadeMaps>,
     ) -> Result<Self> {
-        let (blurred, count) = (maps.blurred.all(), material.gaussians());
+        let blurred = maps.blurred.all();
         let mut first = first;
-        let stages = (0..count).map(|a| {
+        let stages = (0..material.gaussians()).map(|a| {
             let [rows, columns] = material.stage(a);
             let (between, before) = (maps.between(a).all(), maps.sums_before(a).all());
             let rows = match first.take() {
                 Some(group) => group,
                 None => passes.blur.bind(gpu, 0, &[rows, domain.clone(), blurred.clone()])?,
             };
-            let end = if a + 1 == count {
-                let of_last = [columns, domain.clone(), between, before];
-                let of_last: Vec<_> = of_last.into_iter().chain(more.clone()).collect();
-                End::Last(last.bind(gpu, 0, &of_last)?)
-            } else {
-                let of_columns = passes.blur.bind(gpu, 0, &[columns.clone(), domain.clone(), between])?;
-                End::Between(of_columns, passes.sum.bind(gpu, 0, &[columns, domain.clone(), blurred.clone(), before])?)
-            };
-            Ok(Stage { rows, end })
+            let of_columns = [columns.clone(), domain.clone(), between.clone()];
+            let of_sum = [columns.clone(), domain.clone(), blurred.clone(), before.clone()];
+            let of_last: Vec<_> = [columns, domain.clone(), between, before].into_iter().chain(more.clone()).collect();
+            Ok(Stage {
+                rows,
+                columns: passes.blur.bind(gpu, 0, &of_columns)?,
+                sum: passes.sum.bind(gpu, 0, &of_sum)?,
+                last: last.bind(gpu, 0, &of_last)?,
+            })
         });
         Ok(Self { stages: stages.collect::<Result<_>>()?, maps: maps.clone() })
+    }
+
+    /// Number of stages.
+    pub(crate) fn count(&self) -> usize {
+        self.stages.len()
     }
 
     /// Bytes of the maps on the device.
@@ -170,12 +174,12 @@ impl Cascade {
         maps.iter().map(|maps| maps.surface.texture.bytes()).sum()
     }
 
-    /// Records all stages over `size` texels of the maps: `last` draws to `targets` in the end. With `first`, another pass takes
-    /// the place of the first along rows, to which its bind group was given.
+    /// Records the first `stages` stages over `size` texels of the maps: `last` draws to `targets` in the end. With `first`, another
+    /// pass takes the place of the first along rows, to which its bind group was given.
     pub(crate) fn record(
         &self,
         encoder: &mut CommandEncoder,
-        size: [u32; 2],
+        (size, stages): ([u32; 2], usize),
         passes: &BlurPasses,
         first: Option<&FullscreenPass>,
         (last, targets): (&FullscreenPass, &[&TextureView]),
@@ -187,17 +191,17 @@ impl Cascade {
             lap(pass.name(), encoder);
         };
         let mut first = first;
-        for (a, stage) in self.stages.iter().enumerate() {
+        let stages = stages.min(self.stages.len());
+        for (a, stage) in self.stages[..stages].iter().enumerate() {
             let [blurred, between] =
                 [&self.maps.blurred, self.maps.between(a)].map(|maps| maps.layers.iter().collect());
             let (blurred, between): (Vec<_>, Vec<_>) = (blurred, between);
             draw(first.take().unwrap_or(&passes.blur), &stage.rows, &between);
-            match &stage.end {
-                End::Between(columns, sum) => {
-                    draw(&passes.blur, columns, &blurred);
-                    draw(&passes.sum, sum, &between);
-                }
-                End::Last(group) => draw(last, group, targets),
+            if a + 1 == stages {
+                draw(last, &stage.last, targets);
+            } else {
+                draw(&passes.blur, &stage.columns, &blurred);
+                draw(&passes.sum, &stage.sum, &between);
             }
         }
     }

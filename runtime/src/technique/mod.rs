@@ -19,6 +19,7 @@ mod patch;
 pub(crate) mod separable;
 pub(crate) mod splat;
 mod tsm;
+pub(crate) mod volume;
 
 pub(crate) use area::MapArea;
 pub(crate) use bindings::{Bindings, Group, Lap, group_number};

@@ -13,6 +13,7 @@ use super::cascade::{BlurPasses, Cascade, CascadeMaps};
 use super::common::Common;
 use super::mesh_pass::{Attachments, DepthFormat, MeshPass, SharedGroups, cleared};
 use super::tsm::{FAR_MM, TranslucentShadowMaps};
+use super::volume::{self, Volume};
 use crate::asset::SeparableMaterial;
 use crate::error::{Error, Result};
 use crate::frame::{Plan, RuntimeOptions};
@@ -25,6 +26,7 @@ const NARROWEST_TEXELS: f32 = 0.8;
 #[derive(Debug)]
 pub(crate) struct Passes {
     depth: DepthFormat,
+    volume: volume::Passes,
     gbuffer: MeshPass,
     blur: BlurPasses,
     last: FullscreenPass,
@@ -35,6 +37,7 @@ pub(crate) struct Passes {
 #[derive(Debug)]
 pub(crate) struct Maps {
     cascade: Arc<CascadeMaps>,
+    volume: Arc<volume::Maps>,
     depth: Surface2d,
 }
 
@@ -44,6 +47,7 @@ struct Bound {
     passes: Arc<Passes>,
     maps: Arc<Maps>,
     cascade: Cascade,
+    volume: Volume,
     domain: Tracked<Buffer>,
     upsampling: Tracked<Buffer>,
     gbuffer: [BindGroup; 2],
@@ -75,6 +79,7 @@ impl Maps {
         let size = plan.blur_size;
         Ok(Self {
             cascade: Arc::new(CascadeMaps::new(gpu, size, terms)?),
+            volume: Arc::new(volume::Maps::new(gpu, terms)?),
             depth: gpu.texture(&TextureSpec::attachment("map depth", size, options.depth.format))?,
         })
     }
@@ -89,6 +94,7 @@ impl Passes {
         let maps = vec![gpu.target_texture_format(); 2 * terms];
         Ok(Self {
             depth: options.depth,
+            volume: volume::Passes::new(gpu, terms)?,
             gbuffer: MeshPass::lit(gpu, table::SEPARABLE_GBUFFER.with(choice), &maps, options)?,
             blur: BlurPasses::new(gpu, [&table::BLUR_SCREEN, &table::SUM_SCREEN], terms)?,
             last: FullscreenPass::new(gpu, table::BLUR_SCREEN_LAST.with(choice), &maps[..terms])?,
@@ -111,12 +117,16 @@ impl Passes {
         let upsampling = gpu.uniform(Purpose::Frame, "upsampling", &Upsampling::default());
         let texture = BindingResource::TextureView;
         let basis = material.layers.resources();
+        let volume = Volume::new(gpu, &self.volume, material, common, lights, &maps.volume)?;
+        let [of_volume, spread] = volume.resources();
         let of_gbuffer = [
             basis[0].clone(),
             basis[1].clone(),
             material.transmission(),
             texture(lights.views()[1]),
             texture(lights.views()[2]),
+            of_volume,
+            spread,
         ];
         let of_scene = [common.scene.as_entire_binding(), texture(lights.views()[0])];
         let of_shade = [basis[0].clone(), basis[1].clone(), upsampling.as_entire_binding(), maps.cascade.sums().all()];
@@ -128,6 +138,7 @@ impl Passes {
             area: MapArea::default(),
             maps: maps.clone(),
             cascade,
+            volume,
             domain,
             upsampling,
             passes: self.clone(),
@@ -143,10 +154,11 @@ impl Bindings for Bound {
         let domain = group.screen(&self.area, self.pitch_mm, false);
         gpu.queue.write_buffer(&self.domain, 0, bytemuck::bytes_of(&domain));
         gpu.queue.write_buffer(&self.upsampling, 0, bytemuck::bytes_of(&group.upsampling(&self.area)));
+        self.volume.update(gpu, group, self.pitch_mm);
     }
 
     fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, shared: SharedGroups<'_>, lap: Lap<'_>) {
-        let Maps { cascade: maps, depth } = &*self.maps;
+        let Maps { cascade: maps, depth, .. } = &*self.maps;
         let layers = maps.irradiance().layers.iter().chain(&maps.begun_sums().layers);
         let colours: Vec<_> = layers.map(|view| cleared(view, self.far)).collect();
         let attachments = Attachments {
@@ -156,11 +168,13 @@ impl Bindings for Bound {
             viewport: Some(self.area.viewport()),
         };
         let [scene, basis] = &self.gbuffer;
-        let Passes { gbuffer, blur, last, .. } = &*self.passes;
+        let Passes { gbuffer, blur, last, volume, .. } = &*self.passes;
+        self.volume.record(encoder, volume, lap);
         gbuffer.record(encoder, &attachments, [scene, basis], shared, group.draws());
         lap(gbuffer.name(), encoder);
         let targets: Vec<_> = maps.sums().layers.iter().collect();
-        self.cascade.record(encoder, self.area.size, blur, None, (last, &targets), lap);
+        let stages = self.volume.first();
+        self.cascade.record(encoder, (self.area.size, stages), blur, None, (last, &targets), lap);
     }
 
     fn shade(&self) -> (&MeshPass, &BindGroup) {

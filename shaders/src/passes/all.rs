@@ -1,10 +1,10 @@
 //! All passes.
 
 use super::pass::Pass;
-use super::{kernel, linsss, table};
+use super::{kernel, linsss, table, volume};
 
 /// All passes.
-pub static ALL: [&Pass; 34] = [
+pub static ALL: [&Pass; 37] = [
     &table::GATHER,
     &table::PRESENT,
     &table::HOMOGENEOUS,
@@ -28,6 +28,9 @@ pub static ALL: [&Pass; 34] = [
     &table::SUM_SCREEN,
     &table::BLUR_SCREEN_LAST,
     &table::SHADE_SEPARABLE,
+    &volume::FILL_VOLUME,
+    &volume::BLUR_VOLUME,
+    &volume::SUM_VOLUME,
     &kernel::KERNEL_GBUFFER,
     &kernel::BLUR_KERNEL,
     &kernel::SUM_KERNEL,

@@ -1,4 +1,5 @@
-//! The table of passes; those of separable kernels are in [`kernel`](super::kernel), those of rivals in [`linsss`](super::linsss).
+//! The table of passes; those of separable kernels are in [`kernel`](super::kernel), of light volumes in
+//! [`volume`](super::volume), of rivals in [`linsss`](super::linsss).
 
 use super::binding::Binding::{
     self, Filtered, FilteredLayers, Float, FloatLayers, Nearest, Sampler, Target, TargetLayers, Uniform,
@@ -32,13 +33,15 @@ pub(super) const NEIGHBOURS: Part = Part::File(wgsl!("lib/screen/neighbours"));
 pub(super) const UPSAMPLING: Part = Part::File(wgsl!("lib/screen/upsampling"));
 pub(super) const SUMS: Part = Part::File(wgsl!("lib/screen/sums"));
 const SEPARABLE_BASIS: Part = Part::File(wgsl!("lib/blur/separable_basis"));
-const BLUR: Part = Part::File(wgsl!("lib/blur/blur"));
+pub(super) const BLUR: Part = Part::File(wgsl!("lib/blur/blur"));
 const DOMAIN_PATCH: Part = Part::File(wgsl!("lib/blur/domain_patch"));
 pub(super) const SCREEN: Part = Part::File(wgsl!("lib/blur/screen"));
 const DOMAIN_SCREEN: Part = Part::File(wgsl!("lib/blur/domain_screen"));
 const MAPS_IRRADIANCE: Part = Part::File(wgsl!("lib/blur/maps_irradiance"));
 const MAPS_STAGE: Part = Part::File(wgsl!("lib/blur/maps_stage"));
-const STAGE_SUM: Part = Part::File(wgsl!("lib/blur/stage_sum"));
+pub(super) const STAGE_SUM: Part = Part::File(wgsl!("lib/blur/stage_sum"));
+pub(super) const VOLUME: Part = Part::File(wgsl!("lib/volume/volume"));
+const VOLUME_SUMS: Part = Part::File(wgsl!("lib/volume/volume_sums"));
 
 /// Whether the shader encodes for the display; an override of passes that draw pictures of meshes.
 pub const ENCODE_SRGB: &str = "ENCODE_SRGB";
@@ -253,12 +256,14 @@ pub static SEPARABLE_GBUFFER: Pass = Pass {
             VERTEX_NONE,
             VERTEX,
             SPREAD,
+            VOLUME,
+            VOLUME_SUMS,
             TRANSMISSION,
         ],
         "project",
         &[
             Group::Fixed(&[Uniform, Target]),
-            Group::Fixed(&[FilteredLayers, Sampler, Uniform, Target, Target]),
+            Group::Maps(&[FilteredLayers, Sampler, Uniform, Target, Target, Uniform, TargetLayers]),
             OF_OBJECT,
             OF_HOST,
         ],

@@ -11,15 +11,15 @@ use crate::separable::BasisNumbers;
 pub struct BlurStage {
     /// Weights w_lma of the a of this stage; shape `[l][m]`, linear Rec. 709.
     pub weights: [[f32; 4]; MAX_TERMS * MAX_TERMS],
-    /// Axis of the blur, (1, 0) or (0, 1).
+    /// Axis of the blur, (1, 0) or (0, 1); in a volume also (0, 0), across slices.
     pub axis: [i32; 2],
-    /// Standard deviation on a flat patch in pixels.
+    /// Standard deviation on a flat patch in pixels, in a volume in cells.
     pub sigma: f32,
     /// Distance of taps on a flat patch in pixels.
     pub stride: i32,
-    /// Number of taps to each side on a flat patch.
+    /// Number of taps to each side on a flat patch or in a volume.
     pub taps: i32,
-    /// Standard deviation of the stage on the screen, in pixels of the material.
+    /// Standard deviation of the stage on the screen, in pixels of the material; in a volume, sum of the weights of all taps.
     pub step: f32,
     /// Distance of taps that the blur so far allows on the screen, in pixels of the material.
     pub sparse: f32,
@@ -51,6 +51,27 @@ impl BlurStage {
             })
         });
         blocks.collect()
+    }
+}
+
+impl BlurStage {
+    /// Blocks of this stage in a volume, along x, y and z: weights times `gain`, a standard deviation in cells, above 0.
+    #[must_use]
+    pub fn in_volume(&self, gain: f32, sigma: f32, has_sum: bool) -> [Self; 3] {
+        let weights = self.weights.map(|weight| weight.map(|value| gain * value));
+        #[allow(clippy::cast_possible_truncation, reason = "a few dozen")]
+        let taps = (3.2 * sigma).ceil() as i32;
+        #[allow(clippy::cast_precision_loss, reason = "a few dozen")]
+        let step = (-taps..=taps).map(|k| (-0.5 * (k as f32 / sigma).powi(2)).exp()).sum();
+        [[1, 0], [0, 1], [0, 0]].map(|axis| Self {
+            weights,
+            axis,
+            sigma,
+            taps,
+            step,
+            has_sum: u32::from(has_sum),
+            ..*self
+        })
     }
 }
 

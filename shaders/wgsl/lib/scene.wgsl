@@ -103,3 +103,29 @@ fn sky_irradiance(n: vec3<f32>) -> vec3<f32> {
 fn light_depth(i: u32, position_mm: vec3<f32>) -> f32 {
     return dot(position_mm - scene.centre_mm, scene.light[min(i, MAX_LIGHTS - 1u)].axis);
 }
+
+// Texel of a tile of the translucent shadow maps, not rounded, and the edge of a texel at that depth in mm.
+struct TsmCoord {
+    texel: vec2<f32>,
+    texel_mm: f32,
+}
+
+// Texel of the tile of light i that shows a position in mm.
+fn tsm_coord(i: u32, position_mm: vec3<f32>) -> TsmCoord {
+    let source = scene.light[min(i, MAX_LIGHTS - 1u)];
+    let clip = source.clip_from_world * vec4<f32>(position_mm, 1.0);
+    let texel = (clip.xy / clip.w * vec2<f32>(0.5, -0.5) + 0.5) * f32(scene.light_texels);
+    var grown = 1.0;
+    if source.is_local != 0u {
+        grown = 1.0 + light_depth(i, position_mm) / source.middle_mm;
+    }
+    return TsmCoord(texel, source.texel_mm * grown);
+}
+
+// A texel of the tile of light i, clamped to it, among all tiles.
+fn tsm_texel(i: u32, texel: vec2<i32>) -> vec2<i32> {
+    let side = i32(scene.light_texels);
+    let number = scene.light[min(i, MAX_LIGHTS - 1u)].map;
+    let tile = vec2<i32>(i32(number % scene.light_columns), i32(number / scene.light_columns));
+    return clamp(texel, vec2<i32>(0), vec2<i32>(side - 1)) + tile * side;
+}

@@ -51,7 +51,7 @@ impl PatchCascade {
         cascade: &Cascade,
         exitance: &TextureView,
     ) {
-        cascade.record(encoder, size, &self.blur, first, (&self.last, &[exitance]), &mut |_, _| {});
+        cascade.record(encoder, (size, cascade.count()), &self.blur, first, (&self.last, &[exitance]), &mut |_, _| {});
     }
 }
 

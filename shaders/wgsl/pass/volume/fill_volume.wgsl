@@ -1,0 +1,65 @@
+// Needs: <target format>, <terms>, fresnel, object, scene, fullscreen, volume.
+// Light that enters, the sum of c_l E dA over what lies in each cell of a light volume, from samples of the lights' own views.
+
+@group(0) @binding(1) var tsm_positions: TargetTexture;
+@group(1) @binding(0) var layers: texture_2d_array<f32>;
+@group(1) @binding(1) var layer_sampler: sampler;
+@group(1) @binding(2) var<uniform> volume: Volume;
+@group(1) @binding(3) var tsm_fluxes: TargetTexture;
+@group(1) @binding(4) var tsm_uvs: TargetTexture;
+
+// Position in mm of a texel of light i's view, not rounded, at a depth along its axis in mm: between the nearest and the furthest on
+// its ray.
+fn seen_position(i: u32, texel: vec2<f32>, depth: f32) -> vec3<f32> {
+    let place = (2.0 * texel / f32(scene.light_texels) - 1.0) * vec2<f32>(1.0, -1.0);
+    let near = volume.world_from_clip[min(i, MAX_LIGHTS - 1u)] * vec4<f32>(place, 0.0, 1.0);
+    let far = volume.world_from_clip[min(i, MAX_LIGHTS - 1u)] * vec4<f32>(place, 1.0, 1.0);
+    let start = near.xyz / near.w;
+    let ray = far.xyz / far.w - start;
+    let nearest = light_depth(i, start);
+    return start + ray * (depth - nearest) / (light_depth(i, start + ray) - nearest);
+}
+
+@fragment
+fn fill_volume(@builtin(position) at: vec4<f32>) -> Maps {
+    var total: array<vec4<f32>, TERMS>;
+    let cell = cell_at(vec2<i32>(at.xy));
+    if cell.z >= volume.cells.z {
+        return maps_of(total);
+    }
+    let middle_mm = volume.origin_mm + volume.cell_mm * vec3<f32>(cell);
+    let stride = i32(volume.stride);
+    let side = i32(scene.light_texels) / stride;
+    for (var i = 0u; i < scene.lights; i++) {
+        let coord = tsm_coord(i, middle_mm);
+        // Half a diagonal of the cell, in samples.
+        let reach = 0.87 * volume.cell_mm / (coord.texel_mm * f32(stride));
+        let middle = coord.texel / f32(stride) - 0.5;
+        let first = max(vec2<i32>(ceil(middle - reach)), vec2<i32>(0));
+        let last = min(vec2<i32>(floor(middle + reach)), vec2<i32>(side - 1));
+        // E dA in cells: the light of as many texels as samples are apart.
+        let edge = coord.texel_mm * f32(stride) / volume.cell_mm;
+        for (var y = first.y; y <= last.y; y++) {
+            for (var x = first.x; x <= last.x; x++) {
+                let of_tile = vec2<i32>(x, y) * stride + stride / 2;
+                let texel = tsm_texel(i, of_tile);
+                let depth = unpack(textureLoad(tsm_positions, texel, 0)).x;
+                let place = place_in_volume(seen_position(i, vec2<f32>(of_tile) + 0.5, depth));
+                if any(vec3<i32>(floor(place + 0.5)) != cell) {
+                    continue;
+                }
+                let flux = unpack(textureLoad(tsm_fluxes, texel, 0));
+                // Light that enters other groups does not come out of this one.
+                let light = flux.xyz * select(0.0, edge * edge, abs(flux.w - volume.group) < 0.5);
+                let uv = unpack(textureLoad(tsm_uvs, texel, 0)).xy;
+                for (var l = 0u; l < TERMS; l++) {
+                    total[l] += vec4<f32>(light * textureSampleLevel(layers, layer_sampler, uv, l, volume.level).xyz, 0.0);
+                }
+            }
+        }
+    }
+    for (var l = 0u; l < TERMS; l++) {
+        total[l] = vec4<f32>(clamp(total[l].xyz, -BRIGHTEST, BRIGHTEST), 0.0);
+    }
+    return maps_of(total);
+}
