@@ -15,11 +15,14 @@ use crate::gpu::Gpu;
 #[cfg(feature = "reference")]
 use crate::technique::linsss;
 use crate::technique::{
-    Bindings, Common, MapArea, TranslucentShadowMaps, kernel, reflection_sampler, separable, splat, volume,
+    Bindings, Common, MapArea, TranslucentShadowMaps, kernel, reflection_sampler, separable, splat,
 };
 
 /// How much finer or coarser than a view needs maps may be before others serve it better.
 const FINENESS: f32 = 1.25;
+
+/// Width and height of maps that are large enough for all that they hold to grow with them.
+const LARGE: [u32; 2] = [1024; 2];
 
 /// Bytes that uniform blocks of the passes of one material are sure not to exceed.
 const UNIFORMS: u64 = 48 << 10;
@@ -110,8 +113,7 @@ impl Renderer {
         };
         let bytes = |plan: &Plan| {
             let blocks = UNIFORMS * (1 + materials.len() as u64) + Common::bytes_of(self.options.objects);
-            let volumes: u64 = terms_of(&materials).into_iter().map(|terms| volume::Maps::bytes_of(terms)).sum();
-            volumes + self.map_bytes(&materials, plan) + TranslucentShadowMaps::bytes_of(gpu, plan) + blocks
+            self.map_bytes(&materials, plan) + TranslucentShadowMaps::bytes_of(gpu, plan) + blocks
         };
         let plan = plan.within(self.options.budget_bytes, gpu.ledger().bytes(), bytes)?;
         let common = Common::new(gpu, self.tsm.of(&plan), self.options.objects)?;
@@ -188,12 +190,12 @@ impl Renderer {
     /// Width and height of the maps of blurs on the screen: as many texels as their bytes for each pixel allow, in the shape of what the
     /// objects of a material cover.
     fn blur_size(&self, input: &Input<'_>, materials: &[&Material], divisor: f32, size: [u32; 2]) -> [u32; 2] {
-        let mut bytes = self.blur_bytes(materials, [1, 1]);
+        let mut bytes = self.blur_bytes(materials, LARGE);
         if bytes == 0 && materials.iter().any(|material| is_blurred(material)) {
-            bytes = separable::Maps::bytes_of([1, 1], 1, &self.options);
+            bytes = separable::Maps::bytes_of(LARGE, 1, &self.options);
         }
-        #[allow(clippy::cast_precision_loss, reason = "a few dozen")]
-        let held = bytes as f32 / self.options.map_bytes_per_pixel;
+        #[allow(clippy::cast_precision_loss, reason = "a few dozen a texel")]
+        let held = (bytes / u64::from(LARGE[0] * LARGE[1])) as f32 / self.options.map_bytes_per_pixel;
         let covered = materials.iter().filter_map(|material| {
             let of_material = |object: &&Object<'_>| object.material.is(material);
             let bounds = input.objects.iter().filter(of_material).map(Object::bounds);

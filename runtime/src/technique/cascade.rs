@@ -106,6 +106,11 @@ impl CascadeMaps {
         &self.turns[stage % 2]
     }
 
+    /// All maps, free until the first stage; the first of them is free until that has blurred along rows.
+    pub(crate) fn in_turns(&self) -> [&Maps; 3] {
+        [&self.turns[0], &self.blurred, &self.turns[1]]
+    }
+
     /// Sums S_m before a stage.
     pub(crate) fn sums_before(&self, stage: usize) -> &Maps {
         &self.turns[(stage + 1) % 2]

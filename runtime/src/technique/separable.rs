@@ -37,7 +37,6 @@ pub(crate) struct Passes {
 #[derive(Debug)]
 pub(crate) struct Maps {
     cascade: Arc<CascadeMaps>,
-    volume: Arc<volume::Maps>,
     depth: Surface2d,
 }
 
@@ -70,16 +69,21 @@ pub(crate) fn divisor_of(narrowest_pixels: f32, pitch_mm: f32, pixels_per_mm: f3
 }
 
 impl Maps {
+    /// Width and height of maps that have so many texels, and room for the light volume first.
+    fn room(size: [u32; 2]) -> [u32; 2] {
+        [0, 1].map(|k| size[k].max(volume::TEXELS[k]))
+    }
+
     /// Bytes on the device of maps of so many texels.
     pub(crate) fn bytes_of(size: [u32; 2], terms: usize, options: &RuntimeOptions) -> u64 {
+        let size = Self::room(size);
         CascadeMaps::bytes_of(size, terms) + TextureSpec::attachment("", size, options.depth.format).bytes()
     }
 
     pub(crate) fn new(gpu: &Gpu, plan: &Plan, options: &RuntimeOptions, terms: usize) -> Result<Self> {
-        let size = plan.blur_size;
+        let size = Self::room(plan.blur_size);
         Ok(Self {
             cascade: Arc::new(CascadeMaps::new(gpu, size, terms)?),
-            volume: Arc::new(volume::Maps::new(gpu, terms)?),
             depth: gpu.texture(&TextureSpec::attachment("map depth", size, options.depth.format))?,
         })
     }
@@ -117,7 +121,7 @@ impl Passes {
         let upsampling = gpu.uniform(Purpose::Frame, "upsampling", &Upsampling::default());
         let texture = BindingResource::TextureView;
         let basis = material.layers.resources();
-        let volume = Volume::new(gpu, &self.volume, material, common, lights, &maps.volume)?;
+        let volume = Volume::new(gpu, &self.volume, material, common, lights, &maps.cascade)?;
         let [of_volume, spread] = volume.resources();
         let of_gbuffer = [
             basis[0].clone(),
@@ -158,7 +162,7 @@ impl Bindings for Bound {
     }
 
     fn record(&self, encoder: &mut CommandEncoder, group: &Group<'_>, shared: SharedGroups<'_>, lap: Lap<'_>) {
-        let Maps { cascade: maps, depth, .. } = &*self.maps;
+        let Maps { cascade: maps, depth } = &*self.maps;
         let layers = maps.irradiance().layers.iter().chain(&maps.begun_sums().layers);
         let colours: Vec<_> = layers.map(|view| cleared(view, self.far)).collect();
         let attachments = Attachments {

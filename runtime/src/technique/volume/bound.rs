@@ -6,12 +6,14 @@ use glam::Mat4;
 use subsurf_shaders::uniform::{self, BlurStage};
 use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoder};
 
+use super::TEXELS;
 use super::grid::Grid;
-use super::passes::{Maps, Passes, TEXELS};
+use super::passes::Passes;
 use crate::asset::SeparableMaterial;
 use crate::error::Result;
 use crate::gpu::{FullscreenPass, Gpu, Purpose, Rows, Tracked};
 use crate::technique::bindings::{Group, Lap};
+use crate::technique::cascade::CascadeMaps;
 use crate::technique::common::Common;
 use crate::technique::tsm::TranslucentShadowMaps;
 
@@ -21,7 +23,7 @@ const SAMPLES: f32 = 4.0;
 /// Light volume of one material.
 #[derive(Debug)]
 pub(crate) struct Volume {
-    maps: Arc<Maps>,
+    maps: Arc<CascadeMaps>,
     block: Tracked<Buffer>,
     /// Bind groups of the pass that fills it.
     fill: [BindGroup; 2],
@@ -44,14 +46,14 @@ struct Stage {
 }
 
 impl Volume {
-    /// Binds a material to the maps.
+    /// Binds a material to the maps of the blurs on the screen, which are free until those begin.
     pub(crate) fn new(
         gpu: &Gpu,
         passes: &Passes,
         material: &SeparableMaterial,
         common: &Common,
         lights: &TranslucentShadowMaps,
-        maps: &Arc<Maps>,
+        maps: &Arc<CascadeMaps>,
     ) -> Result<Self> {
         let block = gpu.uniform(Purpose::Frame, "light volume", &uniform::Volume::default());
         let seen = lights.views().map(BindingResource::TextureView);
@@ -63,7 +65,7 @@ impl Volume {
             let blocks = [(); 3].map(|()| gpu.uniform(Purpose::Frame, "stage in a light volume", flat));
             // The sums of the last stage are in the first maps.
             let turns = [0, 1, 2].map(|k| (k + 2 * (count - 1 - a)) % 3);
-            let map = |number: usize| maps.turns[turns[number]].all();
+            let map = |number: usize| maps.in_turns()[turns[number]].all();
             let of_axis = |axis: usize| {
                 let of = [blocks[axis].as_entire_binding(), block.as_entire_binding(), map(axis % 2)];
                 passes.blur.bind(gpu, 0, &of)
@@ -84,7 +86,7 @@ impl Volume {
 
     /// What passes read of it: the block, and the sums.
     pub(crate) fn resources(&self) -> [BindingResource<'_>; 2] {
-        [self.block.as_entire_binding(), self.maps.sums().all()]
+        [self.block.as_entire_binding(), self.maps.in_turns()[0].all()]
     }
 
     /// Number of Gaussians that do not spread in the volume, in the last frame.
@@ -152,7 +154,7 @@ impl Volume {
         };
         let stages = &self.stages[grid.first..];
         let mut draw = |pass: &FullscreenPass, groups: &[&BindGroup], turn: usize| {
-            let targets: Vec<_> = self.maps.turns[turn].layers.iter().collect();
+            let targets: Vec<_> = self.maps.in_turns()[turn].layers.iter().collect();
             pass.record(encoder, &targets, groups, Rows::all(TEXELS));
             lap(pass.name(), encoder);
         };

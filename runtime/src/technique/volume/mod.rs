@@ -5,4 +5,7 @@ mod grid;
 mod passes;
 
 pub(crate) use bound::Volume;
-pub(crate) use passes::{Maps, Passes};
+pub(crate) use passes::Passes;
+
+/// Width and height of the maps that a volume takes in texels, a cell each.
+pub(crate) const TEXELS: [u32; 2] = [256; 2];
