@@ -58,7 +58,7 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(SplatRings: count, near_mm);
     assert_layout_of!(Upsampling: texels_per_pixel, origin, near_mm, last);
     assert_layout_of!(Transmission: weights, gaussians);
-    assert_layout_of!(Volume: world_from_clip, origin_mm, cell_mm, cells, columns, first, group, stride, level);
+    assert_layout_of!(Volume: world_from_clip, origin_mm, cell_mm, cells, columns, first, group, pitch_mm);
     assert_layout_of!(Frame: size, texels, exposure);
     assert_layout_of!(BlurStage: weights, axis, sigma, stride, taps, step, sparse, has_sum);
     assert_layout_of!(Kernel: weights, axis, taps);

@@ -211,6 +211,14 @@ fn texture_loads_are_accounted_for() {
             ("blur_screen_last, Terms(2)", 1),
             ("shade_separable, Terms(1)", 2),
             ("shade_separable, Terms(2)", 2),
+            // Texels of a light's own tile, of samples within it.
+            ("fill_volume, Terms(1)", 4),
+            ("fill_volume, Terms(2)", 4),
+            // Cells within the volume.
+            ("blur_volume, Terms(1)", 1),
+            ("blur_volume, Terms(2)", 1),
+            ("sum_volume, Terms(1)", 1),
+            ("sum_volume, Terms(2)", 1),
             // Nodes of the tail up to the last; maps and translucent shadow maps as above.
             ("kernel_gbuffer", 5),
             ("blur_kernel", 1),

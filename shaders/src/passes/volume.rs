@@ -3,14 +3,14 @@
 use super::binding::Binding::{FilteredLayers, Sampler, Target, TargetLayers, Uniform};
 use super::file::wgsl;
 use super::pass::{Group, Part, Pass};
-use super::table::{BLUR, FRESNEL, FULLSCREEN, OBJECT, SCENE, STAGE_SUM, VOLUME, fullscreen};
+use super::table::{BLUR, FULLSCREEN, SCENE, STAGE_SUM, VOLUME, fullscreen};
 
 const DOMAIN_VOLUME: Part = Part::File(wgsl!("lib/volume/domain_volume"));
 
 /// Light that enters, added to the cells of a volume.
 pub static FILL_VOLUME: Pass = fullscreen(
     wgsl!("pass/volume/fill_volume"),
-    &[Part::TargetFormat, Part::Terms, FRESNEL, OBJECT, SCENE, FULLSCREEN, VOLUME],
+    &[Part::TargetFormat, Part::Terms, SCENE, FULLSCREEN, VOLUME],
     &[Group::Fixed(&[Uniform, Target]), Group::Fixed(&[FilteredLayers, Sampler, Uniform, Target, Target])],
 );
 

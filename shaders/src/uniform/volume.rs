@@ -21,8 +21,8 @@ pub struct Volume {
     pub first: u32,
     /// Number of the group whose light it is.
     pub group: f32,
-    /// Texels of a light's view to a side of a sample.
-    pub stride: u32,
-    /// Mipmap level of the coefficients that is about as coarse as samples.
-    pub level: f32,
+    /// Pitch of the pixels of the material in mm.
+    pub pitch_mm: f32,
+    #[doc(hidden)]
+    pub pad: u32,
 }

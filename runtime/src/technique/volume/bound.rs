@@ -17,9 +17,6 @@ use crate::technique::cascade::CascadeMaps;
 use crate::technique::common::Common;
 use crate::technique::tsm::TranslucentShadowMaps;
 
-/// Samples of the lights' views to a side of a cell.
-const SAMPLES: f32 = 4.0;
-
 /// Light volume of one material.
 #[derive(Debug)]
 pub(crate) struct Volume {
@@ -103,12 +100,6 @@ impl Volume {
         self.grid = are_drawn.then(|| Grid::new(group.extent(), &self.sigmas_mm, TEXELS)).flatten();
         let none = Grid::default();
         let grid = self.grid.as_ref().unwrap_or(&none);
-        let texel_mm = lights.iter().map(|light| light.texel_mm).fold(1e-6, f32::max);
-        let light_texels = group.plan.light_texels.max(1);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-        let stride = ((grid.cell_mm / (SAMPLES * texel_mm)) as u32).clamp(1, light_texels);
-        #[allow(clippy::cast_precision_loss, reason = "a few hundred")]
-        let apart_mm = texel_mm * stride as f32;
         let mut block = uniform::Volume {
             origin_mm: grid.origin_mm.into(),
             cell_mm: grid.cell_mm,
@@ -116,8 +107,7 @@ impl Volume {
             columns: grid.columns,
             first: u32::try_from(self.first()).unwrap_or(u32::MAX),
             group: group.number(),
-            stride,
-            level: (apart_mm / pitch_mm).log2().max(0.0),
+            pitch_mm,
             ..Default::default()
         };
         for (to, light) in block.world_from_clip.iter_mut().zip(lights) {
@@ -134,9 +124,8 @@ impl Volume {
         let mut before = None;
         for (stage, sigma_mm) in self.stages.iter().zip(&self.sigmas_mm).skip(grid.first) {
             let cells = sigma_mm / grid.cell_mm;
-            let sigma = before.map_or(grid.first_sigma(*sigma_mm), |narrower: f32| {
-                (cells * cells - narrower * narrower).max(0.04).sqrt()
-            });
+            let sigma = before
+                .map_or(grid.first_sigma(*sigma_mm), |narrower: f32| (cells * cells - narrower * narrower).sqrt());
             // Three axes make exp(-r^2 / 2 sigma^2) / (2 pi)^(3/2) sigma^3 of light in a cell, 1/(2 pi sigma^2) is wanted.
             let gain = std::f32::consts::TAU.sqrt() * cells;
             let blocks = stage.flat.in_volume(gain, sigma, before.is_some());

@@ -3,9 +3,11 @@
 use glam::{IVec3, Vec3};
 
 /// Edge of a cell in standard deviations of the narrowest Gaussian that spreads in the volume: as fine as is of use, and as coarse as
-/// may be. A cell holds what enters within it and is read between the middles of cells, which has a variance of a quarter of its edge squared.
-const FINEST: f32 = 0.8;
-const COARSEST: f32 = 1.4;
+/// may be.
+const FINEST: f32 = 0.9;
+const COARSEST: f32 = 1.1;
+/// Variance of the splines by which light comes into the cells and is read from them, together, in cells squared.
+const OF_SPLINES: f32 = 0.5;
 /// How much coarser cells get until they fit.
 const STEP: f32 = 1.05;
 
@@ -18,7 +20,7 @@ pub(super) struct Grid {
     pub(super) origin_mm: Vec3,
     /// Edge of a cell in mm.
     pub(super) cell_mm: f32,
-    /// Number of cells along each axis, at least 2.
+    /// Number of cells along each axis, at least 4: one more than the box has on both sides.
     pub(super) cells: IVec3,
     /// Slices of equal z in a row of the texture.
     pub(super) columns: i32,
@@ -49,14 +51,14 @@ impl Grid {
     /// Standard deviation in cells of what remains to be blurred of a Gaussian, of `sigma_mm`, that is the first.
     pub(super) fn first_sigma(&self, sigma_mm: f32) -> f32 {
         let cells = sigma_mm / self.cell_mm;
-        (cells * cells - 0.25).max(0.04).sqrt()
+        (cells * cells - OF_SPLINES).sqrt()
     }
 }
 
 /// Number of cells along each axis for a box of so many, and slices in a row of the texture; `None` if they do not fit.
 fn fitting(extent: Vec3, texels: [u32; 2]) -> Option<(IVec3, i32)> {
     let [width, height] = texels.map(|side| i32::try_from(side).unwrap_or(i32::MAX));
-    let cells = extent.ceil().as_ivec3().max(IVec3::ONE).saturating_add(IVec3::ONE);
+    let cells = extent.ceil().as_ivec3().max(IVec3::ONE).saturating_add(IVec3::splat(3));
     let [columns, rows] = [width / cells.x, height / cells.y];
     (columns.saturating_mul(rows) >= cells.z).then_some((cells, columns))
 }

@@ -47,3 +47,17 @@ fn material_uv(uv: vec2<f32>) -> vec2<f32> {
 fn is_of_group(stored: f32) -> bool {
     return abs(stored - object.group) < 0.5;
 }
+
+// Share of the irradiance of a light that enters the surface, 0 to 1: F_t(cos) max(cos, 0).
+fn entering(normal: vec3<f32>, towards: vec3<f32>) -> f32 {
+    let cosine = clamp(dot(normal, towards), 0.0, 1.0);
+    return fresnel_transmittance(cosine, object.eta) * cosine;
+}
+
+// Irradiance of the environment that enters a surface of unit normal n (Ramamoorthi and Hanrahan 2001, eq. 13).
+fn sky_irradiance(n: vec3<f32>) -> vec3<f32> {
+    let linear = scene.sky[0].xyz + scene.sky[1].xyz * n.y + scene.sky[2].xyz * n.z + scene.sky[3].xyz * n.x;
+    let mixed = scene.sky[4].xyz * n.x * n.y + scene.sky[5].xyz * n.y * n.z + scene.sky[7].xyz * n.x * n.z;
+    let square = scene.sky[6].xyz * (3.0 * n.z * n.z - 1.0) + scene.sky[8].xyz * (n.x * n.x - n.y * n.y);
+    return max(linear + mixed + square, vec3<f32>(0.0)) * object.sky_transmittance;
+}

@@ -15,10 +15,9 @@ struct Volume {
     first: u32,
     // Number of the group whose light it is.
     group: f32,
-    // Texels of a light's view to a side of a sample.
-    stride: u32,
-    // Mipmap level of the coefficients that is about as coarse as samples.
-    level: f32,
+    // Pitch of the pixels of the material in mm.
+    pitch_mm: f32,
+    pad: u32,
 }
 
 // Texel of a cell.
@@ -29,6 +28,14 @@ fn texel_of(cell: vec3<i32>) -> vec2<i32> {
 // Place of a position in mm, in cells from the middle of the first.
 fn place_in_volume(position_mm: vec3<f32>) -> vec3<f32> {
     return (position_mm - volume.origin_mm) / volume.cell_mm;
+}
+
+// Quadratic B-spline of the distance from the middle of a cell along each axis, in cells: it spreads light by a variance of a quarter,
+// wherever that lies. Nearest cells and linear interpolation would move it, or spread it by more between cells.
+fn spline(distance: vec3<f32>) -> vec3<f32> {
+    let d = abs(distance);
+    let beyond = max(1.5 - d, vec3<f32>(0.0));
+    return select(0.5 * beyond * beyond, 0.75 - d * d, d < vec3<f32>(0.5));
 }
 
 // Cell of a texel; beyond the last slice there is none.

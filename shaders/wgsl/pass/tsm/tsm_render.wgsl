@@ -27,7 +27,7 @@ fn project(
 // One of the places at a point, by chance: what is entered is a sum over many texels, in which they are blended. Steps by the
 // generalised golden ratio in two dimensions spread the choices evenly (Roberts 2018).
 fn one_of(places: Places, texel: vec2<f32>) -> vec2<f32> {
-    let chance = fract(0.5 + dot(floor(texel), vec2<f32>(0.75487766, 0.56984029)));
+    let chance = fract(0.5 + dot(texel, vec2<f32>(0.75487766, 0.56984029)));
     return select(places.second, places.first, chance < places.sides.share);
 }
 
@@ -40,7 +40,9 @@ fn tsm_render(in: LightVarying) -> TsmTexel {
     let across = -dot(from_light.towards, scene.light[min(tsm_light.light, MAX_LIGHTS - 1u)].axis);
     let entered = select(0.0, fresnel_transmittance(clamp(cosine, 0.0, 1.0), object.eta) * across, cosine > 0.0);
     let depth = light_depth(tsm_light.light, in.position_mm);
-    let uv = within_two(one_of(places_of(in.position_mm, in.sides, in.uv), in.clip.xy));
+    // The same in every tile.
+    let of_tile = vec2<u32>(in.clip.xy) % scene.light_texels;
+    let uv = within_two(one_of(places_of(in.position_mm, in.sides, in.uv), vec2<f32>(of_tile)));
     return TsmTexel(
         pack(vec4<f32>(depth, in.position_mm - scene.centre_mm)),
         pack(vec4<f32>(min(from_light.irradiance * entered, BRIGHTEST), object.group)),

@@ -1,5 +1,5 @@
-// Needs: <target format>, <terms>, fresnel, object, scene, fullscreen, volume.
-// Light that enters, the sum of c_l E dA over what lies in each cell of a light volume, from samples of the lights' own views.
+// Needs: <target format>, <terms>, scene, fullscreen, volume.
+// Light that enters, sums of c_l E dA about each cell of a light volume, from samples of the lights' own views.
 
 @group(0) @binding(1) var tsm_positions: TargetTexture;
 @group(1) @binding(0) var layers: texture_2d_array<f32>;
@@ -7,6 +7,9 @@
 @group(1) @binding(2) var<uniform> volume: Volume;
 @group(1) @binding(3) var tsm_fluxes: TargetTexture;
 @group(1) @binding(4) var tsm_uvs: TargetTexture;
+
+// Samples of a light's view to a side of a cell, about.
+const SAMPLES: f32 = 2.0;
 
 // Position in mm of a texel of light i's view, not rounded, at a depth along its axis in mm: between the nearest and the furthest on
 // its ray.
@@ -20,6 +23,28 @@ fn seen_position(i: u32, texel: vec2<f32>, depth: f32) -> vec3<f32> {
     return start + ray * (depth - nearest) / (light_depth(i, start + ray) - nearest);
 }
 
+// Share in a cell of the light that enters at a texel of light i's view, c_l E, on a plane across its axis; by coefficients of a
+// mipmap level.
+fn sample_of(i: u32, of_tile: vec2<i32>, level: f32, cell: vec3<i32>) -> array<vec3<f32>, TERMS> {
+    var light: array<vec3<f32>, TERMS>;
+    let texel = tsm_texel(i, of_tile);
+    let depth = unpack(textureLoad(tsm_positions, texel, 0)).x;
+    let place = place_in_volume(seen_position(i, vec2<f32>(of_tile) + 0.5, depth));
+    let near = spline(place - vec3<f32>(cell));
+    let share = near.x * near.y * near.z;
+    if share == 0.0 {
+        return light;
+    }
+    let flux = unpack(textureLoad(tsm_fluxes, texel, 0));
+    // Light that enters other groups does not come out of this one.
+    let e = flux.xyz * select(0.0, share, abs(flux.w - volume.group) < 0.5);
+    let uv = unpack(textureLoad(tsm_uvs, texel, 0)).xy;
+    for (var l = 0u; l < TERMS; l++) {
+        light[l] = e * textureSampleLevel(layers, layer_sampler, uv, l, level).xyz;
+    }
+    return light;
+}
+
 @fragment
 fn fill_volume(@builtin(position) at: vec4<f32>) -> Maps {
     var total: array<vec4<f32>, TERMS>;
@@ -28,33 +53,26 @@ fn fill_volume(@builtin(position) at: vec4<f32>) -> Maps {
         return maps_of(total);
     }
     let middle_mm = volume.origin_mm + volume.cell_mm * vec3<f32>(cell);
-    let stride = i32(volume.stride);
-    let side = i32(scene.light_texels) / stride;
     for (var i = 0u; i < scene.lights; i++) {
+        // Every `stride`-th texel of the view is a sample.
+        let texel_mm = scene.light[min(i, MAX_LIGHTS - 1u)].texel_mm;
+        let stride = max(i32(round(volume.cell_mm / (SAMPLES * texel_mm))), 1);
+        let side = i32(scene.light_texels) / stride;
+        // The level that is about as coarse as samples.
+        let level = max(log2(f32(stride) * texel_mm / volume.pitch_mm), 0.0);
         let coord = tsm_coord(i, middle_mm);
-        // Half a diagonal of the cell, in samples.
-        let reach = 0.87 * volume.cell_mm / (coord.texel_mm * f32(stride));
+        // Half a diagonal of three cells, in samples.
+        let reach = 2.6 * volume.cell_mm / (coord.texel_mm * f32(stride));
         let middle = coord.texel / f32(stride) - 0.5;
         let first = max(vec2<i32>(ceil(middle - reach)), vec2<i32>(0));
         let last = min(vec2<i32>(floor(middle + reach)), vec2<i32>(side - 1));
-        // E dA in cells: the light of as many texels as samples are apart.
+        // dA in cells: as many texels as samples are apart.
         let edge = coord.texel_mm * f32(stride) / volume.cell_mm;
         for (var y = first.y; y <= last.y; y++) {
             for (var x = first.x; x <= last.x; x++) {
-                let of_tile = vec2<i32>(x, y) * stride + stride / 2;
-                let texel = tsm_texel(i, of_tile);
-                let depth = unpack(textureLoad(tsm_positions, texel, 0)).x;
-                let place = place_in_volume(seen_position(i, vec2<f32>(of_tile) + 0.5, depth));
-                if any(vec3<i32>(floor(place + 0.5)) != cell) {
-                    continue;
-                }
-                let flux = unpack(textureLoad(tsm_fluxes, texel, 0));
-                // Light that enters other groups does not come out of this one.
-                let light = flux.xyz * select(0.0, edge * edge, abs(flux.w - volume.group) < 0.5);
-                let uv = unpack(textureLoad(tsm_uvs, texel, 0)).xy;
-                for (var l = 0u; l < TERMS; l++) {
-                    total[l] += vec4<f32>(light * textureSampleLevel(layers, layer_sampler, uv, l, volume.level).xyz, 0.0);
-                }
+                let light = sample_of(i, vec2<i32>(x, y) * stride + stride / 2, level, cell);
+                total[0] += vec4<f32>(edge * edge * light[0], 0.0);
+                total[TERMS - 1u] += vec4<f32>(select(0.0, edge * edge, TERMS > 1u) * light[TERMS - 1u], 0.0);
             }
         }
     }
