@@ -144,7 +144,7 @@ impl Volume {
         let stages = &self.stages[grid.first..];
         let mut draw = |pass: &FullscreenPass, groups: &[&BindGroup], turn: usize| {
             let targets: Vec<_> = self.maps.in_turns()[turn].layers.iter().collect();
-            pass.record(encoder, &targets, groups, Rows::all(TEXELS));
+            pass.record(encoder, &targets, groups, Rows::all(grid.texels()));
             lap(pass.name(), encoder);
         };
         draw(&passes.fill, &self.fill.each_ref(), stages[0].turns[0]);

@@ -48,6 +48,12 @@ impl Grid {
         })
     }
 
+    /// Width and height of what the cells take of the texture.
+    pub(super) fn texels(&self) -> [u32; 2] {
+        let rows = (self.cells.z + self.columns - 1) / self.columns;
+        [self.columns * self.cells.x, rows * self.cells.y].map(|side| u32::try_from(side).unwrap_or(0))
+    }
+
     /// Standard deviation in cells of what remains to be blurred of a Gaussian, of `sigma_mm`, that is the first.
     pub(super) fn first_sigma(&self, sigma_mm: f32) -> f32 {
         let cells = sigma_mm / self.cell_mm;

@@ -9,7 +9,7 @@
 @group(1) @binding(4) var tsm_uvs: TargetTexture;
 
 // Samples of a light's view to a side of a cell, about.
-const SAMPLES: f32 = 2.0;
+const SAMPLES: f32 = 1.5;
 
 // Position in mm of a texel of light i's view, not rounded, at a depth along its axis in mm: between the nearest and the furthest on
 // its ray.
@@ -23,12 +23,36 @@ fn seen_position(i: u32, texel: vec2<f32>, depth: f32) -> vec3<f32> {
     return start + ray * (depth - nearest) / (light_depth(i, start + ray) - nearest);
 }
 
+// As far as splines reach in cells: along an axis of the volume, and at its corners.
+const REACH: f32 = 1.5;
+const DIAGONAL: f32 = 2.6;
+
+// Sum of the absolute values of a vector.
+fn total_of(v: vec3<f32>) -> f32 {
+    return dot(abs(v), vec3<f32>(1.0));
+}
+
+// How far splines reach about a cell in the view of light i, in texels of `texel_mm`.
+fn reach_of(source: LightSource, texel_mm: f32) -> vec2<f32> {
+    if source.is_local != 0u {
+        return vec2<f32>(DIAGONAL * volume.cell_mm / texel_mm);
+    }
+    // The clip coordinates of the corners.
+    let rows = transpose(source.clip_from_world);
+    let reach = vec2<f32>(total_of(rows[0].xyz), total_of(rows[1].xyz)) * REACH * volume.cell_mm;
+    return 0.5 * f32(scene.light_texels) * reach;
+}
+
 // Share in a cell of the light that enters at a texel of light i's view, c_l E, on a plane across its axis; by coefficients of a
-// mipmap level.
-fn sample_of(i: u32, of_tile: vec2<i32>, level: f32, cell: vec3<i32>) -> array<vec3<f32>, TERMS> {
+// mipmap level. `middle` is the depth of the cell.
+fn sample_of(i: u32, of_tile: vec2<i32>, level: f32, cell: vec3<i32>, middle: f32) -> array<vec3<f32>, TERMS> {
     var light: array<vec3<f32>, TERMS>;
     let texel = tsm_texel(i, of_tile);
     let depth = unpack(textureLoad(tsm_positions, texel, 0)).x;
+    // Most of what a light sees above a cell is far from it.
+    if abs(depth - middle) > DIAGONAL * volume.cell_mm {
+        return light;
+    }
     let place = place_in_volume(seen_position(i, vec2<f32>(of_tile) + 0.5, depth));
     let near = spline(place - vec3<f32>(cell));
     let share = near.x * near.y * near.z;
@@ -55,22 +79,23 @@ fn fill_volume(@builtin(position) at: vec4<f32>) -> Maps {
     let middle_mm = volume.origin_mm + volume.cell_mm * vec3<f32>(cell);
     for (var i = 0u; i < scene.lights; i++) {
         // Every `stride`-th texel of the view is a sample.
-        let texel_mm = scene.light[min(i, MAX_LIGHTS - 1u)].texel_mm;
-        let stride = max(i32(round(volume.cell_mm / (SAMPLES * texel_mm))), 1);
+        let source = scene.light[min(i, MAX_LIGHTS - 1u)];
+        let stride = max(i32(round(volume.cell_mm / (SAMPLES * source.texel_mm))), 1);
         let side = i32(scene.light_texels) / stride;
         // The level that is about as coarse as samples.
-        let level = max(log2(f32(stride) * texel_mm / volume.pitch_mm), 0.0);
+        let level = max(log2(f32(stride) * source.texel_mm / volume.pitch_mm), 0.0);
         let coord = tsm_coord(i, middle_mm);
-        // Half a diagonal of three cells, in samples.
-        let reach = 2.6 * volume.cell_mm / (coord.texel_mm * f32(stride));
+        // In samples.
+        let reach = reach_of(source, coord.texel_mm) / f32(stride);
         let middle = coord.texel / f32(stride) - 0.5;
         let first = max(vec2<i32>(ceil(middle - reach)), vec2<i32>(0));
         let last = min(vec2<i32>(floor(middle + reach)), vec2<i32>(side - 1));
+        let depth = light_depth(i, middle_mm);
         // dA in cells: as many texels as samples are apart.
         let edge = coord.texel_mm * f32(stride) / volume.cell_mm;
         for (var y = first.y; y <= last.y; y++) {
             for (var x = first.x; x <= last.x; x++) {
-                let light = sample_of(i, vec2<i32>(x, y) * stride + stride / 2, level, cell);
+                let light = sample_of(i, vec2<i32>(x, y) * stride + stride / 2, level, cell, depth);
                 total[0] += vec4<f32>(edge * edge * light[0], 0.0);
                 total[TERMS - 1u] += vec4<f32>(select(0.0, edge * edge, TERMS > 1u) * light[TERMS - 1u], 0.0);
             }
