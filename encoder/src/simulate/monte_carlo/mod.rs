@@ -5,8 +5,11 @@
 //! refracted by Fresnel at plane boundaries, and play roulette when little is left of them. [`Request`] is what one run
 //! does, [`Outcome`] what was found, with standard errors; [`mcml`] reads and writes MCML's own files, and [`profile`]
 //! gives the diffuse reflectance profiles R_d(r) of materials in three channels.
+//!
+//! Homogeneous half-spaces are traced many packets at once, and where scattering is isotropic packets jump through spheres.
 
 mod half_space;
+mod jumps;
 mod lanes;
 pub mod mcml;
 mod outcome;
@@ -15,6 +18,7 @@ pub mod profile;
 mod request;
 mod roulette;
 mod score;
+mod sphere;
 mod stack;
 
 pub use outcome::{Estimate, Outcome};
