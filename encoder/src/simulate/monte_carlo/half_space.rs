@@ -110,21 +110,19 @@ struct Roulette {
     /// Collisions from one time to the next; `None`: as many as there were.
     step: Option<u32>,
     /// Chance to survive.
-    survival: f32,
+    survival: f64,
 }
 
 impl Roulette {
     /// Where a^n falls below the threshold, and below a tenth of that each time that a packet survived; where so little is absorbed
     /// that this is late, whenever the collisions have doubled.
     fn new(ln_albedo: f64, threshold: f64) -> Self {
-        #[allow(clippy::cast_possible_truncation, reason = "lanes are of single precision")]
-        let [light, late] = [LIGHT as f32, LATE as f32];
         if threshold.ln() <= ln_albedo * f64::from(EVENTS) {
-            return Self { first: EVENTS, step: None, survival: late };
+            return Self { first: EVENTS, step: None, survival: LATE };
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to EVENTS")]
         let collisions = |ln_weight: f64| (ln_weight / ln_albedo).clamp(1.0, f64::from(EVENTS)).ceil() as u32;
-        Self { first: collisions(threshold.ln()), step: Some(collisions(LIGHT.ln())), survival: light }
+        Self { first: collisions(threshold.ln()), step: Some(collisions(LIGHT.ln())), survival: LIGHT }
     }
 }
 
@@ -193,34 +191,23 @@ impl Block {
     /// What happens to packets of a group, that have come to the surface or to roulette.
     #[inline(never)]
     fn look_at(&mut self, of: &HalfSpace, group: usize, sums: &mut Sums) {
-        // From the last: the packet of the last lane moves into an emptied one.
-        let signs = self.groups[group].signs.iter().enumerate();
-        let flags = signs.fold(0, |flags, (lane, signs)| flags | (signs >> 31) << lane);
-        let mut flags = flags & !(u32::MAX << LANES.min(self.alive - group * LANES));
-        while flags != 0 {
-            let lane = flags.ilog2() as usize;
-            flags ^= 1 << lane;
+        for lane in self.groups[group].flagged(self.alive - group * LANES) {
             let lanes = &mut self.groups[group];
             let mut ended = lanes.position[2][lane] < 0.0 && of.surface(lanes, lane, sums);
             if !ended && lanes.collisions[lane] >= lanes.roulette_at[lane] {
                 let Roulette { step, survival, .. } = of.roulette;
                 let limit = lanes.roulette_at[lane];
                 lanes.roulette_at[lane] = limit.saturating_add(step.unwrap_or(limit)).min(NEVER);
-                lanes.factor[lane] /= survival;
-                ended = lanes.uniform(lane) >= survival;
+                ended = lanes.play(lane, survival);
             }
             // Jumps weigh what they skip; else weights are those of the number of collisions.
             if !ended && f64::from(lanes.factor[lane]) < of.request.threshold {
-                #[allow(clippy::cast_possible_truncation, reason = "lanes are of single precision")]
-                let survival = LIGHT as f32;
-                lanes.factor[lane] /= survival;
-                ended = lanes.uniform(lane) >= survival;
+                ended = lanes.play(lane, LIGHT);
             }
             // One packet in two survives, each time that it is deeper by what halves diffuse light.
             while !ended && lanes.position[2][lane] > lanes.roulette_below[lane] {
                 lanes.roulette_below[lane] += of.decay * std::f32::consts::LN_2;
-                lanes.factor[lane] *= 2.0;
-                ended = lanes.uniform(lane) >= 0.5;
+                ended = lanes.play(lane, 0.5);
             }
             if ended {
                 self.refill(of, group, lane);

@@ -85,6 +85,25 @@ impl Lanes {
         self.factor[lane] = 1.0;
     }
 
+    /// Lanes below `alive` whose packets are flagged by `signs`, the last first: the packet of the last lane may move into an emptied one.
+    pub(super) fn flagged(&self, alive: usize) -> impl Iterator<Item = usize> + use<> {
+        let flags = self.signs.iter().enumerate().fold(0, |flags, (lane, signs)| flags | (signs >> 31) << lane);
+        let mut flags = flags & !(u32::MAX << LANES.min(alive));
+        std::iter::from_fn(move || {
+            let lane = flags.checked_ilog2()?;
+            flags ^= 1 << lane;
+            Some(lane as usize)
+        })
+    }
+
+    /// Roulette: a packet goes on that much heavier with a chance of `survival`, or ends. Whether it ended.
+    pub(super) fn play(&mut self, lane: usize, survival: f64) -> bool {
+        #[allow(clippy::cast_possible_truncation, reason = "lanes are of single precision")]
+        let survival = survival as f32;
+        self.factor[lane] /= survival;
+        self.uniform(lane) >= survival
+    }
+
     /// A random number of a lane's packet, in 0 .. 1.
     pub(super) fn uniform(&mut self, lane: usize) -> f32 {
         unit(self.random(lane))
@@ -176,7 +195,7 @@ impl Phase {
 
 /// A direction on all sides alike, from two random numbers in 0 .. 1.
 #[inline(always)]
-fn isotropic(xi: f32, turn: f32) -> [f32; 3] {
+pub(super) fn isotropic(xi: f32, turn: f32) -> [f32; 3] {
     let (sin_phi, cos_phi) = sin_cos_of_turn(turn);
     let cosine = 2.0 * xi - 1.0;
     let sine = positive(1.0 - cosine * cosine).sqrt();

@@ -6,6 +6,8 @@
 //! does, [`Outcome`] what was found, with standard errors; [`mcml`] reads and writes MCML's own files, and [`profile`]
 //! gives the diffuse reflectance profiles R_d(r) of materials in three channels.
 //!
+//! [`voxels`] traces captures of heterogeneous slabs.
+//!
 //! Homogeneous half-spaces are traced many packets at once, and where scattering is isotropic packets jump through spheres.
 
 mod half_space;
@@ -20,6 +22,8 @@ mod roulette;
 mod score;
 mod sphere;
 mod stack;
+mod voxel_lanes;
+pub mod voxels;
 
 pub use outcome::{Estimate, Outcome};
 pub use request::Request;
