@@ -217,6 +217,7 @@ fn by_distance(method: Method, progress: &dyn Progress) -> (Vec<f64>, serde_json
     capture.read_window(0, &mut window);
     let mut rd = vec![0.0; 7];
     for (place, rgb) in window.chunks(3).enumerate() {
+        #[allow(clippy::cast_possible_truncation, reason = "distances are small")]
         let distance = (place as f64 % 13.0 - 6.0).hypot((place / 13) as f64 - 6.0).round() as usize;
         if let Some(sum) = rd.get_mut(distance) {
             *sum += f64::from(rgb[1]);

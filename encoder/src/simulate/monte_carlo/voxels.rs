@@ -405,7 +405,9 @@ mod tests {
                 for k in 0..4_096_u32 {
                     let at = |digit: u32| 0.5 * (f64::from(k / 8_u32.pow(digit) % 8) + 0.5) / 8.0;
                     let r = (0.5 * dx + at(0) - at(1)).hypot(0.5 * dy + at(2) - at(3));
-                    sum += rd[(r / 0.02) as usize] / entering;
+                    #[allow(clippy::cast_possible_truncation, reason = "rings are few")]
+                    let ring = (r / 0.02) as usize;
+                    sum += rd[ring] / entering;
                 }
                 0.25 * sum / 4_096.0
             };
