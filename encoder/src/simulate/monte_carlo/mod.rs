@@ -10,6 +10,7 @@
 //!
 //! Homogeneous half-spaces are traced many packets at once, and where scattering is isotropic packets jump through spheres.
 
+mod beam;
 mod half_space;
 mod jumps;
 mod lanes;
