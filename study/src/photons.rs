@@ -68,7 +68,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
         let all: Vec<[f64; 2]> = ratios.by_distance.iter().map(|sums| Sums::of_all(sums).ratio()).collect();
         let shown = SHOWN.iter().filter_map(|pixels| all.get(*pixels));
-        let albedo = [ratios.albedo, ratios.albedo_rms].map(|share| format!("{:+.1} %", 100.0 * share));
+        let albedo = [format!("{:+.1} %", 100.0 * ratios.albedo), format!("{:.1} %", 100.0 * ratios.albedo_rms)];
         let cells = shown.map(|[ratio, error]| format!("{:+.1} ± {:.1} %", 100.0 * (ratio - 1.0), 100.0 * error));
         rows.push(std::iter::once(name.to_owned()).chain(albedo).chain(cells).collect::<Vec<String>>());
         let points = all.iter().enumerate().map(|(pixels, [ratio, _])| (pixels as f64, *ratio)).collect();
