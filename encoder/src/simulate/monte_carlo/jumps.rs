@@ -8,10 +8,9 @@
 use std::array;
 use std::sync::OnceLock;
 
-use rayon::prelude::*;
-
 use super::lanes::{LANES, Lanes, ln, next, open_unit, positive, sin_cos_of_turn, unit};
 use super::sphere::Sphere;
+use crate::math::parallel;
 
 /// Radii from 2^e have 1, 5/4, 6/4 and 7/4 of it: the upper bits of a depth tell the largest that fits.
 const STEPS: u32 = 23 - 2;
@@ -43,12 +42,11 @@ impl Jumps {
     pub(super) fn new(albedo: f64, eta: f64, threshold: f64) -> Self {
         // Spheres know nothing of the medium: each is made once for all runs.
         static SPHERES: [OnceLock<Sphere>; RADII] = [const { OnceLock::new() }; RADII];
-        let exits = |k: u32| {
-            let radius = f64::from(f32::from_bits((SMALLEST + k) << STEPS));
-            SPHERES[k as usize].get_or_init(|| Sphere::new(radius)).solve(albedo)
-        };
-        #[allow(clippy::cast_possible_truncation, reason = "radii are few")]
-        let exits: Vec<_> = (0..RADII as u32).into_par_iter().map(exits).collect();
+        let exits = parallel::map(RADII, |k| {
+            #[allow(clippy::cast_possible_truncation, reason = "radii are few")]
+            let radius = f64::from(f32::from_bits((SMALLEST + k as u32) << STEPS));
+            SPHERES[k].get_or_init(|| Sphere::new(radius)).solve(albedo)
+        });
         #[allow(clippy::cast_possible_truncation, reason = "lanes are of single precision")]
         let single = |x: f64| x as f32;
         let mut weights = [single(albedo); ROWS];

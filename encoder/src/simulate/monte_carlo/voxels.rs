@@ -4,10 +4,9 @@
 //! scatter alike in all directions (σ_s' stands for σ_s and g), are reflected by Fresnel at both faces, and are counted by the pixel
 //! that they leave the upper face at.
 
-use rayon::prelude::*;
-
 use super::beam::{Beam, signed};
 use crate::capture::neighbour;
+use crate::math::parallel;
 use crate::progress::Progress;
 use crate::simulate::diffusion::Slab;
 
@@ -52,7 +51,8 @@ pub fn measure(slab: &Slab<'_>, settings: Settings, progress: &dyn Progress) -> 
     while pass < passes && (pass == 0 || !progress.stopped()) {
         pass += 1;
         let end = settings.packets * pass / passes;
-        windows.par_chunks_mut(d * d * 3).zip(&mut outside).enumerate().for_each(|(pixel, (window, outside))| {
+        let more = parallel::map_chunks(&mut windows, d * d * 3, |pixel, window| {
+            let mut outside = 0.0;
             for c in 0..3 {
                 let traced = Beam::new(slab, settings.seed, pixel, c).trace(first, end);
                 for (place, sum) in traced.window.iter().enumerate() {
@@ -60,10 +60,12 @@ pub fn measure(slab: &Slab<'_>, settings: Settings, progress: &dyn Progress) -> 
                     let sum = *sum as f32;
                     window[place * 3 + c] += sum;
                 }
-                *outside += traced.outside;
+                outside += traced.outside;
             }
             progress.advance(1);
+            outside
         });
+        outside.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
         first = end;
     }
     #[allow(clippy::cast_precision_loss, reason = "far below 2^53")]
