@@ -268,6 +268,13 @@ fn a_seed_gives_the_same_on_any_number_of_threads() {
     };
     let one = on(1, &request);
     assert!(one == on(2, &request) && one == on(8, &request), "sums hang on the number of threads");
+    // Side by side, by turns and by jumps.
+    for g in [0.5, 0.0] {
+        let mut request = Request { stack: Stack::half_space(1.3, 0.2, 1.0, g), ..request.clone() };
+        request.scores.truncate(1);
+        let one = on(1, &request);
+        assert!(one == on(2, &request) && one == on(8, &request), "g = {g}: sums hang on the number of threads");
+    }
     request.seed = 2;
     assert!(one.reflected != on(1, &request).reflected, "another seed is another result");
 }

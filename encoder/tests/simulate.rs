@@ -1,11 +1,12 @@
 //! The simulator against closed forms, against Monte Carlo, and against itself on finer grids.
 
 use subsurf_decoder::bssrdf::Addressing;
+use subsurf_encoder::Progress;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
 use subsurf_encoder::simulate::diffusion::analytic::HalfSpace;
 use subsurf_encoder::simulate::diffusion::medium::reduced_albedo_to_diffuse;
 use subsurf_encoder::simulate::diffusion::{
-    BuiltinMaterial, Finish, Medium, MediumMap, Sensor, Slab, Summary, simulate,
+    BuiltinMaterial, Finish, Medium, MediumMap, Method, Request, Sensor, Slab, Summary, simulate,
 };
 
 fn homogeneous(medium: Medium) -> MediumMap {
@@ -189,6 +190,73 @@ fn simulated(slab: &Slab<'_>, finish: &Finish) -> (Vec<f32>, Summary) {
         capture.read_window(pixel, window);
     }
     (entries, summary)
+}
+
+/// Rd of a homogeneous medium by distance from the lit pixel in pixels, and what the sidecar says.
+fn by_distance(method: Method, progress: &dyn Progress) -> (Vec<f64>, serde_json::Value) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("capture.npy");
+    let map = homogeneous(Medium::measured("marble").unwrap());
+    let request = Request {
+        method,
+        map: &map,
+        source: serde_json::json!({}),
+        addressing: Addressing::Repeat,
+        pitch_mm: 0.5,
+        window: 13,
+        thickness_mm: 20.0,
+        eta: 1.5,
+        refine: 1.0,
+        finish: Finish::default(),
+        seed: 1,
+        scalar: Scalar::F32,
+    };
+    request.write(&path, progress).unwrap();
+    let capture = Capture::open(&path, &Overrides::default()).unwrap();
+    let mut window = vec![0.0; capture.window_len()];
+    capture.read_window(0, &mut window);
+    let mut rd = vec![0.0; 7];
+    for (place, rgb) in window.chunks(3).enumerate() {
+        #[allow(clippy::cast_possible_truncation, reason = "distances are small")]
+        let distance = (place as f64 % 13.0 - 6.0).hypot((place / 13) as f64 - 6.0).round() as usize;
+        if let Some(sum) = rd.get_mut(distance) {
+            *sum += f64::from(rgb[1]);
+        }
+    }
+    (rd, capture.simulated().unwrap().clone())
+}
+
+#[test]
+fn photons_and_diffusion_agree_far_from_the_beam() {
+    let (photons, sidecar) = by_distance(Method::MonteCarlo { packets: 300_000 }, &());
+    assert_eq!((&sidecar["method"], &sidecar["packets"]), (&"monte-carlo".into(), &300_000.into()), "{sidecar}");
+    let (diffusion, sidecar) = by_distance(Method::Diffusion, &());
+    assert!(sidecar.get("method").is_none(), "{sidecar}");
+    // Pixels are 1.3 mean free paths wide. Diffusion knows no light that turns back at once: it has less on the lit pixel, and more
+    // around it.
+    for (k, (photons, diffusion)) in photons.iter().zip(&diffusion).enumerate() {
+        let error = diffusion / photons - 1.0;
+        println!("{k} pixels away: {:+.1} %", 100.0 * error);
+        let range = [-0.5..-0.2, 0.0..0.2, 0.0..0.2, 0.0..0.2, -0.08..0.08, -0.08..0.08, -0.08..0.08];
+        assert!(range[k].contains(&error), "{k} pixels away: {diffusion}, {photons} by photons");
+    }
+}
+
+#[test]
+fn photons_that_are_stopped_leave_a_capture() {
+    struct Stopped;
+    impl Progress for Stopped {
+        fn begin(&self, _: &str, _: u64) {}
+        fn advance(&self, _: u64) {}
+        fn stopped(&self) -> bool {
+            true
+        }
+    }
+    let (rd, sidecar) = by_distance(Method::MonteCarlo { packets: 80_000 }, &Stopped);
+    assert_eq!(sidecar["packets"], 10_000, "{sidecar}");
+    let (whole, _) = by_distance(Method::MonteCarlo { packets: 80_000 }, &());
+    // Shares of the light that was traced.
+    assert!((rd[0] / whole[0] - 1.0).abs() < 0.1, "{rd:?}, all of it {whole:?}");
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod cache;
 mod kernels;
 mod linsss;
 mod page;
+mod photons;
 
 use std::process::ExitCode;
 
@@ -27,6 +28,7 @@ Examples:
   subsurf-study bssrdf out                                  Yatagawa et al. 2020, as one page: an hour
   subsurf-study bssrdf out --materials jade --no-paper      one material, without the paper's own method: a minute
   subsurf-study linsss out                                  a rival's model, fitted to the captures of the first: ten minutes
+  subsurf-study photons out                                 diffusion beside photons, as one page: half an hour
   subsurf-study btf out                                     Havran et al. 2010, as one page: more than an hour
   subsurf-study kernels out                                 Jimenez et al. 2015: separable kernels, as one page
   subsurf-study bench load                                  load size and latency, compressed and not
@@ -42,6 +44,7 @@ enum Command {
     Btf(btf::Args),
     Kernels(kernels::Args),
     Linsss(linsss::Args),
+    Photons(photons::Args),
     #[command(subcommand)]
     Bench(bench::Command),
 }
@@ -52,6 +55,7 @@ fn main() -> ExitCode {
         Command::Btf(args) => btf::run(&args),
         Command::Kernels(args) => kernels::run(&args),
         Command::Linsss(args) => linsss::run(&args),
+        Command::Photons(args) => photons::run(&args),
         Command::Bench(command) => bench::run(&command),
     })
 }

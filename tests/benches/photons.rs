@@ -45,9 +45,23 @@ fn trace(bencher: Bencher, requests: &[Request]) {
 const RADII: Score = Score { quantity: Quantity::Reflected, axes: Axes { r: true, a: false, z: false, t: false } };
 const DEPTHS: Score = Score { quantity: Quantity::Absorbed, axes: Axes { r: false, a: false, z: true, t: false } };
 
-#[divan::bench(args = [0.0, 0.9], sample_count = 5, sample_size = 1)]
+/// By jumps where g is 0, by turns where it is not.
+#[divan::bench(args = [0.0, 1e-6, 0.9], sample_count = 5, sample_size = 1)]
 fn side_by_side(bencher: Bencher, g: f64) {
-    trace(bencher, &requests(g, if g == 0.0 { 20_000 } else { 4_000 }, &[RADII]));
+    trace(
+        bencher,
+        &requests(
+            g,
+            if g == 0.0 {
+                200_000
+            } else if g < 0.9 {
+                20_000
+            } else {
+                4_000
+            },
+            &[RADII],
+        ),
+    );
 }
 
 /// What is absorbed by depth is counted one by one.

@@ -6,12 +6,14 @@ use std::time::Instant;
 use clap::ValueEnum;
 use serde_json::json;
 use subsurf_encoder::capture::{Scalar, check_capture_target};
-use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Request, Sensor, Summary, check_patch};
+use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Method, Request, Sensor, Summary, check_patch};
+use subsurf_encoder::simulate::monte_carlo::voxels::PACKETS;
 use subsurf_viewer::human;
 
 use super::maps;
 use crate::options::{AddressingArg, Size};
 use crate::outln;
+use crate::program::interrupt::Graceful;
 use crate::program::progress::Bars;
 
 /// Arguments of a simulated capture.
@@ -29,6 +31,12 @@ pub(super) struct SlabArgs {
     /// The .npy file to write
     #[arg(long, short)]
     output: PathBuf,
+    /// Diffusion, without noise and wrong near the beam; or photon by photon. Ctrl-C once writes what was traced so far
+    #[arg(long, value_enum, default_value = "diffusion")]
+    method: MethodArg,
+    /// Photon packets for each pixel and channel of --method monte-carlo
+    #[arg(long, default_value_t = PACKETS)]
+    photons: u64,
     /// Pixels of the patch; images are resampled to it
     #[arg(long, default_value = "80x80", value_name = "WxH")]
     size: Size,
@@ -47,7 +55,7 @@ pub(super) struct SlabArgs {
     /// What lies beyond the border; "repeat" makes built-in materials tileable
     #[arg(long, default_value = "clamp", value_name = "MODE")]
     addressing: AddressingArg,
-    /// Seed of the pattern and of the noise
+    /// Seed of the pattern, of photons and of noise
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Add shot noise and a sensor's floor: photons counted where all light of the lit pixel leaves
@@ -59,9 +67,16 @@ pub(super) struct SlabArgs {
     /// Leave the two directions of each pair as they come; otherwise they get their mean, since light paths can be reversed
     #[arg(long)]
     one_way: bool,
-    /// Divide the width of every voxel by this, to see that the result stays
+    /// Divide the width of every voxel of diffusion by this, to see that the result stays
     #[arg(long, default_value_t = 1.0, value_name = "FACTOR")]
     refine: f64,
+}
+
+/// A method by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum MethodArg {
+    Diffusion,
+    MonteCarlo,
 }
 
 /// A built-in material by name.
@@ -101,7 +116,12 @@ pub(super) fn run(args: &SlabArgs) -> anyhow::Result<()> {
             (map, json!({ "maps": args.maps, "stretch": args.stretch }))
         }
     };
+    let method = match args.method {
+        MethodArg::Diffusion => Method::Diffusion,
+        MethodArg::MonteCarlo => Method::MonteCarlo { packets: args.photons },
+    };
     let request = Request {
+        method,
         map: &map,
         source,
         addressing: args.addressing.into(),
@@ -116,7 +136,10 @@ pub(super) fn run(args: &SlabArgs) -> anyhow::Result<()> {
     };
     request.check()?;
     let start = Instant::now();
-    let Summary { window_share, asymmetry } = request.write(&args.output, &bars)?;
+    let Summary { window_share, asymmetry } = {
+        let _graceful = matches!(method, Method::MonteCarlo { .. }).then(Graceful::new);
+        request.write(&args.output, &bars)?
+    };
     let bytes = std::fs::metadata(&args.output).map_or(0, |metadata| metadata.len());
     outln!(
         "{}: synthetic capture, {} × {} pixels, window {}, {} in {:.1} s",

@@ -9,10 +9,10 @@ mod profile;
 use crate::program::failure::bad_request;
 pub use capture::MaterialArg;
 
-/// Simulate a capture: light diffusing in a slab of given media, measured pixel by pixel.
+/// Simulate a capture: light in a slab of given media, measured pixel by pixel.
 ///
-/// Solves −∇·(D∇φ) + σ_a φ = Q below every pixel in turn, lit by a beam as wide as the pixel, and writes what leaves
-/// the surface within the window: NAME.npy, floats of shape (height, width, D, D, 3) in mm⁻², and NAME.json beside it.
+/// Solves −∇·(D∇φ) + σ_a φ = Q below every pixel in turn, lit by a beam as wide as the pixel, or traces photons, and
+/// writes what leaves the surface within the window: NAME.npy, floats of shape (height, width, D, D, 3) in mm⁻², and NAME.json beside it.
 #[derive(clap::Args)]
 #[command(after_help = maps::HELP, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(crate) struct Args {

@@ -7,5 +7,6 @@ pub(crate) mod lanes;
 pub(crate) mod lbfgs;
 pub(crate) mod matrix;
 pub(crate) mod parallel;
+pub(crate) mod quadrature;
 pub(crate) mod side_by_side;
 pub(crate) mod svd;

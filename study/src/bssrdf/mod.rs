@@ -19,7 +19,7 @@ use subsurf_cli::program::progress::Bars;
 use subsurf_cli::simulate::MaterialArg;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar};
-use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, MediumMap, Request, Sensor, expose};
+use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, MediumMap, Method, Request, Sensor, expose};
 use subsurf_encoder::write_bytes;
 use subsurf_viewer::human;
 
@@ -164,6 +164,7 @@ fn capture(args: &Args, material: BuiltinMaterial, noisy: bool) -> anyhow::Resul
 
 fn request<'a>(args: &Args, material: BuiltinMaterial, map: &'a MediumMap, sensor: Option<Sensor>) -> Request<'a> {
     Request {
+        method: Method::Diffusion,
         map,
         source: json!({ "scene": material.name() }),
         addressing: Addressing::Clamp,

@@ -1,4 +1,4 @@
-//! Captures of subsurface scattering by diffusion in a heterogeneous slab.
+//! Captures of subsurface scattering in a heterogeneous slab, by diffusion or photon by photon.
 //!
 //! A [`BuiltinMaterial`] or an artist's images ([`maps`]) give the media below every pixel ([`MediumMap`]); [`Request`]
 //! simulates what a camera and a projector would measure, and writes a capture.
@@ -17,7 +17,7 @@ mod solver;
 
 pub use material::BuiltinMaterial;
 pub use medium::Medium;
-pub use request::{Request, check_patch};
+pub use request::{Method, Request, check_patch};
 pub use run::{Finish, Summary, expose, simulate};
 pub use sensor::Sensor;
 pub use slab::{MediumMap, Slab};

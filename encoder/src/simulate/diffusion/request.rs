@@ -8,13 +8,14 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_decoder::bssrdf::layout::LENGTHS_MM;
 
 use super::medium::Medium;
-use super::run::{Finish, Summary, simulate};
+use super::run::{Finish, Summary, complete, simulate};
 use super::slab::{MediumMap, Slab};
 use crate::capture::{CaptureWriter, Scalar, Sidecar};
 use crate::error::{Error, Result};
 use crate::file::output::expect_space;
 use crate::memory;
 use crate::progress::Progress;
+use crate::simulate::monte_carlo::voxels;
 
 /// How much finer or coarser than usual voxels may be.
 const REFINE: RangeInclusive<f64> = 0.1..=16.0;
@@ -67,9 +68,24 @@ pub fn check_patch(size: [usize; 2], window: u32, output: &Path) -> Result<()> {
     expect_space(output, row.saturating_mul(2 * height), what)
 }
 
+/// How light in a slab is simulated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// As diffusion: fast and without noise, wrong near the beam and where little is scattered.
+    #[default]
+    Diffusion,
+    /// By photon packets: with noise, and nothing else wrong.
+    MonteCarlo {
+        /// Packets for each pixel and channel.
+        packets: u64,
+    },
+}
+
 /// A capture to be simulated and written.
 #[derive(Clone, Debug)]
 pub struct Request<'a> {
+    /// How it is simulated.
+    pub method: Method,
     /// Media of all pixels.
     pub map: &'a MediumMap,
     /// What the media are made from, for the sidecar.
@@ -84,11 +100,11 @@ pub struct Request<'a> {
     pub thickness_mm: f64,
     /// Refractive index, 1 to 4.
     pub eta: f64,
-    /// Factor by which voxels are finer than usual, 0.1 to 16.
+    /// Factor by which voxels of diffusion are finer than usual, 0.1 to 16.
     pub refine: f64,
     /// What becomes of the solutions.
     pub finish: Finish,
-    /// Seed of the pattern, for the sidecar.
+    /// Seed of the photons, and of the pattern, for the sidecar.
     pub seed: u64,
     /// Element type of the array.
     pub scalar: Scalar,
@@ -121,6 +137,16 @@ impl Request<'_> {
         }
         check_eta(self.eta)?;
         check_sides(self.map.size, self.window)?;
+        if let Method::MonteCarlo { packets } = self.method {
+            if !(1..=voxels::MAX_PACKETS).contains(&packets) {
+                let most = voxels::MAX_PACKETS;
+                return refuse(format!("--photons is {packets}; each pixel and channel takes 1 to {most}"));
+            }
+            // All windows at once.
+            let [width, height] = self.map.size.map(|side| side as u64);
+            let bytes = (width * height).saturating_mul(u64::from(self.window).pow(2) * 3 * size_of::<f32>() as u64);
+            return memory::expect(bytes, || format!("--method monte-carlo of {width}x{height} pixels"));
+        }
         let voxels = self.slab().voxels();
         if voxels > MAX_VOXELS {
             return refuse(format!(
@@ -152,17 +178,24 @@ impl Request<'_> {
         self.check()?;
         check_patch(self.map.size, self.window, path)?;
         let slab = self.slab();
-        let radius = slab.radius;
-        let sidecar = self.sidecar();
-        let writer = CaptureWriter { path, size: self.map.size, radius, scalar: self.scalar, sidecar: &sidecar };
-        simulate(&slab, &self.finish, &writer, progress)
+        let writer =
+            |sidecar| CaptureWriter { path, size: self.map.size, radius: slab.radius, scalar: self.scalar, sidecar };
+        let Method::MonteCarlo { packets } = self.method else {
+            return simulate(&slab, &self.finish, &writer(&self.sidecar()), progress);
+        };
+        let measured = voxels::measure(&slab, voxels::Settings { packets, seed: self.seed }, progress);
+        // A run that was stopped says how much it is of.
+        let done = Request { method: Method::MonteCarlo { packets: measured.packets }, ..self.clone() };
+        complete(&slab, &self.finish, &writer(&done.sidecar()), |sink| {
+            sink(&measured.windows).map(|()| measured.window_share)
+        })
     }
 
     /// The sidecar of the capture, which says that it is simulated and how.
     #[must_use]
     #[allow(clippy::cast_possible_truncation, reason = "lengths and indices need no more than f32")]
     pub fn sidecar(&self) -> Sidecar {
-        let simulated = json!({
+        let mut simulated = json!({
             "by": concat!("subsurf ", env!("CARGO_PKG_VERSION")),
             "source": self.source,
             "thickness_mm": self.thickness_mm,
@@ -171,6 +204,10 @@ impl Request<'_> {
             "photons": self.finish.sensor.map(|sensor| sensor.photons),
             "refine": self.refine,
         });
+        if let Method::MonteCarlo { packets } = self.method {
+            simulated["method"] = "monte-carlo".into();
+            simulated["packets"] = packets.into();
+        }
         Sidecar {
             pitch_mm: self.pitch_mm as f32,
             addressing: self.addressing,

@@ -36,7 +36,7 @@ pub struct Summary {
     pub asymmetry: f64,
 }
 
-/// Simulates a capture and writes it. Needs room for a second one, as f32, in the same folder meanwhile.
+/// Simulates a capture by diffusion and writes it. Needs room for a second one, as f32, in the same folder meanwhile.
 ///
 /// # Errors
 /// [`Error::Output`].
@@ -46,13 +46,24 @@ pub fn simulate(
     writer: &CaptureWriter<'_>,
     progress: &dyn Progress,
 ) -> Result<Summary> {
+    complete(slab, finish, writer, |sink| slab.measure(progress, sink))
+}
+
+/// Takes what light does in one direction from `measure`, which hands rows to its argument and returns the window's share, and writes
+/// the capture that becomes of it.
+pub(super) fn complete(
+    slab: &Slab<'_>,
+    finish: &Finish,
+    writer: &CaptureWriter<'_>,
+    measure: impl FnOnce(&mut dyn FnMut(&[f32]) -> io::Result<()>) -> io::Result<f64>,
+) -> Result<Summary> {
     let output = |source| Error::output(writer.path, source);
     let solved = scratch(writer.path).map_err(output)?;
     let mut buffered = BufWriter::new(&solved);
-    let window_share = slab
-        .measure(progress, |rows| rows.iter().try_for_each(|rd| buffered.write_all(&rd.to_le_bytes())))
-        .and_then(|share| buffered.flush().map(|()| share))
-        .map_err(output)?;
+    let window_share =
+        measure(&mut |rows: &[f32]| rows.iter().try_for_each(|rd| buffered.write_all(&rd.to_le_bytes())))
+            .map_err(output)?;
+    buffered.flush().map_err(output)?;
     drop(buffered);
     // SAFETY: the file has no name, and nobody else has it open.
     let map = unsafe { Mmap::map(&solved) }.map_err(output)?;

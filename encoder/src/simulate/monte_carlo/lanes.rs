@@ -26,7 +26,9 @@ pub(super) struct Lanes {
     pub(super) roulette_below: Floats,
     /// What roulettes that were survived multiply weights by.
     pub(super) factor: Floats,
-    state: [[u32; LANES]; 4],
+    pub(super) state: [[u32; LANES]; 4],
+    /// Words whose sign bits tell which packets came above the surface, or to roulette.
+    pub(super) signs: [u32; LANES],
 }
 
 /// More collisions than a packet has.
@@ -42,6 +44,7 @@ impl Lanes {
             roulette_below: [0.0; LANES],
             factor: [1.0; LANES],
             state: [[0; LANES]; 4],
+            signs: [0; LANES],
         }
     }
 
@@ -82,6 +85,25 @@ impl Lanes {
         self.factor[lane] = 1.0;
     }
 
+    /// Lanes below `alive` whose packets are flagged by `signs`, the last first: the packet of the last lane may move into an emptied one.
+    pub(super) fn flagged(&self, alive: usize) -> impl Iterator<Item = usize> + use<> {
+        let flags = self.signs.iter().enumerate().fold(0, |flags, (lane, signs)| flags | (signs >> 31) << lane);
+        let mut flags = flags & !(u32::MAX << LANES.min(alive));
+        std::iter::from_fn(move || {
+            let lane = flags.checked_ilog2()?;
+            flags ^= 1 << lane;
+            Some(lane as usize)
+        })
+    }
+
+    /// Roulette: a packet goes on that much heavier with a chance of `survival`, or ends. Whether it ended.
+    pub(super) fn play(&mut self, lane: usize, survival: f64) -> bool {
+        #[allow(clippy::cast_possible_truncation, reason = "lanes are of single precision")]
+        let survival = survival as f32;
+        self.factor[lane] /= survival;
+        self.uniform(lane) >= survival
+    }
+
     /// A random number of a lane's packet, in 0 .. 1.
     pub(super) fn uniform(&mut self, lane: usize) -> f32 {
         unit(self.random(lane))
@@ -97,15 +119,19 @@ impl Lanes {
     }
 
     /// Counts the collisions that all packets have come to, turns them, and makes their next hops: s = −ln ξ along the new
-    /// direction. Positions above the surface are for the caller to mend. Whether any packet came above it, or to roulette.
+    /// direction. Positions above the surface are for the caller to mend. Whether any packet came above it, or to roulette:
+    /// `signs` say which.
     #[inline(always)]
-    pub(super) fn turn_and_hop(&mut self, phase: Phase) -> bool {
-        // Sign bits: of depths, and of what is left until roulette.
-        let mut signs = 0;
+    pub(super) fn turn_and_hop<const ISOTROPIC: bool>(&mut self, phase: Phase) -> bool {
+        let mut any = 0;
         for lane in 0..LANES {
             let mut state = array::from_fn(|k| self.state[k][lane]);
             let [first, second, third] = [next(&mut state), next(&mut state), next(&mut state)];
-            let u = phase.turn(array::from_fn(|axis| self.direction[axis][lane]), unit(first), unit(second));
+            let (xi, turn) = (unit(first), unit(second));
+            let u = match ISOTROPIC {
+                true => isotropic(xi, turn),
+                false => phase.turn(array::from_fn(|axis| self.direction[axis][lane]), xi, turn),
+            };
             let s = -ln(open_unit(third));
             for axis in 0..3 {
                 self.direction[axis][lane] = u[axis];
@@ -117,9 +143,12 @@ impl Lanes {
             self.collisions[lane] += 1;
             let left = self.roulette_at[lane].wrapping_sub(1).wrapping_sub(self.collisions[lane]);
             let z = self.position[2][lane];
-            signs |= z.to_bits() | (self.roulette_below[lane] - z).to_bits() | left;
+            // Sign bits: of depths, and of what is left until roulette.
+            let signs = z.to_bits() | (self.roulette_below[lane] - z).to_bits() | left;
+            self.signs[lane] = signs;
+            any |= signs;
         }
-        signs >> 31 != 0
+        any >> 31 != 0
     }
 }
 
@@ -131,17 +160,16 @@ pub(super) struct Phase {
 }
 
 impl Phase {
+    /// Whether g is taken for 0: of a smaller one, differences in [`Self::turn`] would lose all digits.
+    pub(super) fn is_isotropic(self) -> bool {
+        self.g.abs() < 1e-4
+    }
+
     /// A direction about `u` by Henyey and Greenstein, from two random numbers in 0 .. 1.
     #[inline(always)]
     fn turn(self, u: [f32; 3], xi: f32, turn: f32) -> [f32; 3] {
         let (sin_phi, cos_phi) = sin_cos_of_turn(turn);
         let g = self.g;
-        // Of a smaller g, the differences below would lose all digits.
-        if g.abs() < 1e-4 {
-            let cosine = 2.0 * xi - 1.0;
-            let sine = positive(1.0 - cosine * cosine).sqrt();
-            return [sine * cos_phi, sine * sin_phi, cosine];
-        }
         // 1 − cos θ = (1 − g) (1 + g)² ... in factors: near 1 the difference would lose all its digits.
         let below = 1.0 - g + 2.0 * g * xi;
         let ratio = (1.0 - g * g) / below;
@@ -165,9 +193,18 @@ impl Phase {
     }
 }
 
+/// A direction on all sides alike, from two random numbers in 0 .. 1.
+#[inline(always)]
+pub(super) fn isotropic(xi: f32, turn: f32) -> [f32; 3] {
+    let (sin_phi, cos_phi) = sin_cos_of_turn(turn);
+    let cosine = 2.0 * xi - 1.0;
+    let sine = positive(1.0 - cosine * cosine).sqrt();
+    [sine * cos_phi, sine * sin_phi, cosine]
+}
+
 /// The next number of Blackman and Vigna's xoshiro128+.
 #[inline(always)]
-fn next(state: &mut [u32; 4]) -> u32 {
+pub(super) fn next(state: &mut [u32; 4]) -> u32 {
     let result = state[0].wrapping_add(state[3]);
     let shifted = state[1] << 9;
     state[2] ^= state[0];
@@ -181,7 +218,7 @@ fn next(state: &mut [u32; 4]) -> u32 {
 
 /// 0 to 1, 1 excluded, from the upper 24 bits: the lower ones of xoshiro128+ are weak.
 #[inline(always)]
-fn unit(word: u32) -> f32 {
+pub(super) fn unit(word: u32) -> f32 {
     #[allow(clippy::cast_precision_loss, clippy::cast_possible_wrap, reason = "24 bits are exact")]
     let upper = (word >> 8) as i32 as f32;
     upper * (1.0 / 16_777_216.0)
@@ -189,7 +226,7 @@ fn unit(word: u32) -> f32 {
 
 /// 0 excluded to 1, from 31 bits: 24 would end hops at 16.6 mean free paths.
 #[inline(always)]
-fn open_unit(word: u32) -> f32 {
+pub(super) fn open_unit(word: u32) -> f32 {
     #[allow(clippy::cast_precision_loss, clippy::cast_possible_wrap, reason = "rounding is even over the range")]
     let upper = (word >> 1) as i32 as f32;
     (upper + 0.5) * (1.0 / 2_147_483_648.0)
@@ -197,7 +234,7 @@ fn open_unit(word: u32) -> f32 {
 
 /// ln x of a positive, normal x: m 2^e with m about 1, and ln m = 2 artanh((m − 1) / (m + 1)).
 #[inline(always)]
-fn ln(x: f32) -> f32 {
+pub(super) fn ln(x: f32) -> f32 {
     const SQRT_HALF: u32 = 0x3f35_04f3;
     let bits = x.to_bits().wrapping_sub(SQRT_HALF);
     #[allow(clippy::cast_possible_wrap, clippy::cast_precision_loss, reason = "exponents are small")]
@@ -211,13 +248,13 @@ fn ln(x: f32) -> f32 {
 
 /// `x`, or 0 where it is below: one instruction, unlike `max`, which looks after NaN.
 #[inline(always)]
-fn positive(x: f32) -> f32 {
+pub(super) fn positive(x: f32) -> f32 {
     if x > 0.0 { x } else { 0.0 }
 }
 
 /// Sine and cosine of a turn in 0 .. 1, less π: of a quarter of it by its series, from −π/4 to π/4, and doubled twice.
 #[inline(always)]
-fn sin_cos_of_turn(turn: f32) -> (f32, f32) {
+pub(super) fn sin_cos_of_turn(turn: f32) -> (f32, f32) {
     let quarter = 0.5 * PI * (turn - 0.5);
     let q2 = quarter * quarter;
     let tail = 1.0 / 120.0 + q2 * (-1.0 / 5_040.0 + q2 * (1.0 / 362_880.0));

@@ -74,10 +74,10 @@ pub(super) fn units(weight: f64) -> u128 {
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "casts saturate, and weights are positive"
+        reason = "casts saturate, and weights are positive and far below 2^16"
     )]
-    let units = (weight * UNITS).round() as u128;
-    units
+    let units = (weight * UNITS + 0.5) as u64;
+    units.into()
 }
 
 /// Weight of an integer.
