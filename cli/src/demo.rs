@@ -11,7 +11,7 @@ use subsurf_encoder::bssrdf::basis::{BasisOptions, add_basis};
 use subsurf_encoder::bssrdf::{Method, Options, encode};
 use subsurf_encoder::capture::{Capture, Overrides, Scalar};
 use subsurf_encoder::metrics::bssrdf::{Judgement, Light, judge};
-use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Method, Request};
+use subsurf_encoder::simulate::diffusion::{self, BuiltinMaterial, Finish, Request};
 use subsurf_encoder::write_bytes;
 use subsurf_runtime::{Backend, BssrdfPlanes, Gpu, PatchLight, PatchRenderer, Region, layout_of};
 use subsurf_scene::torus;
@@ -49,7 +49,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let start = Instant::now();
     let map = BuiltinMaterial::Onyx.map([SIZE; 2], Addressing::Repeat, 1);
     let request = Request {
-        method: Method::Diffusion,
+        method: diffusion::Method::Diffusion,
         map: &map,
         source: json!({ "scene": BuiltinMaterial::Onyx.name() }),
         addressing: Addressing::Repeat,

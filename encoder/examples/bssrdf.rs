@@ -5,7 +5,7 @@ use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::bssrdf::{Options, encode};
 use subsurf_encoder::capture::{Capture, Overrides, Scalar};
 use subsurf_encoder::metrics::bssrdf::judge;
-use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Request};
+use subsurf_encoder::simulate::diffusion::{BuiltinMaterial, Finish, Method, Request};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = tempfile::tempdir()?;
@@ -14,6 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // 24 × 24 pixels of 0.5 mm; light is measured within 7 × 7 pixels around each.
     let map = BuiltinMaterial::Jade.map([24, 24], Addressing::Clamp, 1);
     let request = Request {
+        method: Method::default(),
         map: &map,
         source: "jade".into(),
         addressing: Addressing::Clamp,
