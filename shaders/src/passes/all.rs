@@ -4,7 +4,7 @@ use super::pass::Pass;
 use super::{kernel, linsss, table};
 
 /// All passes.
-pub static ALL: [&Pass; 34] = [
+pub static ALL: [&Pass; 35] = [
     &table::GATHER,
     &table::PRESENT,
     &table::HOMOGENEOUS,
@@ -32,6 +32,7 @@ pub static ALL: [&Pass; 34] = [
     &kernel::BLUR_KERNEL,
     &kernel::SUM_KERNEL,
     &kernel::SHADE_KERNEL,
+    &kernel::COPY,
     &linsss::LINSSS_GBUFFER,
     &linsss::LINSSS_BLUR,
     &linsss::LINSSS_REDUCE,
