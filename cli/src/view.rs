@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use subsurf_encoder::kernel::{KernelMethod, Options, Profile, encode};
+use subsurf_encoder::write_bytes;
 use subsurf_runtime::{Backend, RuntimeOptions};
 use subsurf_viewer::{
-    BtfImageSet, Config, DrawnMaterial, Error, Host, KEYS, LoadImages, Picture, Scattering, Set, Viewer, event_loop,
-    parse, read,
+    Artist, BtfImageSet, Config, DrawnMaterial, Error, Host, KEYS, LoadImages, Picture, Scattering, Set, Viewer,
+    event_loop, parse, read,
 };
 
 use crate::devices::check_picture;
@@ -129,6 +131,7 @@ impl Args {
             shows_error: self.error,
             repeats: self.btf.repeat.map(|Copies(repeats)| repeats),
             images: self.btf.images.clone().map(load_images),
+            make_kernel: Some(Arc::new(kernel_of)),
             environment: match &self.environment {
                 Some(path) => read_environment(path)?,
                 None => set.environment(),
@@ -173,12 +176,36 @@ fn of_kernels(files: &[PathBuf]) -> anyhow::Result<Scattering> {
     Ok(Scattering::Separable)
 }
 
+/// Name of a file in this folder that is not taken.
+fn free_name(stem: &str, extension: &str) -> PathBuf {
+    let mut names = (1..).map(|number: u32| PathBuf::from(format!("{stem}-{number}.{extension}")));
+    names.find(|name| !name.exists()).unwrap_or_default()
+}
+
 /// Reads a folder of images when they are to be shown.
 fn load_images(folder: PathBuf) -> Arc<LoadImages> {
     Arc::new(move || match FolderImages::read(&folder) {
         Ok(images) => Ok(Box::new(images) as Box<dyn BtfImageSet>),
         Err(error) => Err(Error::Images(error.into())),
     })
+}
+
+/// Kernel file of an artist's numbers.
+fn kernel_of(artist: &Artist) -> Result<Vec<u8>, Error> {
+    let two = artist.two_gaussians();
+    let make = || {
+        let profile = Profile::of_two_gaussians(&two, artist.reflectance)?;
+        let method = KernelMethod::TwoGaussians;
+        let options = Options {
+            method,
+            taps: artist.taps.into(),
+            two_gaussians: Some(two),
+            eta: artist.eta,
+            ..Options::default()
+        };
+        encode(&profile, &options)?.kernel.to_bytes()
+    };
+    make().map_err(|error: subsurf_encoder::Error| Error::Request(error.to_string()))
 }
 
 /// Host of the window: pictures become files, news are printed.
@@ -189,9 +216,16 @@ struct Files<'a> {
 impl Host for Files<'_> {
     /// Into this folder, under a name that is not taken.
     fn save(&mut self, stem: &str, picture: &Picture) -> Result<String, String> {
-        let mut names = (1..).map(|number: u32| PathBuf::from(format!("{stem}-{number}.png")));
-        let path = names.find(|name| !name.exists()).unwrap_or_default();
+        let path = free_name(stem, "png");
         write_picture(&path, &image(&picture.pixels, picture.size[0])).map_err(|error| line(&error))?;
+        outln!("{}", path.display());
+        Ok(path.display().to_string())
+    }
+
+    /// Likewise.
+    fn save_kernel(&mut self, stem: &str, file: &[u8]) -> Result<String, String> {
+        let path = free_name(stem, "subsurf");
+        write_bytes(&path, file).map_err(|error| error.to_string())?;
         outln!("{}", path.display());
         Ok(path.display().to_string())
     }

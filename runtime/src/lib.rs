@@ -24,6 +24,8 @@ pub use gpu::{Backend, ColourTarget, Gpu, Ledger, OffScreen, OnScreen, Purpose, 
 pub use load::{Load, LoadPhase, LoadTimer, LoadTimes, RawImages, Stored};
 pub use subsurf_shaders::uniform::BtfFiltering;
 pub use subsurf_shaders::{BtfLayout, MaterialLayout, TargetFormat};
+#[cfg(feature = "reference")]
+pub use technique::KernelScreen;
 pub use technique::{
     BtfAnswer, BtfOptions, BtfQueries, BtfQuery, DepthFormat, Exitance, HomogeneousPatch, HomogeneousRenderer,
     PatchLight, PatchRenderer, Region, SeparablePatch, SeparableRenderer, SplatLevels, Technique,

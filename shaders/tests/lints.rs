@@ -224,6 +224,7 @@ fn texture_loads_are_accounted_for() {
             ("blur_kernel", 1),
             ("sum_kernel", 2),
             ("shade_kernel", 2),
+            ("copy", 1),
             // Taps clamped to what the maps hold; levels of the pyramid to what is left of it.
             ("linsss_gbuffer", 4),
             ("linsss_blur", 3),

@@ -20,4 +20,4 @@ pub use file::{DrawnMaterial, material_number, parse, parse_btf, read, stem};
 pub use request::{Angles, ROUGHNESS, RenderRequest};
 pub use set::Set;
 pub use units::human;
-pub use window::{Config, Event, Host, KEYS, LoadImages, Picture, Viewer, event_loop, options};
+pub use window::{Artist, Config, Event, Host, KEYS, LoadImages, MakeKernel, Picture, Viewer, event_loop, options};

@@ -66,6 +66,7 @@ fn draw(bytes: &[u8], backend: Backend) {
         shows_error: false,
         repeats: None,
         images: None,
+        make_kernel: None,
         environment: Environment::studio(),
         // Small, for a processor may have to draw it.
         size: SIZE,

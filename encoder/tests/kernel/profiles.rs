@@ -3,8 +3,10 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-use subsurf_encoder::kernel::profile::shipped;
-use subsurf_encoder::kernel::{KernelMethod, Options, Profile, encode};
+use subsurf_decoder::Bssrdf;
+use subsurf_encoder::bssrdf::{HomogeneousPatch, homogeneous};
+use subsurf_encoder::kernel::profile::{of_base, shipped};
+use subsurf_encoder::kernel::{KernelMethod, Options, Profile, TwoGaussians, encode};
 use subsurf_encoder::metrics::kernel::KernelErrors;
 use subsurf_encoder::simulate::burley::NormalisedDiffusion;
 use subsurf_encoder::simulate::diffusion::Medium;
@@ -234,4 +236,28 @@ fn models_in_closed_form_are_as_published() {
     assert!((profile.reflectance()[0] - 0.4).abs() < 1e-4, "{:?}", profile.reflectance());
     let errors = encode(&profile, &Options::default()).unwrap().errors;
     assert!(errors != KernelErrors::default() && errors.edge < 1e-5, "{errors:?}");
+}
+
+/// Files of one profile everywhere have its light, and its values beyond the first pixels.
+#[test]
+fn homogeneous_files_have_the_profile() {
+    let two = TwoGaussians { weight: [0.4, 0.6, 0.7], tau_near: [0.04, 0.03, 0.02], tau_far: [1.2, 0.4, 0.2] };
+    let profile = Profile::of_two_gaussians(&two, [0.8, 0.6, 0.5]).unwrap();
+    let patch = HomogeneousPatch { side: 3, radius: 9, pitch_mm: 0.4, eta: 1.4 };
+    let file = homogeneous(&profile, &patch).unwrap();
+    let material = Bssrdf::parse(&file).unwrap();
+    for (c, albedo) in material.albedo([1, 2]).into_iter().enumerate() {
+        assert!((f64::from(albedo) - profile.reflectance()[c]).abs() < 1e-5, "{albedo}");
+        let (far, near) = (material.rd([0, 0], [4, 0])[c], profile.channels[c].at(1.6));
+        assert!((f64::from(far) / near - 1.0).abs() < 0.25, "{far} {near}: means over pixels");
+    }
+    let seen = of_base(&material, 0).unwrap();
+    assert!((seen.reflectance()[0] / 0.8 - 1.0).abs() < 0.05, "{:?}", seen.reflectance());
+    for wrong in [
+        HomogeneousPatch { side: 0, ..patch },
+        HomogeneousPatch { radius: 0, ..patch },
+        HomogeneousPatch { pitch_mm: 0.0, ..patch },
+    ] {
+        assert!(homogeneous(&profile, &wrong).unwrap_err().to_string().contains("expected pixels"), "{wrong:?}");
+    }
 }

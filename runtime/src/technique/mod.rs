@@ -30,6 +30,8 @@ pub(crate) use common::{Common, reflection_sampler};
 pub use kind::Technique;
 pub use mesh_pass::DepthFormat;
 pub(crate) use mesh_pass::{Attachments, Viewport};
+#[cfg(feature = "reference")]
+pub use patch::KernelScreen;
 pub(crate) use patch::PatchCascade;
 pub use patch::{
     Exitance, HomogeneousPatch, HomogeneousRenderer, PatchLight, PatchRenderer, Region, SeparablePatch,

@@ -4,7 +4,7 @@ use super::pass::Pass;
 use super::{kernel, linsss, table, volume};
 
 /// All passes.
-pub static ALL: [&Pass; 37] = [
+pub static ALL: [&Pass; 38] = [
     &table::GATHER,
     &table::PRESENT,
     &table::HOMOGENEOUS,
@@ -35,6 +35,7 @@ pub static ALL: [&Pass; 37] = [
     &kernel::BLUR_KERNEL,
     &kernel::SUM_KERNEL,
     &kernel::SHADE_KERNEL,
+    &kernel::COPY,
     &linsss::LINSSS_GBUFFER,
     &linsss::LINSSS_BLUR,
     &linsss::LINSSS_REDUCE,

@@ -52,6 +52,10 @@ pub static SUM_KERNEL: Pass = fullscreen(
     &[Group::Fixed(&[Uniform, Uniform, Target, Target])],
 );
 
+/// Plain copy of a map: what blurs are timed against.
+pub static COPY: Pass =
+    fullscreen(wgsl!("pass/kernel/copy"), &[Part::TargetFormat, FULLSCREEN], &[Group::Fixed(&[Target])]);
+
 /// Picture of a mesh from light that a separable kernel has blurred on the screen.
 pub static SHADE_KERNEL: Pass = shaded(
     wgsl!("pass/kernel/shade_kernel"),

@@ -1,6 +1,7 @@
 //! `subsurf-study bench`: how long things take on this machine.
 
 mod basis;
+mod blur;
 mod btf;
 mod case;
 mod devices;
@@ -8,7 +9,7 @@ mod frames;
 mod load;
 mod meshes;
 mod patch;
-mod render;
+pub(crate) mod render;
 mod timing;
 mod traffic;
 
@@ -20,6 +21,7 @@ pub(crate) enum Command {
     Traffic(traffic::Args),
     Patch(patch::Args),
     Basis(basis::Args),
+    Blur(blur::Args),
     Btf(btf::Args),
     Render(render::Args),
     #[command(hide = true)]
@@ -33,6 +35,7 @@ pub(crate) fn run(command: &Command) -> anyhow::Result<()> {
         Command::Traffic(args) => traffic::run(args),
         Command::Patch(args) => patch::run(args),
         Command::Basis(args) => basis::run(args),
+        Command::Blur(args) => blur::run(args),
         Command::Btf(args) => btf::run(args),
         Command::Render(args) => render::run(args),
         Command::LoadOne(args) => load::run_one(args),

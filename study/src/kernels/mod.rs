@@ -1,12 +1,14 @@
 //! `subsurf-study kernels`: separable kernels of measured materials, as one page.
 
 mod curves;
+mod meshes;
 mod pictures;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
+use subsurf_cli::options::Size;
 use subsurf_cli::outln;
 use subsurf_cli::program::progress::Bars;
 use subsurf_encoder::kernel::profile::shipped;
@@ -16,11 +18,13 @@ use subsurf_encoder::simulate::diffusion::Medium;
 use subsurf_encoder::simulate::monte_carlo::profile::PACKETS;
 use subsurf_encoder::{Error, Progress, write_bytes};
 
+use self::meshes::Meshes;
 use crate::page::{CSS, table};
 
 /// Compare separable kernels of measured materials (Jimenez et al. 2015) with their profiles: curves, kernels in the plane, errors.
 ///
-/// Writes DIR/index.html and DIR/errors.csv, and prints errors as tables.
+/// Writes DIR/index.html and DIR/errors.csv, and prints errors as tables. With --mesh, draws materials on meshes by every method, beside the
+/// gather, our techniques and LinSSS, and writes DIR/meshes.csv, too.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The folder to write to
@@ -31,6 +35,18 @@ pub(crate) struct Args {
     /// Trace the profiles that come with the library anew, and write them to this folder: a quarter of an hour
     #[arg(long, value_name = "DIR")]
     profiles: Option<PathBuf>,
+    /// Draw on these meshes, too: files, or names of shapes
+    #[arg(long = "mesh", value_name = "FILE|SHAPE")]
+    meshes: Vec<PathBuf>,
+    /// Longest side of the meshes in mm
+    #[arg(long, default_value_t = 60.0, value_name = "MM")]
+    extent: f32,
+    /// Pixels of the pictures of meshes
+    #[arg(long, default_value = "480x400", value_name = "WxH")]
+    size: Size,
+    /// Frames to time of each technique on meshes; 0 to leave times out
+    #[arg(long, default_value_t = 5)]
+    frames: usize,
 }
 
 /// Values of k of the guide that are compared.
@@ -53,6 +69,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
          the brightest. Means over channels.</p>"
     );
     let mut tables: [Vec<Vec<String>>; 2] = Default::default();
+    let on_meshes = Meshes {
+        meshes: &args.meshes,
+        extent_mm: args.extent,
+        size: args.size.0,
+        frames: args.frames,
+        folder: args.dir.join("meshes"),
+    };
+    let mut meshes_csv = String::new();
     for name in &names {
         let profile = profile(name, args.profiles.as_deref())?;
         let errors = compare(&profile, &asked)?;
@@ -65,6 +89,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             &["method", "terms", "k", "Frobenius", "L1", "dot", "edge"].map(str::to_owned),
             &rows(&asked, &errors),
         ));
+        if !args.meshes.is_empty() {
+            let (html, rows) = on_meshes.draw(name, &profile, Medium::measured_eta(name))?;
+            let _ = write!(page, "<div class=\"wide\">{html}</div>");
+            // One line of titles for all.
+            let skipped = usize::from(!meshes_csv.is_empty());
+            rows.lines().skip(skipped).for_each(|row| meshes_csv.push_str(&format!("{row}\n")));
+        }
         for (options, KernelErrors { frobenius, l1, dot, edge }) in asked.iter().zip(&errors) {
             let (method, k) = (options.method.name(), k(options));
             let _ = writeln!(csv, "{name},{method},{},{k},{frobenius:.5},{l1:.5},{dot:.5},{edge:.5}", options.terms);
@@ -77,6 +108,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     page.push_str("</body></html>\n");
     write_bytes(&args.dir.join("index.html"), page.as_bytes())?;
     write_bytes(&args.dir.join("errors.csv"), csv.as_bytes())?;
+    if !args.meshes.is_empty() {
+        write_bytes(&args.dir.join("meshes.csv"), meshes_csv.as_bytes())?;
+    }
     for (title, lines) in ["Frobenius", "dot"].iter().zip(&tables) {
         outln!("\n| {title} | {} |", asked.iter().map(label).collect::<Vec<_>>().join(" | "));
         outln!("|---|{}", "---:|".repeat(asked.len()));

@@ -4,4 +4,5 @@ mod bench;
 mod bssrdf;
 mod btf;
 mod common;
+mod kernel;
 mod linsss;

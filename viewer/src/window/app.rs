@@ -10,6 +10,7 @@ use winit::event::{ElementState, StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::window::{Window, WindowId};
 
+use super::assets::Kind;
 use super::config::Config;
 use super::controls::{Command, Drag, Pointer, command, steps};
 use super::draw::{Overlay, Shows, Stage};
@@ -199,10 +200,12 @@ impl<'a> App<'a> {
                 Command::Save => {
                     let saved = picture(stage, self.session.shows(stage), &overlay).map_err(|error| one_line(&error));
                     let saved = saved.and_then(|picture| self.host.save(&stem(&self.session), &picture));
-                    self.session.message = Some(match saved {
-                        Ok(place) => Message::Done(format!("saved {place}")),
-                        Err(reason) => Message::Failed(reason),
-                    });
+                    self.session.message = Some(told(saved));
+                }
+                Command::SaveKernel => {
+                    let saved = self.session.kernel().map_err(|error| one_line(&error));
+                    let saved = saved.and_then(|file| self.host.save_kernel(&kernel_stem(&self.session), &file));
+                    self.session.message = Some(told(saved));
                 }
                 command => self.session.obey(command, stage.canvas.size()),
             }
@@ -244,10 +247,27 @@ fn picture(stage: &mut Stage, shows: Shows, overlay: &Overlay) -> Result<Picture
     Ok(Picture { size: stage.canvas.size(), pixels: stage.capture(shows, overlay)? })
 }
 
+/// Message of what was saved, or why not.
+fn told(saved: std::result::Result<String, String>) -> Message {
+    match saved {
+        Ok(place) => Message::Done(format!("saved {place}")),
+        Err(reason) => Message::Failed(reason),
+    }
+}
+
+/// Name of a kernel that the panel made.
+fn kernel_stem(session: &Session) -> String {
+    format!("{}-artist", session.assets.materials[session.settings.material].name())
+}
+
 /// Name of a picture: material, mesh and technique.
 fn stem(session: &Session) -> String {
     let material = &session.assets.materials[session.settings.material];
-    let technique = if material.is_btf() { "btf".to_owned() } else { format!("{:?}", session.settings.technique) };
+    let technique = match material.kind() {
+        Kind::Bssrdf => format!("{:?}", session.settings.technique),
+        Kind::Btf => "btf".to_owned(),
+        Kind::Kernel(_) => "kernel".to_owned(),
+    };
     format!("{}-{}-{technique}", material.name(), session.assets.mesh_name).to_lowercase()
 }
 

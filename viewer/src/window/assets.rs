@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use subsurf_scene::{BoundingSphere, LoadedMesh, MESH_EXTENSIONS, Mesh, SHAPES, UpAxis, load_mesh};
 
+use super::artist::Artist;
 use crate::error::{Error, Result};
 use crate::file::{DrawnMaterial, material_number, parse, read, stem};
 use crate::set::Set;
@@ -16,23 +17,33 @@ pub(super) struct MaterialFile {
     name: String,
     /// Index of the material in a BTF file; 0 otherwise.
     number: usize,
-    is_btf: bool,
+    kind: Kind,
+}
+
+/// Kind of a material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Kind {
+    Bssrdf,
+    Btf,
+    /// Kernel, and the numbers that it was made of, if those are two Gaussians.
+    Kernel(Option<Artist>),
 }
 
 impl MaterialFile {
     /// The material of a file; of a BTF all of its materials, or the one that is asked for by name or number.
     pub(super) fn open(path: &Path, asked: Option<&str>) -> Result<Vec<Arc<Self>>> {
         let bytes: Arc<[u8]> = read(path)?.into();
-        let one = |name: String, number, is_btf| {
-            Arc::new(Self { path: path.to_owned(), bytes: bytes.clone(), name, number, is_btf })
+        let one = |name: String, number, kind| {
+            Arc::new(Self { path: path.to_owned(), bytes: bytes.clone(), name, number, kind })
         };
         match parse(path, &bytes)? {
-            DrawnMaterial::Bssrdf(_) | DrawnMaterial::Kernel(_) => Ok(vec![one(stem(path), 0, false)]),
+            DrawnMaterial::Bssrdf(_) => Ok(vec![one(stem(path), 0, Kind::Bssrdf)]),
+            DrawnMaterial::Kernel(kernel) => Ok(vec![one(stem(path), 0, Kind::Kernel(Artist::of(&kernel)))]),
             DrawnMaterial::Btf(btf) => {
                 let names: Vec<String> = btf.materials().map(|material| material.name().to_owned()).collect();
                 let of = |number: usize| match &names[..] {
-                    [_] => one(stem(path), number, true),
-                    names => one(format!("{} {}", stem(path), names[number]), number, true),
+                    [_] => one(stem(path), number, Kind::Btf),
+                    names => one(format!("{} {}", stem(path), names[number]), number, Kind::Btf),
                 };
                 let Some(asked) = asked else {
                     return Ok((0..names.len()).map(of).collect());
@@ -54,8 +65,8 @@ impl MaterialFile {
         self.number
     }
 
-    pub(super) fn is_btf(&self) -> bool {
-        self.is_btf
+    pub(super) fn kind(&self) -> Kind {
+        self.kind
     }
 
     pub(super) fn read(&self) -> Result<DrawnMaterial<'_>> {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use subsurf_runtime::{Backend, BtfOptions, RuntimeOptions};
 use subsurf_scene::{Environment, UpAxis};
 
+use super::artist::MakeKernel;
 use crate::asset::{BtfImageSet, MappingChoice, Scattering};
 use crate::error::Result;
 use crate::set::Set;
@@ -37,6 +38,8 @@ pub struct Config {
     pub repeats: Option<[f32; 2]>,
     /// Images that BTFs are compared with.
     pub images: Option<Arc<LoadImages>>,
+    /// What makes kernels of the numbers that the panel changes; without it there is nothing to change.
+    pub make_kernel: Option<Arc<MakeKernel>>,
     /// Light from all around.
     pub environment: Environment,
     /// Width and height of the window in pixels.

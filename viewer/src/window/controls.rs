@@ -45,6 +45,8 @@ pub(super) enum Command {
     Expose,
     Reset,
     Save,
+    /// The kernel that the panel made.
+    SaveKernel,
     Hide,
     Quit,
 }

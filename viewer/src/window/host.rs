@@ -18,6 +18,15 @@ pub trait Host {
     /// The picture cannot be kept; the panel shows why.
     fn save(&mut self, stem: &str, picture: &Picture) -> Result<String, String>;
 
+    /// Keeps a kernel file that the user made with the panel; `stem` would be a good name for it. Says where it is.
+    ///
+    /// # Errors
+    /// The file cannot be kept; the panel shows why.
+    fn save_kernel(&mut self, stem: &str, file: &[u8]) -> Result<String, String> {
+        let _ = (stem, file);
+        Err("there is no place for kernels".to_owned())
+    }
+
     /// Takes the picture that [`Config::captures`](crate::Config::captures) asks for; the window closes then.
     ///
     /// # Errors

@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use glam::Vec3;
+use subsurf_decoder::Kernel;
 use subsurf_runtime::{BtfMaterial, Gpu};
 use subsurf_scene::{AmbientTransfer, Mesh, Scene};
 
+use super::artist::{Artist, MakeKernel};
 use super::assets::MaterialFile;
 use super::config::LoadImages;
 use crate::asset::{
@@ -15,7 +17,7 @@ use crate::error::{Error, Result};
 use crate::file::DrawnMaterial;
 
 /// Way in which a material is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum RenderMode {
     /// By a technique, if it is translucent.
     Scattering(Scattering),
@@ -23,6 +25,8 @@ pub(super) enum RenderMode {
     Btf,
     /// From the images that the BTF was made from.
     Images,
+    /// By its separable kernel, or by one that is made of the panel's numbers.
+    Kernel(Option<Artist>),
 }
 
 /// Identity of a picture: what it is of, and how it is drawn.
@@ -40,6 +44,12 @@ impl Key {
     fn shares_sky(&self, other: &Self) -> bool {
         (self.material, self.mesh) == (other.material, other.mesh)
     }
+
+    /// Whether both are kernels of the same material that are made of the panel's numbers.
+    fn are_edits(&self, other: &Self) -> bool {
+        let is_edit = |key: &Self| matches!(key.mode, RenderMode::Kernel(Some(_)));
+        self.shares_sky(other) && is_edit(self) && is_edit(other)
+    }
 }
 
 /// Work to do before a picture can be drawn.
@@ -51,15 +61,25 @@ pub(super) struct Job {
     /// Copies of a BTF along u and v, if they were asked for.
     pub(super) repeats: Option<[f32; 2]>,
     pub(super) images: Option<Arc<LoadImages>>,
+    pub(super) make_kernel: Option<Arc<MakeKernel>>,
     pub(super) scene: Scene,
 }
 
 /// What a job computes: all that takes long and needs no device.
 pub(super) enum Computed {
     Scattering(Box<Asset>),
-    Btf { repeats: [f32; 2] },
-    Kernel { sky: Vec<AmbientTransfer> },
-    Images { repeats: [f32; 2], images: Box<dyn BtfImageSet> },
+    Btf {
+        repeats: [f32; 2],
+    },
+    /// File of the kernel, if it is not that of the material.
+    Kernel {
+        made: Option<Vec<u8>>,
+        sky: Vec<AmbientTransfer>,
+    },
+    Images {
+        repeats: [f32; 2],
+        images: Box<dyn BtfImageSet>,
+    },
 }
 
 impl Computed {
@@ -70,7 +90,10 @@ impl Computed {
             (Self::Btf { repeats }, DrawnMaterial::Btf(btf)) => {
                 GpuAsset::btf(gpu, mesh, *repeats, BtfMaterial::upload(gpu, &btf)?, file.number())
             }
-            (Self::Kernel { sky }, DrawnMaterial::Kernel(kernel)) => GpuAsset::kernel(gpu, mesh, &kernel, sky),
+            (Self::Kernel { made: Some(made), sky }, _) => GpuAsset::kernel(gpu, mesh, &parse_kernel(made)?, sky),
+            (Self::Kernel { made: None, sky }, DrawnMaterial::Kernel(kernel)) => {
+                GpuAsset::kernel(gpu, mesh, &kernel, sky)
+            }
             (Self::Images { repeats, images }, _) => {
                 GpuAsset::btf(gpu, mesh, *repeats, upload_images(gpu, images.as_ref())?, 0)
             }
@@ -104,15 +127,24 @@ impl Job {
                     _ => Ok(Computed::Btf { repeats }),
                 }
             }
-            // There is one way to draw it, whatever technique others are drawn by.
-            (DrawnMaterial::Kernel(kernel), RenderMode::Scattering(_)) => {
-                Ok(Computed::Kernel { sky: AmbientTransfer::of_kernel(&self.mesh, &kernel)? })
+            (DrawnMaterial::Kernel(kernel), RenderMode::Kernel(artist)) => {
+                let made = match (artist, &self.make_kernel) {
+                    (Some(artist), Some(make)) => Some(make(&artist)?),
+                    _ => None,
+                };
+                let kernel = made.as_deref().map_or(Ok(kernel), parse_kernel)?;
+                let sky = AmbientTransfer::of_kernel(&self.mesh, &kernel)?;
+                Ok(Computed::Kernel { made, sky })
             }
-            (DrawnMaterial::Bssrdf(_) | DrawnMaterial::Kernel(_), RenderMode::Btf | RenderMode::Images) => {
-                Err(Error::Request(format!("{} is no BTF", self.material.name())))
+            (DrawnMaterial::Bssrdf(_) | DrawnMaterial::Kernel(_), mode) => {
+                Err(Error::Request(format!("{} is not drawn in the way {mode:?}", self.material.name())))
             }
         }
     }
+}
+
+fn parse_kernel(file: &[u8]) -> Result<Kernel<'_>> {
+    Ok(Kernel::parse(file).map_err(subsurf_runtime::Error::from)?)
 }
 
 /// Outcome of a job.
@@ -148,6 +180,14 @@ impl JobQueue {
         self.cache.iter().find(|(cached, _)| cached == key).map(|(_, computed)| computed.clone())
     }
 
+    /// Kernel that was made of other numbers for the same material, where `key` is of one: to be shown until that is there.
+    pub(super) fn find_edit(&self, key: &Key) -> Option<(Key, Arc<Computed>)> {
+        self.cache
+            .iter()
+            .find(|(cached, _)| cached.are_edits(key))
+            .map(|(cached, computed)| (*cached, computed.clone()))
+    }
+
     /// Starts a job, unless there is one to wait for.
     pub(super) fn start(&mut self, job: Job) {
         if self.pending.is_some() {
@@ -161,12 +201,12 @@ impl JobQueue {
     }
 
     /// Takes a result in; fails with the key of a job that failed.
-    pub(super) fn receive(&mut self, of: JobResult) -> std::result::Result<(), (Key, Error)> {
+    pub(super) fn receive(&mut self, of: JobResult) -> std::result::Result<(), Box<(Key, Error)>> {
         self.pending = None;
-        let computed = of.result.map_err(|error| (of.key, error))?;
-        // Other meshes never come back. Points under another light hardly ever do, and are large.
+        let computed = of.result.map_err(|error| Box::new((of.key, error)))?;
+        // Other meshes never come back. Points under another light hardly ever do, and are large; nor do numbers of a kernel.
         let is_gather = |key: &Key| key.mode == RenderMode::Scattering(Scattering::Gather);
-        let replaces = |key: &Key| is_gather(&of.key) && is_gather(key);
+        let replaces = |key: &Key| (is_gather(&of.key) && is_gather(key)) || of.key.are_edits(key);
         self.cache.retain(|(key, _)| key.mesh == of.key.mesh && !replaces(key));
         if self.cache.len() == CACHED {
             self.cache.remove(0);

@@ -1,6 +1,7 @@
 //! The window: what is shown in it, and what keys, pointer and panel change.
 
 mod app;
+mod artist;
 mod assets;
 mod config;
 mod controls;
@@ -15,6 +16,7 @@ mod state;
 mod times;
 mod viewer;
 
+pub use artist::{Artist, MakeKernel};
 pub use config::{Config, LoadImages, options};
 pub use controls::KEYS;
 pub use event::Event;

@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use glam::Vec3;
 
-use super::assets::{Assets, Dropped, MeshReading};
+use super::artist::MakeKernel;
+use super::assets::{Assets, Dropped, Kind, MeshReading};
 use super::config::{Config, LoadImages};
 use super::controls::{Command, Drag};
 use super::draw::{Role, Shows, Stage};
@@ -28,6 +29,7 @@ pub(super) struct Session {
     mapping: MappingChoice,
     repeats: Option<[f32; 2]>,
     images: Option<Arc<LoadImages>>,
+    make_kernel: Option<Arc<MakeKernel>>,
     budget_bytes: Option<u64>,
     times: Times,
     pub(super) message: Option<Message>,
@@ -60,10 +62,12 @@ impl Session {
                 splits: config.images.is_some() && !config.shows_error,
                 turns_light: false,
                 is_open: true,
+                artist: None,
             },
             mapping: config.mapping,
             repeats: config.repeats,
             images: config.images.clone(),
+            make_kernel: config.make_kernel.clone(),
             budget_bytes: config.options.budget_bytes,
             times: Times::default(),
             message: warning(&assets),
@@ -81,11 +85,11 @@ impl Session {
     }
 
     fn gathers(&self) -> bool {
-        !self.is_btf() && (self.settings.shows_error || self.settings.technique == Scattering::Gather)
+        self.kind() == Kind::Bssrdf && (self.settings.shows_error || self.settings.technique == Scattering::Gather)
     }
 
-    fn is_btf(&self) -> bool {
-        self.assets.materials[self.settings.material].is_btf()
+    fn kind(&self) -> Kind {
+        self.assets.materials[self.settings.material].kind()
     }
 
     /// Whether a BTF is to be compared with its images.
@@ -100,11 +104,14 @@ impl Session {
             let light = (mode == GATHER).then_some(self.state.rested);
             Key { material, mesh: self.assets.mesh_number, mode, light }
         };
-        match (role, self.is_btf()) {
-            (Role::Shown, false) => Some(key(RenderMode::Scattering(technique))),
-            (Role::Shown, true) => Some(key(RenderMode::Btf)),
-            (Role::Reference, false) => (shows_error && technique != Scattering::Gather).then(|| key(GATHER)),
-            (Role::Reference, true) => self.compares_images().then(|| key(RenderMode::Images)),
+        match (role, self.kind()) {
+            (Role::Shown, Kind::Bssrdf) => Some(key(RenderMode::Scattering(technique))),
+            (Role::Shown, Kind::Btf) => Some(key(RenderMode::Btf)),
+            (Role::Shown, Kind::Kernel(_)) => Some(key(RenderMode::Kernel(self.settings.artist))),
+            (Role::Reference, Kind::Bssrdf) => (shows_error && technique != Scattering::Gather).then(|| key(GATHER)),
+            (Role::Reference, Kind::Btf) => self.compares_images().then(|| key(RenderMode::Images)),
+            // There is one way to draw it.
+            (Role::Reference, Kind::Kernel(_)) => None,
         }
     }
 
@@ -125,13 +132,17 @@ impl Session {
             if stage.key(role) == Some(&key) || self.refused.contains(&key) {
                 continue;
             }
-            let material = &self.assets.materials[key.material];
-            if let Some(computed) = jobs.find(&key) {
-                match stage.place(role, key, &computed, material, &self.assets.mesh) {
+            let material = self.assets.materials[key.material].clone();
+            let found = jobs.find(&key).map(|computed| (key, computed));
+            let is_there = found.is_some();
+            let shown = found.or_else(|| jobs.find_edit(&key)).filter(|(found, _)| stage.key(role) != Some(found));
+            if let Some((key, computed)) = shown {
+                match stage.place(role, key, &computed, &material, &self.assets.mesh) {
                     Ok(()) => self.changed(),
                     Err(error) => self.refuse(key, error),
                 }
-            } else {
+            }
+            if !is_there {
                 jobs.start(Job {
                     key,
                     material: material.clone(),
@@ -139,6 +150,7 @@ impl Session {
                     mapping: self.mapping,
                     repeats: self.repeats,
                     images: self.images.clone(),
+                    make_kernel: self.make_kernel.clone(),
                     scene: self.state.scene(self.state.rested, &self.settings).clone(),
                 });
             }
@@ -147,7 +159,8 @@ impl Session {
 
     /// Takes in the result of a job.
     pub(super) fn receive(&mut self, result: JobResult, jobs: &mut JobQueue) {
-        if let Err((key, error)) = jobs.receive(result) {
+        if let Err(failed) = jobs.receive(result) {
+            let (key, error) = *failed;
             self.refuse(key, error);
         }
     }
@@ -219,6 +232,9 @@ impl Session {
         if (before.technique, before.material) != (self.settings.technique, self.settings.material) {
             self.times.clear();
         }
+        if before.material != self.settings.material {
+            self.settings.artist = None;
+        }
     }
 
     /// Another mesh, size or material: nothing that is known of the last frames holds.
@@ -253,7 +269,7 @@ impl Session {
                 self.settings.is_open ^= true;
                 return;
             }
-            Command::Save | Command::Quit => {}
+            Command::Save | Command::SaveKernel | Command::Quit => {}
         }
         self.compare(&before);
     }
@@ -314,6 +330,14 @@ impl Session {
         self.fail(error);
     }
 
+    /// File of the kernel that the panel made.
+    pub(super) fn kernel(&self) -> Result<Vec<u8>> {
+        match (&self.make_kernel, self.settings.artist) {
+            (Some(make), Some(artist)) => make(&artist),
+            _ => Err(Error::Request("no number of a kernel was changed".to_owned())),
+        }
+    }
+
     /// Facts for the panel.
     pub(super) fn facts(&self, stage: &Stage, jobs: &JobQueue) -> Facts {
         let busy = jobs.pending().map(|key| match key.mode {
@@ -321,10 +345,13 @@ impl Session {
             RenderMode::Scattering(_) => "computing what the path needs ...".to_owned(),
             RenderMode::Btf => "reading the BTF ...".to_owned(),
             RenderMode::Images => "reading images ...".to_owned(),
+            RenderMode::Kernel(_) => "making the kernel ...".to_owned(),
         });
         Facts {
             device: format!("{}, {:?}", stage.gpu.info().name, stage.gpu.info().backend),
-            btf: self.is_btf().then_some(self.images.is_some()),
+            kind: self.kind(),
+            has_images: self.images.is_some(),
+            makes_kernels: self.make_kernel.is_some(),
             materials: self.assets.materials.iter().map(|file| file.name()).collect(),
             mesh: format!("{}, {} triangles", self.assets.mesh_name, self.assets.mesh.triangles.len()),
             size: stage.canvas.size(),

@@ -4,6 +4,7 @@ mod bssrdf;
 mod btf;
 mod btf_loader;
 mod file_loader;
+mod kernel;
 mod one;
 mod options;
 mod results;
@@ -27,7 +28,7 @@ pub(super) use one::{Args as OneArgs, run as run_one};
 /// Each is read, parsed with all checks, uploaded, projected where its technique wants that, and drawn once (64 × 64 pixels), again and
 /// again, in a process of its own, with the file in the page cache and without. Times are medians in microseconds. The materials are synthetic:
 /// for timing their numbers do not matter. With --btf, a file of yours is timed beside its images. So it
-/// is with --files and three files of one material.
+/// is with --files and three files of one material. With --kernel, kernels are timed.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// WIDTHxHEIGHT,WINDOW,M,S; more than once for several. The last of the usual ones has the size of the paper's onyx
@@ -42,6 +43,9 @@ pub(crate) struct Args {
     /// The folder of images of the BTF
     #[arg(long, value_name = "FOLDER", requires = "btf")]
     images: Option<PathBuf>,
+    /// Kernels of homogeneous materials instead
+    #[arg(long = "kernel", value_name = "FILE", conflicts_with_all = ["cases", "files", "btf", "output"])]
+    kernels: Vec<PathBuf>,
     /// Also write loading.md and loading.json into this folder
     #[arg(long, short, value_name = "DIR", conflicts_with = "btf")]
     output: Option<PathBuf>,
@@ -56,6 +60,9 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
     }
     if let (Some(btf), Some(images)) = (&args.btf, &args.images) {
         return btf::run(options, btf, images);
+    }
+    if !args.kernels.is_empty() {
+        return kernel::run(options, &args.kernels);
     }
     let mut results = Vec::new();
     let mut add = |case: &Case| -> anyhow::Result<()> {

@@ -12,6 +12,7 @@ use subsurf_decoder::container::{Container, Crc, crc32};
 
 use super::btf_loader::BtfLoader;
 use super::file_loader::FileLoader;
+use super::kernel::KernelLoader;
 use super::options::Way;
 use super::results::{Steps, Storage, medians};
 use crate::bench::timing::{Clock, median};
@@ -23,6 +24,9 @@ pub(crate) struct Args {
     /// The images of a BTF
     #[arg(long)]
     images: Option<PathBuf>,
+    /// A kernel
+    #[arg(long)]
+    kernel: bool,
     /// What a translucent material is drawn by
     #[arg(long, value_enum, default_value = "gather")]
     way: Way,
@@ -38,6 +42,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let baseline = resident().map_or(0, |memory| memory.peak);
     if let Some(images) = &args.images {
         let loader = BtfLoader::new(gpu.as_ref(), &args.file, images)?;
+        return report(args, baseline, || loader.once(), || Ok(BTreeMap::new()));
+    }
+    if args.kernel {
+        let loader = KernelLoader::new(gpu.as_ref(), &args.file)?;
         return report(args, baseline, || loader.once(), || Ok(BTreeMap::new()));
     }
     let is_capture = args.file.extension().is_some_and(|extension| extension == "npy");

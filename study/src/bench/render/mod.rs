@@ -28,39 +28,54 @@ use super::timing::{median, quantile};
 /// Compare all paths with the reference gather: PSNR, SSIM, difference pictures, frame times and memory.
 ///
 /// The reference gathers between points of the surface, by their distances in space. PSNR is of display values, over the
-/// pixels that the mesh covers in either picture. Writes index.html, the pictures and render.json; pictures of the reference
+/// pixels that the mesh covers in either picture. Writes index.html, the pictures, render.json and render.csv; pictures of the reference
 /// that are in the folder, of the same material, mesh and size, are not drawn again.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// .subsurf files, one for each material
     #[arg(required = true)]
-    files: Vec<PathBuf>,
+    pub(crate) files: Vec<PathBuf>,
     /// Meshes: files, or names of shapes
     #[arg(long = "mesh", value_name = "FILE|SHAPE", default_values = ["knot", "bowl", "drapery", "relief"])]
-    meshes: Vec<PathBuf>,
+    pub(crate) meshes: Vec<PathBuf>,
     /// Longest side of the meshes in mm
     #[arg(long, default_value_t = EXTENT_MM, value_name = "MM")]
-    extent: f32,
+    pub(crate) extent: f32,
     /// Folder for the page
     #[arg(long, short, value_name = "DIR")]
-    output: PathBuf,
+    pub(crate) output: PathBuf,
     /// Draw LinSSS, too, from the fits that `subsurf-study linsss` left in this folder
     #[arg(long, value_name = "DIR")]
-    linsss: Option<PathBuf>,
+    pub(crate) linsss: Option<PathBuf>,
+    /// Draw these kernels, too, of a material that is the same everywhere: of `subsurf kernel FILE --base N`, or a profile's of one's own
+    #[arg(long = "kernel", value_name = "FILE")]
+    pub(crate) kernels: Vec<PathBuf>,
     /// Pixels of the pictures
     #[arg(long, default_value = "1280x720", value_name = "WxH")]
-    size: Size,
+    pub(crate) size: Size,
     /// Frames to time of each path, the reference excepted, which is timed once; 0 to leave times out
     #[arg(long, default_value_t = 5)]
-    frames: usize,
+    pub(crate) frames: usize,
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    std::fs::create_dir_all(&args.output)?;
     let gpus = to_compare();
+    compared(args, &gpus)?.write(&gpus, args.size.0)
+}
+
+/// Compares all paths for a page that is about more: what it says of them as HTML, and all rows as CSV. The pictures stay in the folder.
+pub(crate) fn section(args: &Args) -> anyhow::Result<(String, String)> {
+    let page = compared(args, &to_compare())?;
+    Ok((page.body()?, page.csv()))
+}
+
+/// All materials on all meshes.
+fn compared<'a>(args: &'a Args, gpus: &[(Backend, Gpu)]) -> anyhow::Result<Page<'a>> {
+    std::fs::create_dir_all(&args.output)?;
     if gpus.is_empty() {
         return Err(bad_request("there is no device; this compares what devices draw"));
     }
+    let kernels = args.kernels.iter().map(|path| Rival::kernel(path)).collect::<anyhow::Result<Vec<_>>>()?;
     let meshes = args.meshes.iter().map(|path| named(path, args.extent)).collect::<anyhow::Result<Vec<_>>>()?;
     let mut page = Page { folder: &args.output, rows: Vec::new(), pictures: Vec::new() };
     for file in &args.files {
@@ -69,11 +84,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         for (mesh_name, mesh) in &meshes {
             let case = case_of(&bytes, mesh, args.size.0);
             let of_file = (stem(file), bytes.len() as u64, &material);
-            compare(args, &gpus, &of_file, (mesh_name, mesh), case, &mut page)?;
+            compare(args, gpus, &of_file, (mesh_name, mesh), (case, &kernels), &mut page)?;
         }
     }
-    page.write(&gpus, args.size.0)?;
-    Ok(())
+    Ok(page)
 }
 
 /// All paths and devices on one mesh in one material.
@@ -82,7 +96,7 @@ fn compare(
     gpus: &[(Backend, Gpu)],
     (material_name, file_bytes, material): &(String, u64, &Bssrdf<'_>),
     (mesh_name, mesh): (&str, &Mesh),
-    case: u64,
+    (case, kernels): (u64, &[Rival]),
     page: &mut Page<'_>,
 ) -> anyhow::Result<()> {
     let size = args.size.0;
@@ -95,9 +109,10 @@ fn compare(
     let homogeneous = compute(Scattering::Homogeneous, splat.sky().cloned())?;
     let paths = [("splat", &splat), ("separable", &separable), ("homogeneous", &homogeneous)];
     let rivals = match &args.linsss {
-        Some(folder) => Rival::all(folder, material_name, material)?,
+        Some(folder) => Rival::linsss(folder, material_name, material)?,
         None => Vec::new(),
     };
+    let rivals: Vec<&Rival> = rivals.iter().chain(kernels).collect();
     let sky = splat.sky().map(|sky| sky.as_slice());
     let (first, gpu) = &gpus[0];
     let session = |gpu, asset: &Asset, scene: &Scene| {
@@ -172,7 +187,9 @@ fn compare(
         std::iter::once(small[0].clone()).chain(small[1..].iter().step_by(2).cloned()).collect();
     let errors = std::iter::once(blank).chain(small[1..].iter().skip(1).step_by(2).cloned()).collect();
     write_picture(&args.output.join(&file), &montage(&[pictures, errors]))?;
-    page.pictures.push((format!("{material_name}, {mesh_name}"), file));
+    let of_rivals = rivals.iter().map(|rival| rival.name.clone());
+    let shown = paths.iter().map(|(name, _)| (*name).to_owned()).chain(of_rivals).collect::<Vec<_>>().join(", ");
+    page.pictures.push((format!("{material_name}, {mesh_name}: reference, {shown}"), file));
     Ok(())
 }
 

@@ -14,6 +14,22 @@ use subsurf_viewer::human;
 use super::super::timing::median;
 use crate::page::CSS;
 
+/// Columns of CSV files, as JSON names them.
+const COLUMNS: [&str; 12] = [
+    "material",
+    "mesh",
+    "path",
+    "backend",
+    "psnr_db",
+    "ssim",
+    "frame_median_ms",
+    "frame_p95_ms",
+    "gather_ms",
+    "file_bytes",
+    "material_bytes",
+    "buffer_bytes",
+];
+
 /// Row of the table: one technique, material, mesh and device.
 pub(super) struct Row {
     pub(super) material: String,
@@ -123,9 +139,46 @@ impl Page<'_> {
         of.into_iter().filter(|(_, rows)| rows.len() > 1).map(line).collect()
     }
 
+    /// Rows in CSV, under their titles; nothing where there is no value.
+    pub(super) fn csv(&self) -> String {
+        let rows: Vec<Value> = self.rows.iter().map(Row::json).collect();
+        let mut out = format!("{}\n", COLUMNS.join(","));
+        let cell = |value: &Value| match value {
+            Value::Null => String::new(),
+            // Names are those of files: they may have commas, which names of paths have, too.
+            Value::String(text) => format!("\"{}\"", text.replace('"', "\"\"")),
+            number => number.to_string(),
+        };
+        for row in rows {
+            let _ = writeln!(out, "{}", COLUMNS.map(|column| cell(&row[column])).join(","));
+        }
+        out
+    }
+
+    /// Table and pictures in HTML.
+    pub(super) fn body(&self) -> anyhow::Result<String> {
+        let mut out = String::from(
+            "<table><thead><tr><th>material</th><th>mesh</th><th>path</th><th>device</th><th>PSNR, dB</th><th>SSIM</th>\
+             <th>frame, ms</th><th>p95</th><th>gather, ms</th><th>file</th><th>material</th><th>buffers</th></tr></thead>",
+        );
+        self.rows.iter().for_each(|row| out.push_str(&row.cells()));
+        out.push_str("</table>");
+        for line in self.summary() {
+            let _ = write!(out, "<p>{line}</p>");
+        }
+        out.push_str("<p class=\"note\">Below each picture its difference from the reference, ten times.</p>");
+        for (title, file) in &self.pictures {
+            let bytes = std::fs::read(self.folder.join(file))?;
+            let data = base64::engine::general_purpose::STANDARD.encode(bytes);
+            let _ = write!(out, "<h3>{title}</h3><img style=\"max-width:100%\" src=\"data:image/png;base64,{data}\">");
+        }
+        Ok(out)
+    }
+
     pub(super) fn write(&self, gpus: &[(Backend, Gpu)], [width, height]: [u32; 2]) -> anyhow::Result<()> {
         let rows: Vec<Value> = self.rows.iter().map(Row::json).collect();
         write_bytes(&self.folder.join("render.json"), format!("{:#}\n", Value::Array(rows)).as_bytes())?;
+        write_bytes(&self.folder.join("render.csv"), self.csv().as_bytes())?;
         let mut out = String::from("<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>paths</title>");
         let _ = write!(out, "<style>{}</style><body>", CSS);
         let devices: Vec<String> =
@@ -140,25 +193,9 @@ impl Page<'_> {
              other only. {}.</p>",
             devices.join("; ")
         );
-        out.push_str(
-            "<table><thead><tr><th>material</th><th>mesh</th><th>path</th><th>device</th><th>PSNR, dB</th><th>SSIM</th>\
-             <th>frame, ms</th><th>p95</th><th>gather, ms</th><th>file</th><th>material</th><th>buffers</th></tr></thead>",
-        );
-        self.rows.iter().for_each(|row| out.push_str(&row.cells()));
-        out.push_str(
-            "</table><p class=\"note\">Pictures: reference, splat, separable, homogeneous, LinSSS where asked for; below each its difference from \
-             the reference, ten times.</p>",
-        );
-        for line in self.summary() {
-            outln!("{line}");
-            let _ = write!(out, "<p>{line}</p>");
-        }
-        for (title, file) in &self.pictures {
-            let bytes = std::fs::read(self.folder.join(file))?;
-            let data = base64::engine::general_purpose::STANDARD.encode(bytes);
-            let _ = write!(out, "<h3>{title}</h3><img style=\"max-width:100%\" src=\"data:image/png;base64,{data}\">");
-        }
+        out.push_str(&self.body()?);
         out.push_str("</body></html>\n");
+        self.summary().iter().for_each(|line| outln!("{line}"));
         write_bytes(&self.folder.join("index.html"), out.as_bytes())?;
         outln!("\n{}", self.folder.join("index.html").display());
         Ok(())

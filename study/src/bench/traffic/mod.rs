@@ -2,6 +2,7 @@
 
 mod btf;
 mod count;
+mod kernel;
 mod row;
 mod separable;
 mod splat;
@@ -12,16 +13,18 @@ use serde_json::{Value, json};
 use subsurf_cli::options::Size;
 use subsurf_cli::outln;
 use subsurf_cli::program::failure::bad_request;
-use subsurf_decoder::{Bssrdf, NestedBtf};
+use subsurf_decoder::{Bssrdf, Kernel, NestedBtf};
 use subsurf_runtime::{Gpu, Input, Plan, RuntimeOptions, SplatLevels};
-use subsurf_scene::{Mesh, View};
+use subsurf_scene::{AmbientTransfer, Mesh, View};
 use subsurf_shaders::separable::BasisNumbers;
 use subsurf_shaders::uniform::{BlurStage, BtfCodebooks};
 use subsurf_viewer::{
-    Asset, DrawnMaterial, MappingChoice, RenderRequest, RenderSession, Scattering, choose_mapping, parse, read, stem,
+    Asset, DrawnMaterial, GpuAsset, MappingChoice, RenderRequest, RenderSession, Scattering, choose_mapping, parse,
+    read, stem,
 };
 
 use self::btf::BtfFrame;
+use self::kernel::KernelFrame;
 use self::row::{Common, Row};
 use self::separable::SeparableFrame;
 use self::splat::{Planes, SplatFrame};
@@ -31,7 +34,7 @@ use super::meshes::{EXTENT_MM, named};
 /// Share of the pixels that face the light.
 const FACING: f64 = 0.5;
 
-/// Count texture reads and bytes written of every pass of a frame: separable where the file has a basis, splats, or a BTF.
+/// Count texture reads and bytes written of every pass of a frame: separable where the file has a basis, splats, a BTF, or a kernel.
 ///
 /// Reads are counted in the shaders' intermediate representation, with turns of loops from the numbers of the frame, for objects
 /// that cover the whole picture once, are mapped by texture coordinates, and of which half faces the light. A sample that
@@ -69,9 +72,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let counts = match &material {
             DrawnMaterial::Bssrdf(material) => scattering(material, &mesh, *size)?,
             DrawnMaterial::Btf(btf) => vec![textured(btf, *size)?],
-            DrawnMaterial::Kernel(_) => {
-                return Err(bad_request("a kernel; traffic is counted of BSSRDFs and nested BTFs"));
-            }
+            DrawnMaterial::Kernel(kernel) => vec![homogeneous(kernel, &mesh, *size)?],
         };
         for Counts { technique, numbers, rows } in counts {
             let name = stem(&args.file);
@@ -88,9 +89,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 
 /// Separable blurs, if the file has a basis for them, and splats.
 fn scattering(material: &Bssrdf<'_>, mesh: &Mesh, size: [u32; 2]) -> anyhow::Result<Vec<Counts>> {
-    let gpus = to_compare();
-    let (_, gpu) =
-        gpus.first().ok_or_else(|| bad_request("there is no device; this asks one for the sizes of maps"))?;
+    let gpu = &first_device()?;
     let mut counts = Vec::new();
     if let Some(basis) = BasisNumbers::of(material) {
         let (plan, view) = planned(gpu, material, mesh, size, Scattering::Separable)?;
@@ -125,6 +124,26 @@ fn scattering(material: &Bssrdf<'_>, mesh: &Mesh, size: [u32; 2]) -> anyhow::Res
     Ok(counts)
 }
 
+/// A separable kernel.
+fn homogeneous(kernel: &Kernel<'_>, mesh: &Mesh, size: [u32; 2]) -> anyhow::Result<Counts> {
+    let gpu = first_device()?;
+    let asset = GpuAsset::kernel(&gpu, mesh, kernel, &AmbientTransfer::of_kernel(mesh, kernel)?)?;
+    let options = RuntimeOptions::default();
+    let session = RenderSession::new(&gpu, asset, &RenderRequest::usual(size).scene(mesh), size, options)?;
+    let plan = *session.frame.plan();
+    let header = kernel.header();
+    let frame = KernelFrame {
+        common: common(&plan),
+        terms: header.terms.into(),
+        side: u32::from(header.taps / 2 + 1),
+        is_jittered: options.jittered_taps,
+        maps: plan.blur_size,
+    };
+    let [width, height] = frame.maps;
+    let numbers = format!("{} terms, {} taps, maps {width}x{height}", header.terms, header.taps);
+    Ok(Counts { technique: "kernel", numbers, rows: frame.rows()? })
+}
+
 /// Nested codebooks under one light and the environment.
 fn textured(btf: &NestedBtf<'_>, picture: [u32; 2]) -> anyhow::Result<Counts> {
     let codebooks = BtfCodebooks::of(btf).ok_or_else(|| bad_request("the file is too large for a device"))?;
@@ -135,6 +154,13 @@ fn textured(btf: &NestedBtf<'_>, picture: [u32; 2]) -> anyhow::Result<Counts> {
         frame.stages, frame.options.filtering, frame.options.samples
     );
     Ok(Counts { technique: "BTF", numbers, rows: frame.rows()? })
+}
+
+/// The first device there is.
+fn first_device() -> anyhow::Result<Gpu> {
+    let first = to_compare().into_iter().next();
+    let (_, gpu) = first.ok_or_else(|| bad_request("there is no device; this asks one for the sizes of maps"))?;
+    Ok(gpu)
 }
 
 /// Sizes of a frame of a mesh in its usual view, and the view.

@@ -1,8 +1,12 @@
 //! Panel over the picture.
 
+mod kernel;
+
 use egui::{Color32, Context, FontId, Frame, RichText, Slider, TextStyle, Ui, Window};
 use subsurf_runtime::Plan;
 
+use super::artist::Artist;
+use super::assets::Kind;
 use super::controls::{Command, TECHNIQUES};
 use crate::asset::Scattering;
 use crate::units::human;
@@ -21,14 +25,19 @@ pub(super) struct Settings {
     /// Whether the light goes around.
     pub(super) turns_light: bool,
     pub(super) is_open: bool,
+    /// Numbers of the kernel, once one of them was changed.
+    pub(super) artist: Option<Artist>,
 }
 
 /// Facts that the panel tells.
 #[derive(PartialEq)]
 pub(super) struct Facts {
     pub(super) device: String,
-    /// Whether the material is a BTF, and whether there are images to compare it with.
-    pub(super) btf: Option<bool>,
+    pub(super) kind: Kind,
+    /// Whether there are images to compare a BTF with.
+    pub(super) has_images: bool,
+    /// Whether kernels can be made of other numbers.
+    pub(super) makes_kernels: bool,
     pub(super) materials: Vec<String>,
     pub(super) mesh: String,
     pub(super) size: [u32; 2],
@@ -87,8 +96,8 @@ fn choices(ui: &mut Ui, settings: &mut Settings, facts: &Facts, commands: &mut V
         }
     });
     ui.separator();
-    match facts.btf {
-        None => {
+    match facts.kind {
+        Kind::Bssrdf => {
             for (key, technique, name, meaning) in TECHNIQUES {
                 let text = format!("{key}  {name}");
                 ui.selectable_value(&mut settings.technique, technique, text).on_hover_text(meaning);
@@ -96,21 +105,24 @@ fn choices(ui: &mut Ui, settings: &mut Settings, facts: &Facts, commands: &mut V
             ui.checkbox(&mut settings.shows_error, "10 × difference to the gather (E)")
                 .on_hover_text("Of display values. The gather follows when the light is let go");
         }
-        Some(true) => {
+        Kind::Btf if facts.has_images => {
             ui.checkbox(&mut settings.splits, "images on the right (C)")
                 .on_hover_text("On the left the file, on the right the images that it was made from");
             ui.checkbox(&mut settings.shows_error, "10 × difference to the images (E)")
                 .on_hover_text("Of display values, grain of the environment included");
         }
-        Some(false) => {
+        Kind::Btf => {
             ui.label("A BTF, without images to compare it with");
+        }
+        Kind::Kernel(artist) => {
+            kernel::numbers(ui, artist.filter(|_| facts.makes_kernels), &mut settings.artist, commands)
         }
     }
 }
 
 fn sliders(ui: &mut Ui, settings: &mut Settings, facts: &Facts, commands: &mut Vec<Command>) {
     ui.spacing_mut().slider_width = 120.0;
-    if facts.btf.is_none() {
+    if facts.kind != Kind::Btf {
         ui.add(Slider::new(&mut settings.roughness, 0.0..=1.0).text("roughness").max_decimals(2));
     }
     ui.add(Slider::new(&mut settings.exposure, EXPOSURES).logarithmic(true).text("exposure").max_decimals(3));
