@@ -15,6 +15,7 @@ pub mod picture;
 pub mod program;
 mod render;
 pub mod simulate;
+mod transfer;
 mod view;
 
 use clap::{Parser, Subcommand};
@@ -44,6 +45,7 @@ Try it:
   subsurf render leather.subsurf --images leather -o l.png  both on a knot, beside each other
 
   subsurf kernel --material skin1 -o skin.subsurf         homogeneous skin, as two convolutions on the screen
+  subsurf transfer bunny.ply --material marble -o m.subsurf  marble on one mesh, some bytes per vertex
 
 Exit codes:
   0   done
@@ -57,6 +59,7 @@ enum Command {
     Simulate(simulate::Args),
     Encode(encode::Args),
     Kernel(kernel::Args),
+    Transfer(transfer::Args),
     Compare(compare::Args),
     Render(render::Args),
     View(view::Args),
@@ -76,6 +79,7 @@ pub fn run(cli: Cli) -> anyhow::Result<()> {
         Command::Simulate(args) => simulate::run(&args),
         Command::Encode(args) => encode::run(&args),
         Command::Kernel(args) => kernel::run(&args),
+        Command::Transfer(args) => transfer::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Render(args) => render::run(&args),
         Command::View(args) => view::run(&args),

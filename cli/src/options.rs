@@ -6,6 +6,7 @@ use std::str::FromStr;
 use clap::ValueEnum;
 use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::capture::{Capture, Overrides};
+use subsurf_scene::{Mesh, UpAxis, load_mesh};
 
 use crate::program::warnings::warn;
 
@@ -27,6 +28,49 @@ impl From<AddressingArg> for Addressing {
             AddressingArg::Repeat => Self::Repeat,
             AddressingArg::Mirror => Self::Mirror,
         }
+    }
+}
+
+/// Which way is up in a mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum UpArg {
+    /// As in glTF and most OBJ files
+    Y,
+    /// As in most scans and CAD files
+    Z,
+}
+
+impl From<UpArg> for UpAxis {
+    fn from(arg: UpArg) -> Self {
+        match arg {
+            UpArg::Y => Self::Y,
+            UpArg::Z => Self::Z,
+        }
+    }
+}
+
+/// Size of a mesh and how it stands.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub struct MeshArgs {
+    /// Longest side of the mesh in mm
+    #[arg(long, default_value_t = 60.0, value_name = "MM")]
+    pub(crate) extent: f32,
+    /// Which way is up in the mesh
+    #[arg(long, value_enum, default_value = "y")]
+    pub(crate) up: UpArg,
+}
+
+impl MeshArgs {
+    /// The mesh of a file or a shape; what was changed or left out of it is said.
+    ///
+    /// # Errors
+    /// As [`load_mesh`].
+    pub fn load(&self, path: &Path) -> subsurf_scene::Result<Mesh> {
+        let loaded = load_mesh(path, self.extent, self.up.into())?;
+        for warning in &loaded.warnings {
+            warn(&format!("{}: {warning}", path.display()));
+        }
+        Ok(loaded.mesh)
     }
 }
 

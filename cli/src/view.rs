@@ -13,11 +13,11 @@ use subsurf_viewer::{
 
 use crate::devices::check_picture;
 use crate::images::FolderImages;
-use crate::options::{ByteCount, Size};
+use crate::options::{ByteCount, Size, UpArg};
 use crate::outln;
 use crate::picture::{check_picture_target, image, write_picture};
 use crate::program::failure::{NoDisplay, bad_request, line};
-use crate::render::{BtfArgs, Copies, MappingArg, SceneArg, TechniqueArg, UpArg, read_environment};
+use crate::render::{BtfArgs, Copies, MappingArg, SceneArg, TechniqueArg, read_environment};
 
 /// Look at materials on a mesh in a window: turn it, drag the light, switch techniques, see the error; BTFs beside their images.
 #[derive(clap::Args)]

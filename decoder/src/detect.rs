@@ -8,6 +8,10 @@ use crate::section::Section;
 
 /// Family of a file by its header section.
 pub(crate) fn family(sections: &Sections<'_>) -> Result<Family, ReadError> {
+    #[cfg(feature = "transfer")]
+    if sections.has(Section::TransferHeader) {
+        return Ok(Family::Transfer);
+    }
     if sections.has(Section::BtfHeader) {
         Ok(BtfHeader::parse(sections.any(Section::BtfHeader)?)?.model.family())
     } else if sections.has(Section::BssrdfHeader) {

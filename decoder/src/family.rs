@@ -14,6 +14,9 @@ pub enum Family {
     FactoredBtf,
     /// Diffusion profile and separable kernel of a homogeneous material, read by [`Kernel`](crate::Kernel).
     Kernel,
+    /// Scattering precomputed for the vertices of a mesh, read by [`Transfer`](crate::Transfer).
+    #[cfg(feature = "transfer")]
+    Transfer,
 }
 
 impl fmt::Display for Family {
@@ -23,6 +26,8 @@ impl fmt::Display for Family {
             Self::NestedBtf => "nested BTF",
             Self::FactoredBtf => "factored BTF",
             Self::Kernel => "kernel",
+            #[cfg(feature = "transfer")]
+            Self::Transfer => "transfer",
         })
     }
 }

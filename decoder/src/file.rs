@@ -8,6 +8,8 @@ use crate::detect::family;
 use crate::error::ReadError;
 use crate::family::Family;
 use crate::kernel::Kernel;
+#[cfg(feature = "transfer")]
+use crate::transfer::Transfer;
 
 /// Checked file of any family.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +31,9 @@ pub enum Content<'a> {
     FactoredBtf(FactoredBtf<'a>),
     /// Diffusion profile and separable kernel of a homogeneous material.
     Kernel(Kernel<'a>),
+    /// Scattering precomputed for the vertices of a mesh.
+    #[cfg(feature = "transfer")]
+    Transfer(Transfer<'a>),
 }
 
 impl<'a> File<'a> {
@@ -51,6 +56,8 @@ impl<'a> File<'a> {
             Family::NestedBtf => Content::NestedBtf(NestedBtf::read(&sections)?),
             Family::FactoredBtf => Content::FactoredBtf(FactoredBtf::read(&sections)?),
             Family::Kernel => Content::Kernel(Kernel::read(&sections)?),
+            #[cfg(feature = "transfer")]
+            Family::Transfer => Content::Transfer(Transfer::read(&sections)?),
         };
         Ok(Self { container: sections.container, content })
     }
@@ -77,6 +84,8 @@ impl Content<'_> {
             Self::NestedBtf(_) => Family::NestedBtf,
             Self::FactoredBtf(_) => Family::FactoredBtf,
             Self::Kernel(_) => Family::Kernel,
+            #[cfg(feature = "transfer")]
+            Self::Transfer(_) => Family::Transfer,
         }
     }
 }

@@ -32,7 +32,8 @@
 //! ```
 //!
 //! The feature `alloc` adds what allocates: [`FactoredBtf::expand`] needs buffers from its caller, `expand_in` takes them
-//! from the heap.
+//! from the heap. The feature `transfer` adds [`Transfer`], scattering precomputed for the vertices of a mesh; without it such files
+//! are of unknown content.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(
@@ -56,6 +57,8 @@ mod family;
 mod file;
 pub mod kernel;
 mod section;
+#[cfg(feature = "transfer")]
+pub mod transfer;
 
 pub use bssrdf::Bssrdf;
 pub use btf::{Evaluate, FactoredBtf, NestedBtf};
@@ -64,3 +67,5 @@ pub use family::Family;
 pub use file::{Content, File};
 pub use kernel::Kernel;
 pub use section::Section;
+#[cfg(feature = "transfer")]
+pub use transfer::Transfer;

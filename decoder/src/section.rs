@@ -2,16 +2,16 @@
 
 use core::fmt;
 
-/// The enum and its conversions from one list of sections.
+/// The enum and its conversions from one list of sections, some of which belong to a feature.
 macro_rules! sections {
-    ($($(#[$about:meta])* $name:ident = $kind:literal, $content:literal;)*) => {
+    ($($(#[$about:meta])* $name:ident = $kind:literal, $content:literal $(, if $feature:literal)?;)*) => {
         /// A part of the file, to find it and to say where something is wrong.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[non_exhaustive]
         pub enum Section {
             /// Magic, version, size and section table.
             FileHeader,
-            $($(#[$about])* $name,)*
+            $($(#[$about])* $(#[cfg(feature = $feature)])? $name,)*
             /// `P1S0` to `P6S3`: a codebook of luma.
             Codebook {
                 /// 1, 2, 3, 4 or 6.
@@ -29,7 +29,7 @@ macro_rules! sections {
             pub const fn from_kind(kind: [u8; 4]) -> Self {
                 // As numbers, which compare at once: letter by letter the code is three times as large.
                 let word = u32::from_le_bytes(kind);
-                $(if word == u32::from_le_bytes(*$kind) {
+                $($(#[cfg(feature = $feature)])? if word == u32::from_le_bytes(*$kind) {
                     return Self::$name;
                 })*
                 match kind {
@@ -45,7 +45,7 @@ macro_rules! sections {
             pub const fn kind(self) -> [u8; 4] {
                 match self {
                     Self::FileHeader => [0; 4],
-                    $(Self::$name => *$kind,)*
+                    $($(#[cfg(feature = $feature)])? Self::$name => *$kind,)*
                     Self::Codebook { book, stage } => [b'P', b'0'.wrapping_add(book), b'S', b'0'.wrapping_add(stage)],
                     Self::Other(kind) => kind,
                 }
@@ -56,7 +56,7 @@ macro_rules! sections {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 let content = match self {
                     Self::FileHeader => return f.write_str("file header"),
-                    $(Self::$name => $content,)*
+                    $($(#[cfg(feature = $feature)])? Self::$name => $content,)*
                     Self::Codebook { book, stage } => {
                         return write!(f, "P{book}S{stage} (codebook P{book}, stage {stage})");
                     }
@@ -99,6 +99,18 @@ sections! {
     KernelTail = b"TAIL", "tail of the profile";
     /// `TWOG`: the two Gaussians that a kernel was made of.
     TwoGaussians = b"TWOG", "two Gaussians";
+    /// `XFER`: sizes, units and mesh of a transfer.
+    TransferHeader = b"XFER", "transfer header", if "transfer";
+    /// `XDIR`: directions towards the lights of a transfer.
+    Lights = b"XDIR", "directions of lights", if "transfer";
+    /// `XRNG`: offsets and steps of what clusters store.
+    ClusterRanges = b"XRNG", "ranges of clusters", if "transfer";
+    /// `XMEA`: means of clusters.
+    ClusterMeans = b"XMEA", "means of clusters", if "transfer";
+    /// `XBAS`: principal components of clusters.
+    ClusterBases = b"XBAS", "components of clusters", if "transfer";
+    /// `XVTX`: cluster and coefficients of vertices.
+    VertexCodes = b"XVTX", "codes of vertices", if "transfer";
     /// `BTFH`: model, colour encoding and grid of a BTF.
     BtfHeader = b"BTFH", "BTF header";
     /// `MATS`: names and sizes of a BTF's materials.

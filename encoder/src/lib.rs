@@ -7,6 +7,7 @@
 //! | [`bssrdf`] | fits of K-BMPP to captures of subsurface scattering |
 //! | [`btf`] | nested codebooks and factors of BTFs, and the presets of both |
 //! | [`kernel`] | separable kernels of homogeneous diffusion profiles |
+//! | [`transfer`] | scattering precomputed for the vertices of a mesh |
 //! | [`rate`] | the smallest file of a quality, or the best of a size |
 //! | [`metrics`] | the one judge of files: albedo error, PSNR, SSIM, MSSIM |
 //! | [`baseline`] | earlier methods that only comparisons need, named by their papers |
@@ -57,6 +58,7 @@ mod progress;
 pub mod rate;
 pub mod simulate;
 pub mod synthetic;
+pub mod transfer;
 
 pub use error::{Error, Result};
 pub use file::output::{Unfinished, check_target, remove_unfinished, write_atomically, write_bytes};

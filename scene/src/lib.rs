@@ -19,11 +19,11 @@ mod view;
 
 pub use camera::Camera;
 pub use error::{Error, Result};
-#[cfg(feature = "bake")]
-pub use light::visibility;
 pub use light::{
     AmbientTransfer, Environment, Light, LightShape, MAX_LIGHTS, REFLECTION_LEVELS, REFLECTION_SIZE, Shadow,
 };
+#[cfg(feature = "bake")]
+pub use light::{Occluder, visibility};
 pub use mapping::{BoxPlaces, BoxSides, Mapping};
 pub use mean_profile::MeanProfile;
 pub use mesh::{BoundingSphere, Mesh, bowl, drapery, knot, plate, relief, sphere, torus};

@@ -7,6 +7,7 @@ pub mod meshes;
 pub mod mutate;
 pub mod nested;
 pub mod program;
+pub mod transfer;
 
 use std::path::{Path, PathBuf};
 
@@ -150,11 +151,12 @@ pub fn format_basis() -> FittedBasis {
 
 /// CRC-32 of what reading a file gives: its header, the albedo of every pixel, Rd between pixels in and around the
 /// patch, and of a separable basis coefficients, weights and taps, as little-endian bytes; of a kernel those of
-/// [`kernels::values`]. `None` if it is refused.
+/// [`kernels::values`], of a transfer those of [`transfer::values`]. `None` if it is refused.
 #[must_use]
 pub fn fingerprint(bytes: &[u8]) -> Option<u32> {
     let material = match File::parse(bytes).ok()?.content() {
         Content::Bssrdf(material) => material,
+        Content::Transfer(file) => return Some(crc32(&transfer::values(&file))),
         Content::Kernel(kernel) => return Some(crc32(&kernels::values(&kernel))),
         _ => return None,
     };

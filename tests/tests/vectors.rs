@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use subsurf_decoder::container::Crc;
-use subsurf_decoder::{Bssrdf, File, Kernel, ReadError, Section};
+use subsurf_decoder::{Bssrdf, File, Kernel, ReadError, Section, Transfer};
 use subsurf_tests::kernels::format_kernel;
+use subsurf_tests::transfer::format_transfer;
 use subsurf_tests::{fingerprint, format_example};
 
 fn folder() -> &'static Path {
@@ -76,6 +77,30 @@ fn broken_kernels_are_refused_for_what_is_broken() {
         let found = error(name);
         assert!(matches!(found, ReadError::BadNumber { section, .. } if section == expected), "{name}: {found}");
     }
+}
+
+#[test]
+fn broken_transfers_are_refused_for_what_is_broken() {
+    let error = |name: &str| {
+        let bytes = std::fs::read(folder().join(format!("x_transfer_{name}.subsurf"))).unwrap();
+        Transfer::parse(&bytes).unwrap_err()
+    };
+    for (name, value) in [("channels", 2), ("bits", 1), ("record", 12)] {
+        assert!(matches!(error(name), ReadError::BadField { value: found, .. } if found == value), "{name}");
+    }
+    let numbers = [("light", Section::Lights), ("step", Section::ClusterRanges), ("tail", Section::KernelTail)];
+    for (name, expected) in numbers {
+        let found = error(name);
+        assert!(matches!(found, ReadError::BadNumber { section, .. } if section == expected), "{name}: {found}");
+    }
+    assert!(matches!(error("cluster"), ReadError::IndexOutOfRange { index: 2, len: 2, .. }), "cluster");
+}
+
+#[test]
+fn the_transfer_of_the_specification_is_the_file() {
+    let file = std::fs::read(folder().join("transfer_example.subsurf")).unwrap();
+    assert_eq!(file, format_transfer());
+    assert_eq!(file.len(), 412);
 }
 
 #[test]

@@ -2,37 +2,43 @@
 
 mod btf;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use subsurf_encoder::capture::is_btf;
 use subsurf_encoder::metrics::bssrdf::{Judgement, Light, judge};
+use subsurf_scene::{MESH_EXTENSIONS, SHAPES};
 use subsurf_viewer::{human, read};
 
 pub(crate) use btf::{mssim, mssim_json};
 
 use crate::info::parse;
-use crate::options::CaptureArgs;
+use crate::options::{CaptureArgs, MeshArgs};
 use crate::outln;
 use crate::picture::{montage, triptych, write_picture};
 use crate::program::failure::bad_request;
 use crate::program::progress::Bars;
+use crate::transfer;
 
 /// Judge a file against the capture it was made from.
 ///
 /// Mean relative error of the diffuse albedo, and PSNR and SSIM of the patch lit uniformly, by a disc and by a line
 /// (Yatagawa et al. 2020, section 4; Wang et al. 2004). Only measured entries count, on both sides.
 ///
+/// Of a transfer file: its rms error on q, and e_rms in images of the mesh (Hao and Varshney 2004, section 3.3).
+///
 /// Of a BTF: MSSIM of Y, Cr and Cb and PSNR over its pairs of directions, and the sizes of its codebooks.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The capture, .npy or .npz; a folder of BTF images, a .btf file, or an isotropic BRDF of MERL (.binary) or RGL
-    /// (.bsdf)
+    /// (.bsdf); of a transfer file the mesh it was made for
     capture: PathBuf,
     /// The .subsurf file
     file: PathBuf,
     #[command(flatten)]
     facts: CaptureArgs,
+    #[command(flatten)]
+    size: MeshArgs,
     /// Report as JSON
     #[arg(long)]
     json: bool,
@@ -45,6 +51,15 @@ pub(crate) struct Args {
     /// Of BTFs: compare every n-th pair of directions only
     #[arg(long, default_value_t = 1, value_name = "N")]
     every: usize,
+}
+
+/// Whether a path is that of a mesh or names a shape.
+fn is_mesh(path: &Path) -> bool {
+    let extension = path.extension().map(|own| own.to_string_lossy().to_lowercase());
+    extension.map_or_else(
+        || SHAPES.iter().any(|shape| path.as_os_str() == *shape),
+        |own| MESH_EXTENSIONS.contains(&own.as_str()),
+    )
 }
 
 /// A PSNR for tables, in dB; a dash where the light meets nothing that was measured.
@@ -79,6 +94,9 @@ pub(crate) fn print(judgement: &Judgement) {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    if is_mesh(&args.capture) {
+        return transfer::compare(&args.capture, &args.size, &args.file, args.json);
+    }
     if is_btf(&args.capture) {
         return btf::run(args);
     }

@@ -3,6 +3,7 @@
 mod btf;
 mod kernel;
 mod source;
+mod transfer;
 
 use std::path::PathBuf;
 
@@ -41,6 +42,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Content::Bssrdf(material) => material,
         Content::Kernel(of) => {
             kernel::info(args, &bytes, &file, &of);
+            return Ok(());
+        }
+        Content::Transfer(of) => {
+            transfer::info(args, &bytes, &file, &of);
             return Ok(());
         }
         _ => return btf::info(args, &bytes, &file),

@@ -16,22 +16,21 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::Bssrdf;
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_runtime::TargetFormat;
-use subsurf_scene::{Mesh, load_mesh};
+use subsurf_scene::Mesh;
 use subsurf_viewer::{DrawnMaterial, RenderRequest, Scattering, Set, human, parse, read};
 
 use crate::devices::{self, BackendArg, check_picture};
-use crate::options::Size;
+use crate::options::{MeshArgs, Size, UpArg};
 use crate::outln;
 use crate::picture::{check_picture_target, montage, write_picture};
 use crate::program::failure::bad_request;
-use crate::program::warnings::warn;
 use btf::draw_btf;
 use kernel::draw_kernel;
 use options::{AnglesArg, LightArg};
 
 pub(crate) use btf_args::{BtfArgs, Copies};
 pub(crate) use mesh::draw_mesh;
-pub(crate) use options::{MappingArg, SceneArg, TechniqueArg, UpArg, read_environment};
+pub(crate) use options::{MappingArg, SceneArg, TechniqueArg, read_environment};
 pub(crate) use patch::{draw_patch, patch_irradiance};
 
 /// Draw a material: a translucent one flat or on a mesh, by the reference technique or by a fast one; a BTF or a kernel on a mesh.
@@ -224,11 +223,7 @@ fn draw_bssrdf(args: &Args, material: &Bssrdf<'_>) -> anyhow::Result<(Drawing, S
 impl Args {
     /// The mesh of a file or a shape; what was changed or left out of it is said.
     fn load_mesh(&self, path: &Path) -> anyhow::Result<Mesh> {
-        let loaded = load_mesh(path, self.extent, self.up.into())?;
-        for warning in &loaded.warnings {
-            warn(&format!("{}: {warning}", path.display()));
-        }
-        Ok(loaded.mesh)
+        Ok(MeshArgs { extent: self.extent, up: self.up }.load(path)?)
     }
 
     /// The picture of a mesh that is asked for.

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use glam::Vec3;
 use subsurf_encoder::metrics::bssrdf::Light;
 use subsurf_encoder::picture::Picture;
-use subsurf_scene::{Environment, UpAxis};
+use subsurf_scene::Environment;
 use subsurf_viewer::{Angles, MappingChoice, Scattering, Set};
 
 use crate::program::failure::bad_request;
@@ -80,24 +80,6 @@ impl From<SceneArg> for Set {
         match arg {
             SceneArg::Studio => Self::Studio,
             SceneArg::Hero => Self::Hero,
-        }
-    }
-}
-
-/// Which way is up in a mesh file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum UpArg {
-    /// As in glTF and most OBJ files
-    Y,
-    /// As in most scans and CAD files
-    Z,
-}
-
-impl From<UpArg> for UpAxis {
-    fn from(arg: UpArg) -> Self {
-        match arg {
-            UpArg::Y => Self::Y,
-            UpArg::Z => Self::Z,
         }
     }
 }

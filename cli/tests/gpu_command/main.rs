@@ -10,5 +10,6 @@ mod inputs_materials;
 mod inputs_meshes;
 mod interrupt;
 mod render;
+mod transfer;
 #[cfg(target_os = "linux")]
 mod view;

@@ -8,7 +8,8 @@ use core::panic::PanicInfo;
 use subsurf_decoder::bssrdf::BssrdfModel;
 use subsurf_decoder::btf::factored::ExpansionBuffers;
 use subsurf_decoder::container::Crc;
-use subsurf_decoder::{Bssrdf, Content, Evaluate, FactoredBtf, File, Kernel, NestedBtf, ReadError};
+use subsurf_decoder::transfer::LightWeights;
+use subsurf_decoder::{Bssrdf, Content, Evaluate, FactoredBtf, File, Kernel, NestedBtf, ReadError, Transfer};
 
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
@@ -49,6 +50,9 @@ pub struct Probe {
     table: [i8; 4096],
     words: [i16; 4096],
     scratch: [f32; 512],
+    /// Room for the weights of a transfer of few lights.
+    triangle: [f32; 2048],
+    weights: [f32; 32],
 }
 
 /// Parses a file of any family and calls every accessor; false if the file was refused.
@@ -73,6 +77,7 @@ fn decode(file: &[u8], probe: &mut Probe) -> Result<(), ReadError> {
         Content::NestedBtf(btf) => look_at(&btf, probe),
         Content::FactoredBtf(btf) => expand(&btf, probe),
         Content::Kernel(kernel) => sum_up(&kernel, probe),
+        Content::Transfer(transfer) => relight(&transfer, probe),
         _ => {}
     }
     Ok(())
@@ -129,4 +134,16 @@ fn sum_up(kernel: &Kernel<'_>, probe: &mut Probe) {
     probe.log_profile = kernel.weight(probe.material, usize::from(probe.level));
     probe.sum = kernel.sign(probe.material)[0] + kernel.energy()[0] + kernel.offsets().iter().sum::<f32>();
     probe.sum += kernel.two_gaussians().map_or(0.0, |gaussians| gaussians.weight[0]);
+}
+
+/// A transfer for one light, and all that it says.
+fn relight(transfer: &Transfer<'_>, probe: &mut Probe) {
+    let Probe { triangle, weights, scratch, .. } = probe;
+    probe.sum =
+        transfer.lights().iter().chain(transfer.tail().iter()).sum::<f32>() + transfer.vertex_codes().len() as f32;
+    if let Some(between) = LightWeights::new(transfer.lights(), triangle) {
+        between.at(probe.light, weights);
+    }
+    transfer.light_table(weights, scratch);
+    transfer.exitance(scratch, usize::from(probe.level), &mut probe.value);
 }

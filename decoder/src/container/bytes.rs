@@ -99,6 +99,12 @@ impl<'a> U16Le<'a> {
         self.0.iter().copied().map(u16::from_le_bytes)
     }
 
+    /// Values from number `index` on; none where there are none.
+    #[cfg(feature = "transfer")]
+    pub(crate) fn iter_from(self, index: usize) -> impl Iterator<Item = u16> + 'a {
+        self.0.get(index..).unwrap_or(&[]).iter().copied().map(u16::from_le_bytes)
+    }
+
     /// The values as they stand in the file, ready for a texture upload.
     #[must_use]
     pub fn as_bytes(self) -> &'a [u8] {

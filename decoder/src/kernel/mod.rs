@@ -3,7 +3,7 @@
 mod evaluate;
 pub mod layout;
 mod method;
-mod reader;
+pub(crate) mod reader;
 
 pub use layout::KernelHeader;
 pub use method::KernelMethod;

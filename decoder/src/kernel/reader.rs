@@ -114,7 +114,7 @@ impl<'a> Kernel<'a> {
 }
 
 /// Values of a section, each within the range that `range` gives for its number and itself.
-fn checked<'a>(
+pub(crate) fn checked<'a>(
     section: SectionBytes<'a>,
     range: &mut dyn FnMut(usize, f32) -> [f32; 2],
 ) -> Result<F32Le<'a>, ReadError> {
@@ -132,7 +132,7 @@ fn offsets(section: SectionBytes<'_>, radius_mm: f32) -> Result<F32Le<'_>, ReadE
 }
 
 /// Rows of rgb that begin within 0 to 1, never rise and end with 0.
-fn tail(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
+pub(crate) fn tail(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
     let last = F32Le::new(section.bytes).len().saturating_sub(RGB);
     let mut before = [1.0; RGB];
     checked(section, &mut |k, value| {

@@ -25,7 +25,12 @@ pub(crate) fn crc32(bytes: &[u8]) -> u32 {
 
 /// Recomputes every CRC of a file with four sections.
 pub(crate) fn seal(file: &mut [u8]) {
-    for entry in (0..4).map(|k| 24 + 24 * k) {
+    seal_all(file, 4);
+}
+
+/// Recomputes every CRC of a file.
+pub(crate) fn seal_all(file: &mut [u8], sections: usize) {
+    for entry in (0..sections).map(|k| 24 + 24 * k) {
         let read = |at: usize| u64::from_le_bytes(file[at..at + 8].try_into().unwrap());
         let offset = usize::try_from(read(entry + 8)).ok();
         let end = read(entry + 8).checked_add(read(entry + 16));
@@ -34,17 +39,20 @@ pub(crate) fn seal(file: &mut [u8]) {
         let crc = crc32(bytes.unwrap_or(&[]));
         file[entry + 4..entry + 8].copy_from_slice(&crc.to_le_bytes());
     }
-    let crc = crc32(&file[..120]);
-    file[120..124].copy_from_slice(&crc.to_le_bytes());
+    let end = 24 + 24 * sections;
+    let crc = crc32(&file[..end]);
+    file[end..end + 4].copy_from_slice(&crc.to_le_bytes());
 }
 
-/// File header of version 1.0 and table of four sections, each a kind, an offset and a length; CRCs are 0.
-pub(crate) fn begin(file_bytes: u8, sections: [(&[u8; 4], u64, u64); 4]) -> Vec<u8> {
+/// File header of version 1.0 and table of sections, each a kind, an offset and a length; CRCs are 0.
+pub(crate) fn begin<const N: usize>(file_bytes: u16, sections: [(&[u8; 4], u64, u64); N]) -> Vec<u8> {
+    let [low, high] = file_bytes.to_le_bytes();
+    let count = u8::try_from(N).unwrap();
     let mut file = vec![
         0x89, 0x53, 0x53, 0x46, 0x0D, 0x0A, 0x1A, 0x0A, // magic
         0x01, 0x00, 0x00, 0x00, // version 1.0
-        0x04, 0x00, 0x00, 0x00, // sections
-        file_bytes, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,
+        count, 0x00, 0x00, 0x00, // sections
+        low, high, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,
     ];
     for (kind, offset, length) in sections {
         file.extend(kind);

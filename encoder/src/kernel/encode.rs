@@ -14,8 +14,6 @@ use crate::metrics::kernel::{KernelErrors, Truth};
 
 /// Entries of the table T(d).
 const TAIL: usize = 64;
-/// What a reflectance of 1 may be too large by: profiles add up in rounded numbers.
-const ROUNDING: f64 = 1e-6;
 /// Cells along half an axis in which kernels are fitted and judged.
 const CELLS: usize = 128;
 
@@ -62,7 +60,7 @@ pub struct Encoded {
 /// than all light.
 pub fn encode(profile: &Profile, options: &Options) -> Result<Encoded> {
     options.check()?;
-    let profile = prepared(profile)?;
+    let profile = profile.condensed().limited()?;
     let fitted: Vec<(Separable, KernelErrors, [f64; 3])> = (0..3)
         .into_par_iter()
         .map(|c| {
@@ -112,7 +110,7 @@ pub fn encode(profile: &Profile, options: &Options) -> Result<Encoded> {
 /// As [`encode`].
 pub fn compare(profile: &Profile, options: &[Options]) -> Result<Vec<KernelErrors>> {
     options.iter().try_for_each(Options::check)?;
-    let profile = prepared(profile)?;
+    let profile = profile.condensed().limited()?;
     let truths: Vec<Truth> = profile.channels.par_iter().map(|radial| Truth::new(radial, CELLS)).collect();
     let of = |options: &Options| {
         let channels: Vec<KernelErrors> =
@@ -120,24 +118,6 @@ pub fn compare(profile: &Profile, options: &[Options]) -> Result<Vec<KernelError
         KernelErrors::mean(channels.into_iter())
     };
     Ok(options.par_iter().map(of).collect())
-}
-
-/// The profile in wide rings, each channel as far as it reaches but for a thousandth of its light.
-fn prepared(profile: &Profile) -> Result<Profile> {
-    for (energy, name) in profile.reflectance().into_iter().zip(["red", "green", "blue"]) {
-        if !(energy > 0.0 && energy <= 1.0 + ROUNDING) {
-            return Err(Error::Request(format!(
-                "R_d adds up to {energy:.4} in {name}; expected a reflectance up to 1: are radii in mm and R_d in mm⁻²? Say what the reflectance is, if not"
-            )));
-        }
-    }
-    let mut channels = profile.condensed().channels;
-    for (radial, name) in channels.iter_mut().zip(["red", "green", "blue"]) {
-        let refuse =
-            |(found, expected): (String, String)| Error::Request(format!("{found} in {name}; expected {expected}"));
-        *radial = radial.limited().map_err(refuse)?.scaled(1.0 / radial.energy().max(1.0));
-    }
-    Ok(Profile { channels })
 }
 
 impl Options {

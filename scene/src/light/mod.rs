@@ -12,4 +12,4 @@ pub use environment::{Environment, REFLECTION_LEVELS, REFLECTION_SIZE};
 pub use source::{Light, LightShape, MAX_LIGHTS, Shadow};
 pub use transfer::AmbientTransfer;
 #[cfg(feature = "bake")]
-pub use visibility::visibility;
+pub use visibility::{Occluder, visibility};

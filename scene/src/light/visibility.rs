@@ -37,31 +37,53 @@ impl BHShape<f32, 3> for Triangle {
 /// not shade it.
 const OFFSET: f32 = 2e-3;
 
+/// A mesh that may be in the way of the light on itself.
+pub struct Occluder {
+    triangles: Vec<Triangle>,
+    bvh: Bvh<f32, 3>,
+    offset_mm: f32,
+}
+
+impl Occluder {
+    /// Hierarchy of the triangles of a mesh.
+    #[must_use]
+    pub fn new(mesh: &Mesh) -> Self {
+        let corners = |triangle: &[u32; 3]| triangle.map(|k| point(mesh.positions[k as usize]));
+        let mut triangles: Vec<Triangle> =
+            mesh.triangles.iter().map(|triangle| Triangle { corners: corners(triangle), node: 0 }).collect();
+        let bvh = Bvh::build(&mut triangles);
+        let [low, high] = mesh.bounds();
+        Self { triangles, bvh, offset_mm: OFFSET * (high - low).max_element() }
+    }
+
+    /// Whether light reaches a point of the surface from a unit `direction`, from as far as `distance_mm`: nothing of the mesh is
+    /// between them. Rays begin a little above the surface, along its unit `normal`.
+    #[must_use]
+    pub fn is_reached(&self, position_mm: Vec3, normal: Vec3, direction: Vec3, distance_mm: f32) -> bool {
+        let start = point(position_mm + self.offset_mm * normal);
+        let ray = Ray::new(start, Vector3::new(direction.x, direction.y, direction.z));
+        !self.bvh.traverse_iterator(&ray, &self.triangles).any(|triangle| {
+            let [a, b, c] = &triangle.corners;
+            // Rays meet triangles from either side: meshes are not always wound the same way.
+            [ray.intersects_triangle(a, b, c), ray.intersects_triangle(a, c, b)]
+                .iter()
+                .any(|hit| hit.distance > 0.0 && hit.distance < distance_mm)
+        })
+    }
+}
+
 /// Visibility of lights at every vertex of a mesh: 1 where light number k reaches the vertex, 0 where the mesh itself is in
 /// the way or there is no such light.
 ///
 /// Vertices that face away from a light count as reached: they get nothing from it anyway. Lights without shadows reach all.
 #[must_use]
 pub fn visibility(mesh: &Mesh, lights: &[Light]) -> Vec<[f32; MAX_LIGHTS]> {
-    let corners = |triangle: &[u32; 3]| triangle.map(|k| point(mesh.positions[k as usize]));
-    let mut triangles: Vec<Triangle> =
-        mesh.triangles.iter().map(|triangle| Triangle { corners: corners(triangle), node: 0 }).collect();
-    let bvh = Bvh::build(&mut triangles);
-    let [low, high] = mesh.bounds();
-    let offset = OFFSET * (high - low).max_element();
+    let occluder = Occluder::new(mesh);
     let is_reached = |position: Vec3, normal: Vec3, light: &Light| {
         let (direction, distance) = light.direction_from(position);
-        if light.shadow == Shadow::None || normal.dot(direction) <= 0.0 {
-            return true;
-        }
-        let ray = Ray::new(point(position + offset * normal), Vector3::new(direction.x, direction.y, direction.z));
-        !bvh.traverse_iterator(&ray, &triangles).any(|triangle| {
-            let [a, b, c] = &triangle.corners;
-            // Rays meet triangles from either side: meshes are not always wound the same way.
-            [ray.intersects_triangle(a, b, c), ray.intersects_triangle(a, c, b)]
-                .iter()
-                .any(|hit| hit.distance > 0.0 && hit.distance < distance)
-        })
+        light.shadow == Shadow::None
+            || normal.dot(direction) <= 0.0
+            || occluder.is_reached(position, normal, direction, distance)
     };
     let of_vertex = |(position, normal): (&Vec3, &Vec3)| {
         let mut of_lights = [0.0; MAX_LIGHTS];

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use glam::{Vec2, Vec3};
+use subsurf_decoder::container::crc32;
 
 use super::bounds::BoundingSphere;
 use crate::error::{Error, Result};
@@ -139,6 +140,15 @@ impl Mesh {
         let number = |vertex: u32| vertex.checked_add(first).expect("fewer than 2³² vertices");
         self.triangles.extend(other.triangles.into_iter().map(|triangle| triangle.map(number)));
         self
+    }
+
+    /// CRC-32 of the positions and of the triangles, as little-endian bytes: what else is precomputed for a mesh is no good to another.
+    #[must_use]
+    pub fn geometry_crc(&self) -> [u32; 2] {
+        let positions: Vec<u8> =
+            self.positions.iter().flat_map(|at| at.to_array()).flat_map(f32::to_le_bytes).collect();
+        let triangles: Vec<u8> = self.triangles.iter().flatten().flat_map(|k| k.to_le_bytes()).collect();
+        [crc32(&positions), crc32(&triangles)]
     }
 
     /// Area that each vertex stands for, a third of the triangles around it, in mm².

@@ -8,6 +8,7 @@ use subsurf_decoder::container::crc32;
 use subsurf_encoder::bssrdf::basis::{FittedBasis, with_basis};
 use subsurf_encoder::synthetic::Shape;
 use subsurf_tests::kernels::{difference, format_kernel, skin};
+use subsurf_tests::transfer::format_transfer;
 use subsurf_tests::{fingerprint, format_basis, format_example, shape};
 
 fn main() -> std::io::Result<()> {
@@ -47,6 +48,9 @@ fn main() -> std::io::Result<()> {
     write("kernel_example.subsurf", &kernel)?;
     write("kernel_two_gaussians.subsurf", &skin(17).to_bytes().expect("a kernel in range"))?;
     write("kernel_two_terms.subsurf", &difference(11).to_bytes().expect("a kernel in range"))?;
+
+    let transfer = format_transfer();
+    write("transfer_example.subsurf", &transfer)?;
 
     // Broken, each in one way.
     let broken = |at: usize, value: u8| {
@@ -94,6 +98,18 @@ fn main() -> std::io::Result<()> {
     write("x_kernel_energy.subsurf", &wrong(172, &0.25_f32.to_le_bytes()))?;
     write("x_kernel_tail_rises.subsurf", &wrong(208, &0.8_f32.to_le_bytes()))?;
     write("x_kernel_tail_end.subsurf", &wrong(220, &0.125_f32.to_le_bytes()))?;
+    let wrong = |at: usize, value: &[u8]| {
+        let mut bytes = transfer.clone();
+        bytes[at..at + value.len()].copy_from_slice(value);
+        reseal(bytes)
+    };
+    write("x_transfer_channels.subsurf", &wrong(197, &[2]))?;
+    write("x_transfer_bits.subsurf", &wrong(239, &[1]))?;
+    write("x_transfer_record.subsurf", &wrong(236, &[12; 16]))?;
+    write("x_transfer_light.subsurf", &wrong(252, &0.5_f32.to_le_bytes()))?;
+    write("x_transfer_step.subsurf", &wrong(304, &(-0.5_f32).to_le_bytes()))?;
+    write("x_transfer_cluster.subsurf", &wrong(382, &[2]))?;
+    write("x_transfer_tail.subsurf", &wrong(388, &1.5_f32.to_le_bytes()))?;
     std::fs::write(folder.join("results.txt"), results)
 }
 

@@ -22,6 +22,8 @@ use crate::simulate::monte_carlo::profile::Profiles;
 
 /// Width of rings by their inner radius: finer ones hold more noise than shape.
 const GROWTH: f64 = 0.05;
+/// What a reflectance of 1 may be too large by: profiles add up in rounded numbers.
+const ROUNDING: f64 = 1e-6;
 
 /// R_d(r) in mm⁻² of red, green and blue: radiant exitance per radiant flux that *entered*, Fresnel transmission on the way in not
 /// included.
@@ -116,6 +118,23 @@ impl Profile {
     #[must_use]
     pub fn condensed(&self) -> Self {
         Self { channels: self.channels.each_ref().map(|channel| channel.condensed(GROWTH)) }
+    }
+
+    /// The profile, each channel as far as it reaches but for a thousandth of its light, which is moved within.
+    pub(crate) fn limited(&self) -> Result<Self> {
+        let mut channels = self.channels.clone();
+        for (radial, name) in channels.iter_mut().zip(["red", "green", "blue"]) {
+            let energy = radial.energy();
+            if !(energy > 0.0 && energy <= 1.0 + ROUNDING) {
+                return Err(Error::Request(format!(
+                    "R_d adds up to {energy:.4} in {name}; expected a reflectance up to 1: are radii in mm and R_d in mm⁻²? Say what the reflectance is, if not"
+                )));
+            }
+            let refuse =
+                |(found, expected): (String, String)| Error::Request(format!("{found} in {name}; expected {expected}"));
+            *radial = radial.limited().map_err(refuse)?.scaled(1.0 / radial.energy().max(1.0));
+        }
+        Ok(Self { channels })
     }
 
     /// The profile, if there is light in every channel.

@@ -1,0 +1,32 @@
+//! Scattering precomputed for a mesh: made, shown and judged.
+
+use crate::common::{assert_refused, json, run, succeed};
+
+#[test]
+fn a_transfer_is_made_shown_and_judged() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let made = "transfer sphere --extent 12 --material skin1 --lights 60 --grey --clusters 16 -o ball.subsurf";
+    let made = succeed(folder, made);
+    assert!(made.out.contains("60 lights, 1 channels") && made.out.contains("6 bytes for each vertex"), "{}", made.out);
+    let info = json(folder, "info ball.subsurf --json");
+    assert_eq!(
+        (info["model"].as_str(), info["lights"].as_u64(), info["clusters"].as_u64()),
+        (Some("transfer"), Some(60), Some(16))
+    );
+    let text = succeed(folder, "info ball.subsurf").out;
+    assert!(text.contains("for the mesh of CRC-32") && text.contains("XVTX (codes of vertices)"), "{text}");
+
+    let judged = json(folder, "compare sphere ball.subsurf --extent 12 --json");
+    let number = |of: &str, what: &str| judged[of][what].as_f64().unwrap();
+    assert!(judged["rms_q"].as_f64().unwrap() < 0.01, "{judged}");
+    assert!(number("compression", "max") < 0.01, "{judged}");
+    assert!(number("total", "rms") < 0.6 * number("four_nearest", "rms"), "{judged}");
+
+    let other = run(folder, "compare sphere ball.subsurf --extent 13");
+    assert_refused(&other, &["the file is for another mesh"]);
+    let coarse = run(folder, "transfer sphere --extent 5000 --material ketchup --lights 4 --grey -o coarse.subsurf");
+    assert!(coarse.err.contains("too coarse for the material"), "{}", coarse.err);
+    let none = run(folder, "transfer sphere --material skin1 --components 17 -o none.subsurf");
+    assert_refused(&none, &["17 components", "expected 1 to 256, 1 to 16"]);
+}

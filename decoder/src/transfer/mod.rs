@@ -1,0 +1,10 @@
+//! Transfer: scattering precomputed for every vertex of a mesh, for light from any direction (`FORMAT.md`, section 7).
+
+mod evaluate;
+pub mod layout;
+mod reader;
+mod weights;
+
+pub use layout::TransferHeader;
+pub use reader::Transfer;
+pub use weights::LightWeights;

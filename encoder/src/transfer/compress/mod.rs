@@ -1,0 +1,71 @@
+//! q in few bytes per vertex: clustered principal components, whose coefficients are quantised.
+
+mod cpca;
+mod quantise;
+
+use nalgebra::DMatrix;
+use subsurf_decoder::transfer::layout::{MAX_BITS, MAX_CLUSTERS, MAX_COMPONENTS};
+
+use self::cpca::Rotated;
+pub(super) use self::quantise::Quantised;
+use super::precompute::Precomputed;
+use crate::error::{Error, Result};
+use crate::progress::Progress;
+
+/// Size of a compressed q.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Clusters of vertices, 1 to 256.
+    pub clusters: usize,
+    /// Principal components of each, 1 to 16.
+    pub components: usize,
+    /// Bits of a vertex's coefficients together, from one for each component to 120.
+    pub bits: usize,
+}
+
+impl Size {
+    /// What suits a mesh of that many vertices: 8 components of 40 bits, and a cluster for some 400 vertices, since below that clusters
+    /// weigh more than what they save.
+    #[must_use]
+    pub fn of_vertices(vertices: usize) -> Self {
+        Self { clusters: (vertices / 400).clamp(16, MAX_CLUSTERS.into()), components: 8, bits: 40 }
+    }
+
+    /// Refuses sizes that files do not have.
+    ///
+    /// # Errors
+    /// [`Error::Request`] for numbers out of range.
+    pub fn check(&self) -> Result<()> {
+        let Self { clusters, components, bits } = *self;
+        let most = (components * usize::from(MAX_BITS)).min(120);
+        if !(1..=usize::from(MAX_CLUSTERS)).contains(&clusters)
+            || !(1..=MAX_COMPONENTS).contains(&components)
+            || !(components..=most).contains(&bits)
+        {
+            return Err(Error::Request(format!(
+                "{clusters} clusters, {components} components, {bits} bits; expected 1 to {MAX_CLUSTERS}, 1 to {MAX_COMPONENTS}, \
+                 and 1 to {MAX_BITS} bits for each component, 120 together"
+            )));
+        }
+        Ok(())
+    }
+}
+
+/// q divided by the largest value of its channel, and these values.
+fn normalised(of: &Precomputed) -> (DMatrix<f32>, Vec<f32>) {
+    let lights = of.light_count();
+    let scale = |c: usize| of.q.rows(c * lights, lights).amax().max(f32::MIN_POSITIVE);
+    let scales: Vec<f32> = (0..of.channels).map(scale).collect();
+    let mut q = of.q.clone();
+    for (c, scale) in scales.iter().enumerate() {
+        q.rows_mut(c * lights, lights).scale_mut(1.0 / scale);
+    }
+    (q, scales)
+}
+
+/// Clusters and codes of q.
+pub(super) fn compress(of: &Precomputed, size: &Size, progress: &dyn Progress) -> Quantised {
+    let (q, scales) = normalised(of);
+    let clusters = Rotated::new(&q).cluster(size, progress);
+    Quantised::new(&q, scales, &clusters, size.bits)
+}

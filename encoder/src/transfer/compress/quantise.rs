@@ -1,0 +1,149 @@
+//! Means, components and coefficients in few bits.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+use subsurf_decoder::transfer::layout::{MAX_BITS, MAX_COMPONENTS};
+
+use super::cpca::Clusters;
+use crate::transfer::rd_table::single;
+
+/// Largest value of a component.
+const LARGEST: f32 = 127.0;
+
+/// An offset, and a step by which it is left.
+type Range = [f32; 2];
+
+/// Clusters as files have them.
+pub(in crate::transfer) struct Quantised {
+    /// Largest value of each channel, by which all was divided.
+    pub(in crate::transfer) scales: Vec<f32>,
+    /// Bits of each component.
+    pub(in crate::transfer) bits: [u8; MAX_COMPONENTS],
+    /// Ranges `[cluster][mean, components]`.
+    pub(in crate::transfer) ranges: Vec<Range>,
+    /// Means `[cluster][value]`.
+    pub(in crate::transfer) means: Vec<u16>,
+    /// Components `[cluster][component][value]`.
+    pub(in crate::transfer) components: Vec<i8>,
+    /// Cluster of each place, and codes `[component]` of its coefficients.
+    pub(in crate::transfer) places: Vec<(u8, [u16; MAX_COMPONENTS])>,
+}
+
+/// A cluster in few bits, with the exact coefficients of its members to these components.
+struct Cluster {
+    mean: (Range, Vec<u16>),
+    components: Vec<Vec<i8>>,
+    members: Vec<usize>,
+    /// `[component × member]`.
+    coefficients: DMatrix<f32>,
+    /// Square lengths of the components.
+    squares: Vec<f32>,
+}
+
+impl Quantised {
+    /// `q` divided by `scales`, `[value × place]`, in clusters, with `bits` for the coefficients of a place.
+    pub(super) fn new(q: &DMatrix<f32>, scales: Vec<f32>, clusters: &Clusters, bits: usize) -> Self {
+        let mut members = vec![Vec::new(); clusters.components.len()];
+        for (place, cluster) in clusters.chosen.iter().enumerate() {
+            members[usize::from(*cluster)].push(place);
+        }
+        let of = |(number, members): (usize, Vec<usize>)| {
+            Cluster::new(q, members, &clusters.means.column(number).into_owned(), &clusters.components[number])
+        };
+        let clusters: Vec<Cluster> = members.into_par_iter().enumerate().map(of).collect();
+        let count = clusters[0].components.len();
+        let bits = shared(&clusters, count, bits);
+        let mut out = Self {
+            scales,
+            bits,
+            ranges: Vec::new(),
+            means: Vec::new(),
+            components: Vec::new(),
+            places: vec![(0, [0; MAX_COMPONENTS]); q.ncols()],
+        };
+        for (number, cluster) in (0..=u8::MAX).zip(&clusters) {
+            out.ranges.push(cluster.mean.0);
+            out.means.extend(&cluster.mean.1);
+            for (k, row) in cluster.coefficients.row_iter().enumerate() {
+                let most = (1_u16 << bits[k]) - 1;
+                let (range, codes) = codes(row.iter().copied(), most);
+                out.ranges.push(range);
+                for (place, code) in cluster.members.iter().zip(codes) {
+                    out.places[*place].0 = number;
+                    out.places[*place].1[k] = code;
+                }
+            }
+            out.components.extend(cluster.components.iter().flatten());
+        }
+        out
+    }
+}
+
+impl Cluster {
+    fn new(q: &DMatrix<f32>, members: Vec<usize>, mean: &DVector<f32>, exact: &DMatrix<f32>) -> Self {
+        let mean = codes(mean.iter().copied(), u16::MAX);
+        let [offset, step] = mean.0;
+        let rounded_mean =
+            DVector::from_iterator(q.nrows(), mean.1.iter().map(|code| offset + step * f32::from(*code)));
+        let components: Vec<Vec<i8>> = exact.column_iter().map(|column| signed(column.as_slice())).collect();
+        let rounded = DMatrix::from_fn(q.nrows(), components.len(), |row, k| f32::from(components[k][row]));
+        let mut rest = q.select_columns(&members);
+        rest.column_iter_mut().for_each(|mut column| column -= &rounded_mean);
+        // Least squares to the rounded components, which are not quite orthogonal; what is zero gets nothing.
+        let mut gram = (rounded.transpose() * &rounded).map(f64::from);
+        let ridge = 1e-9 * gram.trace().max(1e-9);
+        for k in 0..gram.nrows() {
+            gram[(k, k)] += ridge;
+        }
+        let along = (rounded.transpose() * rest).map(f64::from);
+        let solved = gram.cholesky().expect("it is positive: a ridge was added").solve(&along);
+        let squares = rounded.column_iter().map(|column| column.norm_squared()).collect();
+        Self { mean, components, members, coefficients: solved.map(single), squares }
+    }
+}
+
+/// Bits of each component, all but one given to where they help most: the largest rms of range · length / 2^bits.
+fn shared(clusters: &[Cluster], count: usize, total: usize) -> [u8; MAX_COMPONENTS] {
+    let error = |k: usize| {
+        let of = |cluster: &Cluster| {
+            let row = cluster.coefficients.row(k);
+            let width = if row.is_empty() { 0.0 } else { row.max() - row.min() };
+            f64::from(width * width * cluster.squares[k]) * row.len() as f64
+        };
+        clusters.iter().map(of).sum::<f64>()
+    };
+    let errors: Vec<f64> = (0..count).map(error).collect();
+    let mut bits = [0; MAX_COMPONENTS];
+    bits[..count].fill(1);
+    for _ in count..total {
+        let left = |k: &usize| errors[*k] / 4.0_f64.powi(bits[*k].into());
+        let open = (0..count).filter(|k| bits[*k] < MAX_BITS);
+        if let Some(k) = open.max_by(|a, b| left(a).total_cmp(&left(b)).then(b.cmp(a))) {
+            bits[k] += 1;
+        }
+    }
+    bits
+}
+
+/// Offset, step and codes from 0 to `most` of values, even between the least and the largest.
+fn codes(values: impl Iterator<Item = f32> + Clone, most: u16) -> (Range, Vec<u16>) {
+    let [low, high] =
+        values.clone().fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
+    if low >= high || low.is_infinite() {
+        let offset = if low.is_finite() { low } else { 0.0 };
+        return ([offset, 0.0], values.map(|_| 0).collect());
+    }
+    let step = (high - low) / f32::from(most);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within 0 to the largest code")]
+    let code = |value: f32| ((value - low) / step).round().clamp(0.0, f32::from(most)) as u16;
+    ([low, step], values.map(code).collect())
+}
+
+/// Values in a byte each, the largest as 127 or −127.
+fn signed(values: &[f32]) -> Vec<i8> {
+    let largest = values.iter().fold(0.0_f32, |largest, value| largest.max(value.abs()));
+    let factor = if largest > 0.0 { LARGEST / largest } else { 0.0 };
+    #[allow(clippy::cast_possible_truncation, reason = "within −127 to 127")]
+    let byte = |value: &f32| (value * factor).round() as i8;
+    values.iter().map(byte).collect()
+}
