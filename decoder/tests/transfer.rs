@@ -86,6 +86,9 @@ fn exercise(file: &Transfer<'_>) {
         assert!(LightWeights::new(file.lights(), &mut vec![0.0; length]).is_none(), "no room");
     }
     file.exitance(&[], usize::MAX, &mut [0.0; 9]);
+    let mut beyond = [1.0; 3];
+    file.exitance(&vec![1.0; file.header().table_len()], 1 << (usize::BITS - 1), &mut beyond);
+    assert_eq!(beyond, [0.0; 3], "a number of a vertex whose place in bytes is beyond what numbers hold");
 }
 
 #[test]

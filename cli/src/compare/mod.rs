@@ -94,11 +94,12 @@ pub(crate) fn print(judgement: &Judgement) {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    if is_mesh(&args.capture) {
-        return transfer::compare(&args.capture, &args.size, &args.file, args.json);
-    }
+    // A folder may have the name of a shape.
     if is_btf(&args.capture) {
         return btf::run(args);
+    }
+    if is_mesh(&args.capture) {
+        return transfer::compare(&args.capture, &args.size, &args.file, args.json);
     }
     let capture = args.facts.open(&args.capture)?;
     let bytes = read(&args.file)?;

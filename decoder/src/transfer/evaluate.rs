@@ -43,13 +43,14 @@ impl Transfer<'_> {
     }
 
     /// Radiant exitance of vertices from number `first` on under the light of a table, `[vertex][channel]`; as many as `exitance` has
-    /// room for. Of irradiance 1 on a plane across the light; without the boundary on the way out. Zeros where there are no more.
+    /// room for. Of irradiance 1 on a plane across the light; without the boundary on the way out. May be below 0, which is drawn as 0. Zeros where there are no more.
     pub fn exitance(&self, table: &[f32], first: usize, exitance: &mut [f32]) {
         let header = self.header();
         let (channels, record_bytes) = (usize::from(header.channels.max(1)), header.record_bytes());
         let (components, bits) = (header.components(), header.bits);
         let rows = components.wrapping_add(1).max(1);
-        let mut records = self.codes.get(first.wrapping_mul(record_bytes)..).unwrap_or(&[]);
+        let begin = first.saturating_mul(record_bytes);
+        let mut records = self.codes.get(begin..).unwrap_or(&[]);
         exitance.fill(0.0);
         for out in exitance.chunks_exact_mut(channels) {
             let Some((_, after)) = records.split_at_checked(record_bytes) else { return };

@@ -110,6 +110,12 @@ pub fn precompute(
     };
     let gather = Gather { surface: &surface, flux: &flux, table, channels: options.channels };
     let q = gather.hierarchical(SPREAD, progress);
+    let total: f64 = q.iter().map(|value| f64::from(*value)).sum();
+    if !total.is_finite() || total <= 0.0 {
+        return Err(Error::Request(
+            "no light leaves the mesh, or more than numbers hold: are its normals turned inwards, or its size not in mm?".to_owned(),
+        ));
+    }
     Ok(Precomputed { lights: lights.to_vec(), channels: options.channels, q, place_of: surface.place_of })
 }
 

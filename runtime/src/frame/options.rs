@@ -24,7 +24,8 @@ pub struct RuntimeOptions {
     /// Texels to a side of what each light sees: a power of two, at least 128. Fewer where the textures of a device have no room for
     /// as many beside and below each other: those of 2,048 texels to a side hold eight views of 512.
     pub light_texels: u32,
-    /// Most bytes of the maps of blurs on the screen for each pixel of the picture, more than 0: maps become coarser until they keep to them.
+    /// Most bytes of the maps of blurs on the screen for each pixel of the picture, more than 0: maps become coarser until they keep to them, but
+    /// those of the separable technique have 256 × 256 texels at least.
     pub map_bytes_per_pixel: f32,
     /// Whether a third of the taps of separable kernels are turned, by an angle of each pixel's own: faint noise in place of bands and of the
     /// axes of the kernel (Jimenez et al. 2015, supplement, figures S.6 and S.7).

@@ -79,10 +79,10 @@ impl<'a> Group<'a> {
         drawn.map(|(placed, object)| (object.mesh, placed.offset))
     }
 
-    /// Lowest and highest corner of a box that holds the visible objects of the group, in mm.
+    /// Lowest and highest corner of a box that holds all objects of the group, seen or not, in mm.
     pub(crate) fn extent(&self) -> [Vec3; 2] {
         let objects = self.placed.iter().zip(self.input.objects);
-        let of_group = objects.filter(|(placed, _)| placed.is_visible && placed.slot == self.slot);
+        let of_group = objects.filter(|(placed, _)| placed.slot == self.slot);
         of_group.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], (_, object)| {
             let [lowest, highest] = object.corners();
             [low.min(lowest), high.max(highest)]

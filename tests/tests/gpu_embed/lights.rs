@@ -51,18 +51,18 @@ const SUM_ERRORS: [f32; 3] = [0.004, 0.04, 0.004];
 
 /// Textures of the application have 2,048 texels to a side: six views of 512 lie in two rows, and eight.
 ///
-/// Only where all shadows are drawn do wide Gaussians spread in a light volume: a light that is off sees to it that those of one frame
+/// Only where all shadows are drawn do wide Gaussians spread in a light volume: a faint light sees to it that those of one frame
 /// and of many are drawn in the same way.
 fn lights_add_up(backends: Backends, light_texels: u32) {
     let stage = Stage::with(backends, RuntimeOptions { light_texels, ..RuntimeOptions::default() });
     let cases = all(&stage).into_iter().zip(SUM_ERRORS).map(|case| (case, false));
     for ((object, limit), have_all_shadows) in cases.chain([((stage.jade(), SUM_ERRORS[0]), true)]) {
         let eight = eight(have_all_shadows);
-        let off = Light { irradiance: [0.0; 3], shadow: Shadow::None, ..eight[0] };
+        let faint = Light { irradiance: [1e-6; 3], shadow: Shadow::None, ..eight[0] };
         let together = draw(&stage, &[object], &eight, &[]);
         let mut sum = vec![[0.0; 3]; together.len()];
         for light in eight {
-            let lights = [light, off];
+            let lights = [light, faint];
             let alone = if have_all_shadows { &lights[..1] } else { &lights };
             for (sum, pixel) in sum.iter_mut().zip(draw(&stage, &[object], alone, &[])) {
                 *sum = [0, 1, 2].map(|c| sum[c] + pixel[c]);

@@ -41,19 +41,19 @@ pub struct TransferError {
 
 /// Weights of a file's lights for a direction.
 ///
-/// # Panics
-/// If two lights of the file are one.
-#[must_use]
-pub fn weights_of(file: &Transfer<'_>, directions: &[[f32; 3]]) -> Vec<Vec<f32>> {
+/// # Errors
+/// [`Error::Request`] if two lights of the file are one.
+pub fn weights_of(file: &Transfer<'_>, directions: &[[f32; 3]]) -> Result<Vec<Vec<f32>>> {
     let lights = usize::from(file.header().lights);
     let mut buffer = vec![0.0; LightWeights::buffer_len(lights)];
-    let between = LightWeights::new(file.lights(), &mut buffer).expect("lights that differ");
+    let between = LightWeights::new(file.lights(), &mut buffer)
+        .ok_or_else(|| Error::Request("two lights of the file are one: nothing lies between them".to_owned()))?;
     let of = |towards: &[f32; 3]| {
         let mut weights = vec![0.0; lights];
         between.at(*towards, &mut weights);
         weights
     };
-    directions.iter().map(of).collect()
+    Ok(directions.iter().map(of).collect())
 }
 
 /// Exitance of all vertices under light of given weights, `[vertex][channel]`.
@@ -70,7 +70,7 @@ pub fn decode(file: &Transfer<'_>, weights: &[f32]) -> Vec<f32> {
 /// Errors of a file on its mesh. What it was made from is summed up again from mesh and file, which takes as long as the first time.
 ///
 /// # Errors
-/// [`Error::Request`] if the file is for another mesh, or memory does not suffice.
+/// [`Error::Request`] if the file is for another mesh, two of its lights are one, or memory does not suffice.
 pub fn judge(mesh: &Mesh, file: &Transfer<'_>, progress: &dyn Progress) -> Result<TransferError> {
     let header = file.header();
     if mesh.positions.len() as u64 != u64::from(header.vertices)
@@ -90,6 +90,7 @@ pub fn judge(mesh: &Mesh, file: &Transfer<'_>, progress: &dyn Progress) -> Resul
     let lights: Vec<[f32; 3]> = rows(file.lights());
     // Between the stored ones: turned by a number that no spiral of lights has.
     let between: Vec<[f32; 3]> = fibonacci(BETWEEN).into_iter().map(|[x, y, z]| [y, z, x]).collect();
+    let smooth = weights_of(file, &between)?;
     let all = [&lights[..], &between].concat();
     let options = Options { channels: header.channels.into(), eta: header.eta };
     let exact = precompute(mesh, &table, &all, &options, progress)?;
@@ -97,7 +98,7 @@ pub fn judge(mesh: &Mesh, file: &Transfer<'_>, progress: &dyn Progress) -> Resul
     progress.begin("images", header.channels.into());
     let views = Views::new(mesh, VIEWS, SIDE);
     let channels = (0..stored.channels).map(|c| {
-        let error = of_channel(mesh, file, &exact, &stored, &between, &views, c);
+        let error = of_channel(mesh, file, [&exact, &stored], (&between, &smooth), &views, c);
         progress.advance(1);
         error
     });
@@ -107,9 +108,8 @@ pub fn judge(mesh: &Mesh, file: &Transfer<'_>, progress: &dyn Progress) -> Resul
 fn of_channel(
     mesh: &Mesh,
     file: &Transfer<'_>,
-    exact: &Precomputed,
-    stored: &Precomputed,
-    between: &[[f32; 3]],
+    [exact, stored]: [&Precomputed; 2],
+    (between, smooth): (&[[f32; 3]], &[Vec<f32>]),
     views: &Views,
     c: usize,
 ) -> TransferError {
@@ -127,7 +127,6 @@ fn of_channel(
         decoded(&weights).iter().zip(&own).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>()
     };
     let squares: Vec<f64> = (0..lights).into_par_iter().map(square).collect();
-    let smooth = weights_of(file, between);
     let four: Vec<Vec<f32>> = between.iter().map(|towards| four_nearest(&stored.lights, *towards)).collect();
     let truth =
         |k: usize| -> Vec<f32> { of_places(exact.q.row(c * exact.light_count() + lights + k).transpose().as_slice()) };

@@ -158,7 +158,17 @@ impl Beam {
             }
             let face = if z < 0.0 { 0.0 } else { thickness };
             let cosine = f64::from(uz.abs()).min(1.0);
-            if f64::from(lanes.uniform(lane)) < fresnel::reflectance(self.eta, cosine) {
+            let reflected = fresnel::reflectance(self.eta, cosine);
+            let is_reflected = f64::from(lanes.uniform(lane)) < reflected;
+            if reflected >= 1.0 {
+                // Beyond the critical angle the rest of the hop goes to and fro at once: slabs may be much thinner than it.
+                let unfolded = z.rem_euclid(2.0 * thickness);
+                let is_back = unfolded > thickness;
+                lanes.position[2][lane] = if is_back { 2.0 * thickness - unfolded } else { unfolded };
+                lanes.direction[2][lane] = if is_back { -uz } else { uz };
+                return false;
+            }
+            if is_reflected {
                 // The rest of the hop, mirrored.
                 lanes.position[2][lane] = 2.0 * face - z;
                 lanes.direction[2][lane] = -uz;

@@ -51,10 +51,13 @@ impl Size {
     }
 }
 
+/// Least scale of a channel, for one in which no light leaves: the file's least.
+const LEAST_SCALE: f32 = 1e-12;
+
 /// q divided by the largest value of its channel, and these values.
 fn normalised(of: &Precomputed) -> (DMatrix<f32>, Vec<f32>) {
     let lights = of.light_count();
-    let scale = |c: usize| of.q.rows(c * lights, lights).amax().max(f32::MIN_POSITIVE);
+    let scale = |c: usize| of.q.rows(c * lights, lights).amax().max(LEAST_SCALE);
     let scales: Vec<f32> = (0..of.channels).map(scale).collect();
     let mut q = of.q.clone();
     for (c, scale) in scales.iter().enumerate() {

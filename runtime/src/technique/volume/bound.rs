@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::Mat4;
-use subsurf_shaders::uniform::{self, BlurStage};
+use subsurf_shaders::uniform::{self, BlurStage, LightSource, OWN_SHADOW};
 use wgpu::{BindGroup, BindingResource, Buffer, CommandEncoder};
 
 use super::TEXELS;
@@ -91,13 +91,17 @@ impl Volume {
         self.grid.map_or(self.sigmas_mm.len(), |grid| grid.first)
     }
 
-    /// Lays cells over the objects of a group and tells the passes where they are. All its lights have to be seen by
-    /// themselves: of others nothing would spread.
+    /// Lays cells over the objects of a group and tells the passes where they are. All lights that shine have to have views of their own:
+    /// of others nothing would spread.
     pub(crate) fn update(&mut self, gpu: &Gpu, group: &Group<'_>, pitch_mm: f32) {
         let scene = group.block;
         let lights = &scene.light[..scene.lights as usize];
-        let are_drawn = !lights.is_empty() && scene.drawn_shadows().count() == lights.len();
-        self.grid = are_drawn.then(|| Grid::new(group.extent(), &self.sigmas_mm, TEXELS)).flatten();
+        let has_light = |light: &&LightSource| light.irradiance != [0.0; 3];
+        let are_drawn = lights.iter().filter(has_light).all(|light| light.shadow == OWN_SHADOW);
+        let grid = Grid::new(group.extent(), &self.sigmas_mm, TEXELS);
+        // Where lights see less than a sample in a cell, dots would be seen.
+        let is_fine = |grid: &Grid| lights.iter().all(|light| light.texel_mm <= grid.cell_mm);
+        self.grid = grid.filter(|grid| are_drawn && !lights.is_empty() && is_fine(grid));
         let none = Grid::default();
         let grid = self.grid.as_ref().unwrap_or(&none);
         let mut block = uniform::Volume {
@@ -124,8 +128,9 @@ impl Volume {
         let mut before = None;
         for (stage, sigma_mm) in self.stages.iter().zip(&self.sigmas_mm).skip(grid.first) {
             let cells = sigma_mm / grid.cell_mm;
-            let sigma = before
-                .map_or(grid.first_sigma(*sigma_mm), |narrower: f32| (cells * cells - narrower * narrower).sqrt());
+            let sigma = before.map_or(grid.first_sigma(*sigma_mm), |narrower: f32| {
+                (cells * cells - narrower * narrower).max(1e-4).sqrt()
+            });
             // Three axes make exp(-r^2 / 2 sigma^2) / (2 pi)^(3/2) sigma^3 of light in a cell, 1/(2 pi sigma^2) is wanted.
             let gain = std::f32::consts::TAU.sqrt() * cells;
             let blocks = stage.flat.in_volume(gain, sigma, before.is_some());

@@ -8,8 +8,11 @@ const FINEST: f32 = 0.9;
 const COARSEST: f32 = 1.1;
 /// Variance of the splines by which light comes into the cells and is read from them, together, in cells squared.
 const OF_SPLINES: f32 = 0.5;
-/// How much coarser cells get until they fit.
-const STEP: f32 = 1.05;
+/// Sizes of cells that are tried between the two.
+const TRIES: usize = 5;
+/// Width of what the cells have around the box, in standard deviations of the widest Gaussian but one: what it spreads out there is
+/// what the widest brings back.
+const MARGIN: f32 = 1.25;
 
 /// Cells of a volume.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,7 +23,7 @@ pub(super) struct Grid {
     pub(super) origin_mm: Vec3,
     /// Edge of a cell in mm.
     pub(super) cell_mm: f32,
-    /// Number of cells along each axis, at least 4: one more than the box has on both sides.
+    /// Number of cells along each axis, at least 4: one at least more than the box has on both sides.
     pub(super) cells: IVec3,
     /// Slices of equal z in a row of the texture.
     pub(super) columns: i32,
@@ -34,17 +37,18 @@ impl Grid {
         if !extent.is_finite() {
             return None;
         }
+        let last = sigmas_mm.len().saturating_sub(1);
         sigmas_mm.iter().enumerate().skip(1).find_map(|(first, sigma_mm)| {
-            let mut cell_mm = FINEST * sigma_mm;
-            while cell_mm <= COARSEST * sigma_mm {
-                if let Some((cells, columns)) = fitting(extent / cell_mm, texels) {
-                    // In the middle of what the cells cover.
-                    let origin_mm = 0.5 * (low + high) - 0.5 * cell_mm * (cells - 1).as_vec3();
-                    return Some(Self { first, origin_mm, cell_mm, cells, columns });
-                }
-                cell_mm *= STEP;
-            }
-            None
+            (0..TRIES).find_map(|k| {
+                #[allow(clippy::cast_precision_loss, reason = "a handful")]
+                let cell_mm = sigma_mm * (FINEST + (COARSEST - FINEST) * k as f32 / (TRIES - 1) as f32);
+                let spread_mm = if first < last { sigmas_mm[last - 1] } else { 0.0 };
+                let margin = (MARGIN * spread_mm / cell_mm).round().max(1.0);
+                let (cells, columns) = fitting(extent / cell_mm, margin, texels)?;
+                // In the middle of what the cells cover.
+                let origin_mm = 0.5 * (low + high) - 0.5 * cell_mm * (cells - 1).as_vec3();
+                Some(Self { first, origin_mm, cell_mm, cells, columns })
+            })
         })
     }
 
@@ -61,10 +65,11 @@ impl Grid {
     }
 }
 
-/// Number of cells along each axis for a box of so many, and slices in a row of the texture; `None` if they do not fit.
-fn fitting(extent: Vec3, texels: [u32; 2]) -> Option<(IVec3, i32)> {
+/// Number of cells along each axis for a box of so many with a margin on both sides, and slices in a row of the texture; `None` if they
+/// do not fit.
+fn fitting(extent: Vec3, margin: f32, texels: [u32; 2]) -> Option<(IVec3, i32)> {
     let [width, height] = texels.map(|side| i32::try_from(side).unwrap_or(i32::MAX));
-    let cells = extent.ceil().as_ivec3().max(IVec3::ONE).saturating_add(IVec3::splat(3));
+    let cells = (extent.max(Vec3::ONE).ceil() + 2.0 * margin + 1.0).as_ivec3();
     let [columns, rows] = [width / cells.x, height / cells.y];
     (columns.saturating_mul(rows) >= cells.z).then_some((cells, columns))
 }
@@ -72,8 +77,7 @@ fn fitting(extent: Vec3, texels: [u32; 2]) -> Option<(IVec3, i32)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const TEXELS: [u32; 2] = [256, 192];
+    use crate::technique::volume::TEXELS;
 
     fn grid(extent: Vec3, sigmas_mm: &[f32]) -> Option<Grid> {
         Grid::new([-0.5 * extent, 0.5 * extent], sigmas_mm, TEXELS)
@@ -86,11 +90,20 @@ mod tests {
             let end = origin_mm + cell_mm * (cells - 1).as_vec3();
             assert!(origin_mm.cmple(-0.5 * extent + 1e-4).all() && end.cmpge(0.5 * extent - 1e-4).all(), "{extent}");
             let sigma_mm = [0.35, 0.98, 2.57][first];
-            assert!((FINEST * sigma_mm..=COARSEST * sigma_mm).contains(&cell_mm), "{extent}: {cell_mm}");
+            assert!((FINEST - 1e-4..=COARSEST + 1e-4).contains(&(cell_mm / sigma_mm)), "{extent}: {cell_mm}");
             let slices_before = cells.z - 1;
             let last = (cells.x * (slices_before % columns + 1), cells.y * (slices_before / columns + 1));
-            assert!(last.0 <= 256 && last.1 <= 192, "{extent}: {last:?}");
+            assert!(last.0 <= 256 && last.1 <= 256, "{extent}: {last:?}");
         }
+    }
+
+    #[test]
+    fn margins_hold_what_the_widest_gaussian_brings_back() {
+        let sigmas_mm = [0.3, 0.75, 1.9, 4.8];
+        let extent = Vec3::new(20.0, 20.0, 0.0);
+        let Grid { origin_mm, cell_mm, cells, .. } = grid(extent, &sigmas_mm).unwrap();
+        let end = origin_mm + cell_mm * (cells - 1).as_vec3();
+        assert!((end - 0.5 * extent).min_element() > 1.9 && (0.5 * -extent - origin_mm).min_element() > 1.9, "{cells}");
     }
 
     #[test]

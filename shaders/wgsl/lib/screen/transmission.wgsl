@@ -16,12 +16,13 @@ struct Transmission {
 // Texture coordinates on the patch.
 @group(1) @binding(4) var tsm_uvs: TargetTexture;
 
-// Remainder of c_l E of a plane that the light crosses, d mm behind it: sum over l and a of w_lma exp(-d^2 / 2 sigma_a^2) c_l E.
+// Remainder of c_l E of a plane that the light crosses, d mm behind it: sum over l and a of w_lma exp(-d^2 / 2 sigma_a^2) c_l E, but
+// for the Gaussians that spread in the light volume.
 fn attenuated(light: array<vec3<f32>, TERMS>, d: f32) -> array<vec3<f32>, TERMS> {
     // Only variables can be indexed by what is not constant.
     var entered = light;
     var left: array<vec3<f32>, TERMS>;
-    for (var a = 0u; a < transmission.gaussians; a++) {
+    for (var a = 0u; a < min(transmission.gaussians, volume.first); a++) {
         let sigma = transmission.weights[min(4u * a, 31u)].w;
         let share = exp(-0.5 * min(d * d / (sigma * sigma), 80.0));
         for (var l = 0u; l < TERMS; l++) {
@@ -33,9 +34,9 @@ fn attenuated(light: array<vec3<f32>, TERMS>, d: f32) -> array<vec3<f32>, TERMS>
     return left;
 }
 
-// Standard deviation of the widest Gaussian in mm.
+// Standard deviation of the widest of them in mm.
 fn widest_mm() -> f32 {
-    return transmission.weights[min(4u * (transmission.gaussians - 1u), 31u)].w;
+    return transmission.weights[min(4u * (min(transmission.gaussians, volume.first) - 1u), 31u)].w;
 }
 
 // Light of source i that enters d away along the light and reaches a position in mm, shape [m] (Dachsbacher and Stamminger

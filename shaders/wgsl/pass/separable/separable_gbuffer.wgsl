@@ -7,8 +7,9 @@ fn separable_gbuffer(in: Varying) -> MapsAndSums {
     let normal = normalize(in.normal);
     var c = basis_at(lookup_of(in));
     let depth = depth_of(in.position_mm);
-    // What comes from behind is in the light volume, where there is one.
     let is_spread = volume.first < transmission.gaussians;
+    // The narrowest Gaussian alone does not reach through anything.
+    let is_transmitted = !is_spread || volume.first > 1u;
     var e = vec3<f32>(0.0);
     var sums: array<vec4<f32>, TERMS>;
     for (var i = 0u; i < scene.lights; i++) {
@@ -19,7 +20,7 @@ fn separable_gbuffer(in: Varying) -> MapsAndSums {
         if share > 0.0 {
             e += from_light.irradiance * share * visibility(i, in.position_mm, normal);
         }
-        if facing_away > 0.0 && !is_spread {
+        if facing_away > 0.0 && is_transmitted {
             var from_behind = transmitted(i, in.position_mm, facing_away, c);
             for (var m = 0u; m < TERMS; m++) {
                 sums[m] += vec4<f32>(facing_away * from_behind[m], 0.0);

@@ -43,8 +43,8 @@ fn reach_of(source: LightSource, texel_mm: f32) -> vec2<f32> {
     return 0.5 * f32(scene.light_texels) * reach;
 }
 
-// Share in a cell of the light that enters at a texel of light i's view, c_l E, on a plane across its axis; by coefficients of a
-// mipmap level. `middle` is the depth of the cell.
+// Share in a cell of the light that enters at a texel of light i's view, c_l E times the area of the texel in mm^2; by coefficients
+// of a mipmap level. `middle` is the depth of the cell.
 fn sample_of(i: u32, of_tile: vec2<i32>, level: f32, cell: vec3<i32>, middle: f32) -> array<vec3<f32>, TERMS> {
     var light: array<vec3<f32>, TERMS>;
     let texel = tsm_texel(i, of_tile);
@@ -61,7 +61,9 @@ fn sample_of(i: u32, of_tile: vec2<i32>, level: f32, cell: vec3<i32>, middle: f3
     }
     let flux = unpack(textureLoad(tsm_fluxes, texel, 0));
     // Light that enters other groups does not come out of this one.
-    let e = flux.xyz * select(0.0, share, abs(flux.w - volume.group) < 0.5);
+    let source = scene.light[min(i, MAX_LIGHTS - 1u)];
+    let edge_mm = source.texel_mm * select(1.0, 1.0 + depth / source.middle_mm, source.is_local != 0u);
+    let e = flux.xyz * select(0.0, share * edge_mm * edge_mm, abs(flux.w - volume.group) < 0.5);
     let uv = unpack(textureLoad(tsm_uvs, texel, 0)).xy;
     for (var l = 0u; l < TERMS; l++) {
         light[l] = e * textureSampleLevel(layers, layer_sampler, uv, l, level).xyz;
@@ -78,24 +80,29 @@ fn fill_volume(@builtin(position) at: vec4<f32>) -> Maps {
     }
     let middle_mm = volume.origin_mm + volume.cell_mm * vec3<f32>(cell);
     for (var i = 0u; i < scene.lights; i++) {
-        // Every `stride`-th texel of the view is a sample.
+        // Samples to a side of the view, and texels from one to the next.
         let source = scene.light[min(i, MAX_LIGHTS - 1u)];
-        let stride = max(i32(round(volume.cell_mm / (SAMPLES * source.texel_mm))), 1);
-        let side = i32(scene.light_texels) / stride;
+        let texels = f32(scene.light_texels);
+        let side = ceil(clamp(texels * SAMPLES * source.texel_mm / volume.cell_mm, min(4.0, texels), texels));
+        let stride = texels / side;
         // The level that is about as coarse as samples.
-        let level = max(log2(f32(stride) * source.texel_mm / volume.pitch_mm), 0.0);
+        let level = max(log2(stride * source.texel_mm / volume.pitch_mm), 0.0);
         let coord = tsm_coord(i, middle_mm);
+        if coord.texel_mm <= 0.0 {
+            // Not before the light.
+            continue;
+        }
         // In samples.
-        let reach = reach_of(source, coord.texel_mm) / f32(stride);
-        let middle = coord.texel / f32(stride) - 0.5;
-        let first = max(vec2<i32>(ceil(middle - reach)), vec2<i32>(0));
-        let last = min(vec2<i32>(floor(middle + reach)), vec2<i32>(side - 1));
+        let reach = reach_of(source, coord.texel_mm) / stride;
+        let middle = coord.texel / stride - 0.5;
+        let first = vec2<i32>(ceil(clamp(middle - reach, vec2<f32>(0.0), vec2<f32>(side))));
+        let last = vec2<i32>(floor(clamp(middle + reach, vec2<f32>(-1.0), vec2<f32>(side - 1.0))));
         let depth = light_depth(i, middle_mm);
-        // dA in cells: as many texels as samples are apart.
-        let edge = coord.texel_mm * f32(stride) / volume.cell_mm;
+        // A sample stands for as many texels as samples are apart; in cells.
+        let edge = stride / volume.cell_mm;
         for (var y = first.y; y <= last.y; y++) {
             for (var x = first.x; x <= last.x; x++) {
-                let light = sample_of(i, vec2<i32>(x, y) * stride + stride / 2, level, cell, depth);
+                let light = sample_of(i, vec2<i32>((vec2<f32>(vec2<i32>(x, y)) + 0.5) * stride), level, cell, depth);
                 total[0] += vec4<f32>(edge * edge * light[0], 0.0);
                 total[TERMS - 1u] += vec4<f32>(select(0.0, edge * edge, TERMS > 1u) * light[TERMS - 1u], 0.0);
             }

@@ -76,6 +76,8 @@ impl SeparableFrame {
                 ("transmitted", 0, 1.0),
                 ("separable_gbuffer", 0, facing),
                 ("separable_gbuffer", 1, 1.0 - facing),
+                // Nothing spreads in a light volume, so that all is on the screen.
+                ("separable_gbuffer", 2, 0.0),
                 ("shaded", 0, facing),
             ],
         };

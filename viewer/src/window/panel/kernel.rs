@@ -56,7 +56,8 @@ fn row(ui: &mut Ui, name: &str, meaning: &str, values: &mut [f32; 3], range: Ran
     for value in values {
         // Slower where values are small.
         let speed = 0.01 * f64::from(value.max(0.05));
-        ui.add(DragValue::new(value).range(range.clone()).speed(speed).max_decimals(3));
+        // What a file has may lie beyond what can be dragged to.
+        ui.add(DragValue::new(value).range(range.clone()).clamp_existing_to_range(false).speed(speed).max_decimals(3));
     }
     ui.end_row();
 }
