@@ -54,6 +54,9 @@ impl BlurStage {
     }
 }
 
+/// Most taps to one side on the screen: `MOST_TAPS` of `domain_screen.wgsl`.
+pub const MOST_TAPS: f32 = 16.0;
+
 impl BlurStage {
     /// Blocks of this stage in a volume, along x, y and z: weights times `gain`, a standard deviation in cells, above 0.
     #[must_use]
@@ -73,12 +76,7 @@ impl BlurStage {
             ..*self
         })
     }
-}
 
-/// Most taps to one side on the screen: `MOST_TAPS` of `domain_screen.wgsl`.
-pub const MOST_TAPS: f32 = 16.0;
-
-impl BlurStage {
     /// Taps to each side on the screen where a pixel of the material covers so many texels: `taps_at` of `domain_screen.wgsl`.
     #[must_use]
     pub fn screen_taps(&self, texels_per_pixel: f32) -> u32 {

@@ -61,18 +61,10 @@ pub(super) fn run(options: &LoadOptions, file: &Path, images: &Path) -> anyhow::
     row("peak resident memory", &|storage| bytes_of(storage.peak_rss_bytes), size_of);
     row("of it before loading", &|storage| bytes_of(storage.baseline_rss_bytes), size_of);
     row("pipelines, once", &|storage| Some(storage.pipelines_us), micros);
-    type Step = (&'static str, fn(&Steps) -> f64);
-    let steps: [Step; 5] = [
-        ("read", |steps| steps.read),
-        ("parse", |steps| steps.parse),
-        ("upload", |steps| steps.upload),
-        ("first frame", |steps| steps.first_frame),
-        ("total", |steps| steps.total),
-    ];
-    for (name, of) in steps {
+    for (name, of) in Steps::UNPROJECTED {
         row(&format!("warm: {name}"), &|storage| Some(of(&storage.warm_us)), micros);
     }
-    for (name, of) in steps {
+    for (name, of) in Steps::UNPROJECTED {
         row(&format!("cold: {name}"), &|storage| storage.cold_us.as_ref().map(of), micros);
     }
     let cold = cold.map_or("-".to_owned(), |ratio| format!("{ratio:.0}"));

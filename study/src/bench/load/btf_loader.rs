@@ -49,9 +49,7 @@ impl<'a> BtfLoader<'a> {
         let bytes = std::fs::read(self.path)?;
         let read = clock.lap();
         if let Some(timer) = &self.timer {
-            let times = timer.load(&bytes)?;
-            let pipelines = 1e6 * (timer.compiled() + times.pipelines).as_secs_f64();
-            return Ok((Steps::of(read, &times), pipelines, times.gpu_bytes));
+            return Steps::timed(timer, &bytes, read);
         }
         // There is nothing to check in an array but its length.
         let btf = match self.layout {

@@ -83,9 +83,7 @@ impl<'a> FileLoader<'a> {
             _ => &bytes,
         };
         if let Some(timer) = &self.timer {
-            let times = timer.load(bytes)?;
-            let pipelines = 1e6 * (timer.compiled() + times.pipelines).as_secs_f64();
-            return Ok((Steps::of(read, &times), pipelines, times.gpu_bytes));
+            return Steps::timed(timer, bytes, read);
         }
         let mut clock = Clock::new();
         let material = if self.layout == MaterialLayout::Capture { None } else { Some(parse(self.path, bytes)?) };

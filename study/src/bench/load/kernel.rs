@@ -34,9 +34,7 @@ impl<'a> KernelLoader<'a> {
         let bytes = std::fs::read(self.path)?;
         let read = clock.lap();
         if let Some(timer) = &self.timer {
-            let times = timer.load(&bytes)?;
-            let pipelines = 1e6 * (timer.compiled() + times.pipelines).as_secs_f64();
-            return Ok((Steps::of(read, &times), pipelines, times.gpu_bytes));
+            return Steps::timed(timer, &bytes, read);
         }
         std::hint::black_box(Kernel::parse(&bytes)?);
         Ok((Steps::by_cpu(read, clock.lap(), 0.0), 0.0, 0))
@@ -68,18 +66,10 @@ pub(super) fn run(options: &LoadOptions, files: &[PathBuf]) -> anyhow::Result<()
     row("file", &|storage| human(storage.bytes));
     row("on the device", &|storage| human(storage.gpu_bytes));
     row("pipelines, once", &|storage| micros(storage.pipelines_us));
-    type Step = (&'static str, fn(&Steps) -> f64);
-    let steps: [Step; 5] = [
-        ("read", |steps| steps.read),
-        ("parse", |steps| steps.parse),
-        ("upload", |steps| steps.upload),
-        ("first frame", |steps| steps.first_frame),
-        ("total", |steps| steps.total),
-    ];
-    for (name, of) in steps {
+    for (name, of) in Steps::UNPROJECTED {
         row(&format!("warm: {name}"), &|storage| micros(of(&storage.warm_us)));
     }
-    for (name, of) in steps {
+    for (name, of) in Steps::UNPROJECTED {
         let cold = |storage: &Storage| storage.cold_us.as_ref().map_or("-".to_owned(), |steps| micros(of(steps)));
         row(&format!("cold: {name}"), &cold);
     }

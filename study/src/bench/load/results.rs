@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use subsurf_runtime::LoadTimes;
+use subsurf_runtime::{LoadTimer, LoadTimes};
 
 use crate::bench::timing::median;
 
@@ -27,7 +27,27 @@ pub(super) struct Steps {
     pub(super) total: f64,
 }
 
+/// A step: what tables call it, and its time.
+pub(super) type Step = (&'static str, fn(&Steps) -> f64);
+
 impl Steps {
+    /// Steps of materials of which nothing is projected, and all of them together.
+    pub(super) const UNPROJECTED: [Step; 5] = [
+        ("read", |steps| steps.read),
+        ("parse", |steps| steps.parse),
+        ("upload", |steps| steps.upload),
+        ("first frame", |steps| steps.first_frame),
+        ("total", |steps| steps.total),
+    ];
+
+    /// Loads a file on a device after so many microseconds of reading: its steps, microseconds of pipelines that were compiled before
+    /// it or in it, the material's bytes on the device.
+    pub(super) fn timed(timer: &LoadTimer<'_>, bytes: &[u8], read: f64) -> anyhow::Result<(Self, f64, u64)> {
+        let times = timer.load(bytes)?;
+        let pipelines = 1e6 * (timer.compiled() + times.pipelines).as_secs_f64();
+        Ok((Self::of(read, &times), pipelines, times.gpu_bytes))
+    }
+
     /// Steps of a load on a device, after so many microseconds of reading.
     pub(super) fn of(read: f64, times: &LoadTimes) -> Self {
         let LoadTimes { parse, upload, projection, recording, first_frame, .. } = *times;
