@@ -69,7 +69,7 @@ fn converges_where_media_meet() {
     // Neighbouring squares of the chessboard, no closed form: the usual grid against twice and four times as fine.
     let board = BuiltinMaterial::Chessboard.map([64, 64], Addressing::Repeat, 1);
     let cut = |x: usize| board.media[8 * 64 + x];
-    let map = MediumMap { size: [8, 1], media: (6..14).map(cut).collect() };
+    let map = MediumMap { size: [4, 1], media: (6..10).map(cut).collect() };
     let at = |refine| measure(&slab(&map, 4, refine)).0;
     let finest = at(4.0);
     let error = |coarse: &[f32]| {

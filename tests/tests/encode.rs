@@ -13,7 +13,7 @@ use subsurf_tests::{open, write_capture};
 #[test]
 fn bytes_do_not_depend_on_threads() {
     let folder = tempfile::tempdir().unwrap();
-    let full = capture_of_bmpp(folder.path(), [30, 27], 3, Addressing::Clamp);
+    let full = capture_of_bmpp(folder.path(), [20, 17], 3, Addressing::Clamp);
     let holes = with_holes(folder.path(), &full, |_| 0.0);
     for path in [&full, &holes] {
         for kind in kinds() {
@@ -89,7 +89,7 @@ impl Progress for Impatient {
 #[test]
 fn a_fit_that_is_cut_short_is_a_fit() {
     let folder = tempfile::tempdir().unwrap();
-    let path = capture_of_bmpp(folder.path(), [26, 20], 4, Addressing::Clamp);
+    let path = capture_of_bmpp(folder.path(), [26, 20], 3, Addressing::Clamp);
     for kind in kinds() {
         let (whole, _) = quality(&path, &fit(&path, kind, 24).bytes);
         for patience in [1, 600, 750] {

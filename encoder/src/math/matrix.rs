@@ -1,4 +1,4 @@
-//! Products of large matrices.
+//! Products of large matrices, and orthonormal bases.
 
 use crate::math::parallel;
 use nalgebra::DMatrix;
@@ -15,4 +15,21 @@ pub(crate) fn product(left: &DMatrix<f32>, right: &DMatrix<f32>) -> DMatrix<f32>
         out.copy_from_slice(part.as_slice());
     });
     out
+}
+
+/// Orthonormal columns that span the same space, by Cholesky QR, twice.
+pub(crate) fn orthonormal(matrix: DMatrix<f32>) -> DMatrix<f32> {
+    // Twice: what Cholesky's factor leaves over in single precision, its second use removes.
+    cholesky_qr(&cholesky_qr(&matrix))
+}
+
+fn cholesky_qr(matrix: &DMatrix<f32>) -> DMatrix<f32> {
+    // Double precision: the leading component is many times as long as the last.
+    let double = matrix.map(f64::from);
+    let gram = double.tr_mul(&double);
+    // Columns that depend on others get a little of their own, rather than none.
+    let ridge = DMatrix::identity(gram.ncols(), gram.ncols()) * (gram.trace().max(1e-30) * 1e-13);
+    let upper = (gram + ridge).cholesky().expect("it is positive: a ridge was added").l().transpose();
+    let inverse = upper.try_inverse().expect("its diagonal is positive").cast::<f32>();
+    matrix * inverse
 }

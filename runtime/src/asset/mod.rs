@@ -24,6 +24,6 @@ pub use mesh::{GpuMesh, VertexData};
 pub(crate) use mesh::{TANGENTS, VERTICES};
 pub(crate) use patch_layers::PatchLayers;
 pub use points::GpuPoints;
-pub(crate) use points::LitBy;
+pub(crate) use points::{LitBy, tiled_size};
 pub use separable::SeparableMaterial;
 pub use splat::SplatMaterial;

@@ -3,7 +3,7 @@
 use std::sync::Mutex;
 
 use subsurf_scene::SurfacePoints;
-use subsurf_shaders::uniform;
+use subsurf_shaders::uniform::{self, ROW};
 use wgpu::{Buffer, TextureFormat};
 
 use super::mesh::GpuMesh;
@@ -39,11 +39,8 @@ impl GpuPoints {
         let table = |label, len, format, bytes: &[u8]| {
             gpu.filled(&TextureSpec { purpose, ..TextureSpec::array(label, len, format) }, bytes)
         };
-        let target = |label| {
-            gpu.texture(&TextureSpec {
-                purpose,
-                ..TextureSpec::target(label, array_size(surface.len()), gpu.target_texture_format())
-            })
+        let target = |label, size| {
+            gpu.texture(&TextureSpec { purpose, ..TextureSpec::target(label, size, gpu.target_texture_format()) })
         };
         let count = surface.len();
         let float = TextureFormat::Rgba32Float;
@@ -63,8 +60,8 @@ impl GpuPoints {
                 TextureFormat::R32Uint,
                 bytemuck::cast_slice(&surface.cell_starts),
             )?,
-            irradiance: target("irradiance")?,
-            exitance: target("exitance")?,
+            irradiance: target("irradiance", array_size(count))?,
+            exitance: target("exitance", tiled_size(count))?,
             count,
             lit_by: Mutex::new(None),
         })
@@ -84,8 +81,25 @@ impl GpuPoints {
     /// # Errors
     /// [`Error::Device`] if the device is lost.
     pub fn read(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>> {
-        let mut texels = gpu.read_rgb(&self.exitance.texture)?;
-        texels.truncate(self.count);
-        Ok(texels)
+        let texels = gpu.read_rgb(&self.exitance.texture)?;
+        let width = tiled_size(self.count)[0] as usize;
+        let side = TILE as usize;
+        let at = |point: usize| {
+            let (tile, within) = (point / (side * side), point % (side * side));
+            let tiles = width / side;
+            let [x, y] = [tile % tiles * side + within % side, tile / tiles * side + within / side];
+            texels[y * width + x]
+        };
+        Ok((0..self.count).map(at).collect())
     }
+}
+
+/// Texels to a side of the tiles in which the gather has points that follow each other.
+const TILE: u32 = 8;
+
+/// Width and height in texels of points in tiles; a row of tiles is as wide as a row of an array.
+pub(crate) fn tiled_size(len: usize) -> [u32; 2] {
+    let tiles = u32::try_from(len).unwrap_or(u32::MAX).div_ceil(TILE * TILE).max(1);
+    let in_row = ROW / TILE;
+    [tiles.min(in_row) * TILE, tiles.div_ceil(in_row) * TILE]
 }

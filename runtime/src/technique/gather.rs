@@ -10,7 +10,7 @@ use wgpu::{BindGroup, BindingResource};
 use super::bindings::{Bindings, Group};
 use super::common::Common;
 use super::mesh_pass::MeshPass;
-use crate::asset::{GatherMaterial, LitBy};
+use crate::asset::{GatherMaterial, LitBy, tiled_size};
 use crate::error::Result;
 use crate::frame::RuntimeOptions;
 use crate::gpu::{FullscreenPass, Gpu, Rows, array_size};
@@ -98,12 +98,12 @@ impl Bindings for Bound {
             return Ok(());
         }
         *known = None;
-        let size = array_size(points.count);
         let [scene, of_points] = &self.irradiance;
         let object = Some((objects, placed.offset));
-        self.passes.irradiance.draw_for(gpu, &points.irradiance.view, &[scene, of_points], object, Rows::all(size))?;
+        let of_irradiance = Rows::all(array_size(points.count));
+        self.passes.irradiance.draw_for(gpu, &points.irradiance.view, &[scene, of_points], object, of_irradiance)?;
         let [material, of_points] = &self.gather;
-        for rows in Rows::bands(size, u64::from(ROW) * NEIGHBOURS) {
+        for rows in Rows::bands(tiled_size(points.count), u64::from(ROW) * NEIGHBOURS) {
             self.passes.gather.draw(gpu, &points.exitance.view, &[material, of_points], rows)?;
         }
         *known = Some(lit_by);

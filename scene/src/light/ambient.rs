@@ -17,6 +17,9 @@ const LONGEST_EDGE: f32 = 1.5;
 /// Number of vertices to a square pixel of the material that is enough.
 const DENSITY: f32 = 1.5;
 
+/// Parts of the radius at which a profile is looked up; it is linear between them.
+const PARTS: u16 = 4_096;
+
 /// Parts of the radius of a kernel that count as pixels of a material.
 const KERNEL_PIXELS: f32 = 16.0;
 
@@ -66,7 +69,8 @@ impl AmbientTransfer {
         for (number, sample) in samples.iter().enumerate() {
             cells.entry(cell_of(sample.position_mm)).or_default().push(number);
         }
-        let flat = flat(&profile, r_max_mm);
+        let profile = Profile::new(profile, r_max_mm);
+        let flat = profile.flat();
         let share = |(position, normal): (&Vec3, &Vec3)| {
             let [mut front, mut back] = [[0.0; 3]; 2];
             let cell = cell_of(*position);
@@ -74,9 +78,9 @@ impl AmbientTransfer {
                 for &number in cells.get(&(cell + IVec3::new(x, y, z))).into_iter().flatten() {
                     let sample = &samples[number];
                     let r_mm = sample.position_mm.distance(*position);
-                    if r_mm <= r_max_mm {
+                    if r_mm < r_max_mm {
                         let sum = if sample.normal.dot(*normal) >= 0.0 { &mut front } else { &mut back };
-                        let reflectance = profile(r_mm);
+                        let reflectance = profile.at(r_mm);
                         for c in 0..3 {
                             sum[c] += reflectance[c] * sample.area_mm2 / flat[c];
                         }
@@ -107,15 +111,39 @@ fn samples(mesh: Mesh, pitch_mm: f32) -> Vec<Sample> {
     vertices.step_by(stride).map(sample).collect()
 }
 
-/// Exitance of flat ground, 2π ∫ R(r) r dr, by the midpoint rule.
-fn flat(profile: impl Fn(f32) -> [f32; 3], r_max_mm: f32) -> [f32; 3] {
-    const STEPS: u16 = 2_048;
-    let step = r_max_mm / f32::from(STEPS);
-    let ring = |k: u16| {
-        let r_mm = (f32::from(k) + 0.5) * step;
-        profile(r_mm).map(|value| value * std::f32::consts::TAU * r_mm * step)
-    };
-    (0..STEPS).map(ring).fold([1e-12; 3], |sum, ring| [0, 1, 2].map(|c| sum[c] + ring[c]))
+/// Table of a profile R(r) in mm⁻², linear Rec. 709, at equal steps of r: a mesh asks for millions of values.
+struct Profile {
+    nodes: Vec<[f32; 3]>,
+    step_mm: f32,
+}
+
+impl Profile {
+    fn new(profile: impl Fn(f32) -> [f32; 3], r_max_mm: f32) -> Self {
+        let step_mm = r_max_mm / f32::from(PARTS);
+        // The last is where the profile ends, not 0: the one before leads there.
+        let nodes = (0..=PARTS).map(|k| profile((f32::from(k) * step_mm).min(r_max_mm))).collect();
+        Self { nodes, step_mm }
+    }
+
+    /// Value at 0 ≤ r < r_max.
+    fn at(&self, r_mm: f32) -> [f32; 3] {
+        let position = r_mm / self.step_mm;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the nodes")]
+        let k = (position as usize).min(self.nodes.len() - 2);
+        #[allow(clippy::cast_precision_loss, reason = "few nodes")]
+        let w = position - k as f32;
+        let [low, high] = [&self.nodes[k], &self.nodes[k + 1]];
+        [0, 1, 2].map(|c| low[c] + w * (high[c] - low[c]))
+    }
+
+    /// Exitance of flat ground, 2π ∫ R(r) r dr, by the midpoint rule.
+    fn flat(&self) -> [f32; 3] {
+        let ring = |k: u16| {
+            let r_mm = (f32::from(k) + 0.5) * self.step_mm;
+            self.at(r_mm).map(|value| value * std::f32::consts::TAU * r_mm * self.step_mm)
+        };
+        (0..PARTS).map(ring).fold([1e-12; 3], |sum, ring| [0, 1, 2].map(|c| sum[c] + ring[c]))
+    }
 }
 
 /// Steps to the cells at most `reach` away along each axis.

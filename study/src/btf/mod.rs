@@ -29,7 +29,7 @@ use crate::page::duration;
 /// vector quantisation, PCA and local PCA at equal bytes.
 ///
 /// Writes DIR/btf.html, a page with tables and pictures that needs nothing beside it, and DIR/btf.csv. Images, files and
-/// judgements are kept in DIR: a study that was interrupted goes on where it was. Four pieces of each material, and all
+/// judgements are kept in DIR: a study that was interrupted goes on where it was. Several pieces of each material, and all
 /// materials, are also put into one file. At 128 × 128 texels a material takes about a quarter of an hour on two cores,
 /// and 1.3 GB on disk.
 #[derive(clap::Args)]
@@ -42,6 +42,9 @@ pub(crate) struct Args {
     /// Pixels of the images in x and in y
     #[arg(long, default_value_t = 128, value_name = "PIXELS")]
     size: u32,
+    /// Pieces of each material that share a file; 1 leaves it out
+    #[arg(long, default_value_t = 4, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=16))]
+    pieces: u64,
     /// Judge by every so many pairs of directions; 1 is all 6,561
     #[arg(long, default_value_t = 1, value_name = "N")]
     every: usize,
@@ -84,7 +87,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             }
         }
     }
-    let mut sets: Vec<Set> = samples.iter().map(|sample| Set::family(*sample)).collect();
+    let mut sets = Vec::new();
+    if args.pieces > 1 {
+        sets.extend(samples.iter().map(|sample| Set::family(*sample, args.pieces)));
+    }
     if samples.len() > 1 {
         sets.push(Set::all(&samples));
     }

@@ -40,9 +40,6 @@ pub(super) struct Set {
     pub(super) members: Vec<Member>,
 }
 
-/// Number of members of a family.
-const FAMILY: u64 = 4;
-
 impl Set {
     /// All materials, which have little in common.
     pub(super) fn all(samples: &[Sample]) -> Self {
@@ -51,9 +48,9 @@ impl Set {
     }
 
     /// Pieces of one material, no two of which show the same.
-    pub(super) fn family(sample: Sample) -> Self {
-        let members = (SEED..SEED + FAMILY).map(|seed| Member { sample, seed }).collect();
-        Self { label: sample.name().to_owned(), title: format!("{FAMILY} pieces of {}", sample.name()), members }
+    pub(super) fn family(sample: Sample, pieces: u64) -> Self {
+        let members = (SEED..SEED + pieces).map(|seed| Member { sample, seed }).collect();
+        Self { label: sample.name().to_owned(), title: format!("{pieces} pieces of {}", sample.name()), members }
     }
 }
 

@@ -6,7 +6,7 @@ use crate::common::{assert_refused, files, run, succeed};
 fn a_study_of_btfs_is_one_page_too() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let command = "btf out --size 16 --every 400 --materials leather,foil";
+    let command = "btf out --size 16 --every 400 --materials leather,foil --pieces 1";
     let first = succeed(folder, command);
     assert!(first.out.contains("simulating leather") && first.out.contains("shared, P4"), "{}", first.out);
     assert_eq!(files(&folder.join("out")), ["btf.csv", "btf.html", "files", "images", "pictures"]);

@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 use super::KMeans;
-use crate::math::eigen::Eigen;
+use crate::math::eigen;
 use crate::math::matrix::product;
 use crate::math::parallel;
 
@@ -195,7 +195,7 @@ fn leading_axes(vectors: &DMatrix<f32>, weights: &[f32]) -> DMatrix<f32> {
     let shares =
         parallel::map(shares.len(), |k| shares[k].iter().map(gram).reduce(|a, b| a + b).expect("no share is empty"));
     let gram = shares.into_iter().reduce(|a, b| a + b).expect("there are vectors");
-    Eigen::of(gram).leading(REDUCED)
+    eigen::leading_axes(gram, REDUCED)
 }
 
 #[cfg(test)]

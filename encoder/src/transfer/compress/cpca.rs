@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::Size;
-use crate::math::eigen::Eigen;
+use crate::math::eigen::leading_axes;
 use crate::math::k_means::KMeans;
 use crate::math::k_means::euclidean::Euclidean;
 use crate::math::matrix::product;
@@ -57,7 +57,7 @@ impl Rotated {
         let starts: Vec<usize> = (0..centred.ncols()).step_by(SAMPLE).collect();
         let parts: Vec<DMatrix<f32>> = starts.par_iter().map(|first| part(*first)).collect();
         let zero = DMatrix::zeros(matrix.nrows(), matrix.nrows());
-        let axes = Eigen::of(parts.iter().fold(zero, |sum, part| sum + part)).leading(DIMENSIONS);
+        let axes = leading_axes(parts.iter().fold(zero, |sum, part| sum + part), DIMENSIONS);
         let columns = product(&axes.transpose(), &centred);
         Self { mean, axes, columns }
     }

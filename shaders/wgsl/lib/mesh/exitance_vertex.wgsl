@@ -7,7 +7,10 @@
 
 // Exitance at a point, by its number.
 fn point_exitance(point: u32) -> vec3<f32> {
-    let texel = min(vec2<u32>(point % scene.row, point / scene.row), textureDimensions(exitances) - 1u);
+    // Points that follow each other share tiles of 8 x 8 texels.
+    let tiles = scene.row / 8u;
+    let tile = vec2<u32>(point / 64u % tiles, point / 64u / tiles);
+    let texel = min(8u * tile + vec2<u32>(point % 8u, point / 8u % 8u), textureDimensions(exitances) - 1u);
     return unpack(textureLoad(exitances, texel, 0)).xyz;
 }
 
