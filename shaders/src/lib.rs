@@ -4,7 +4,7 @@
 //!   the parts that its first line names, files under `wgsl/lib/` and `wgsl/material/`.
 //! - [`uniform`]: uniform blocks, laid out as in WGSL.
 //! - [`separable`]: what the separable passes draw, the basis of a material, with the coefficients of every pixel for the CPU.
-//! - [`cpu`] (the gathers, on all cores, with the feature `gather`): a pass `wgsl/pass/…/NAME.wgsl` has a twin `cpu/NAME.rs` that gives the same numbers, but for these:
+//! - [`cpu`] (the gathers, on all cores, with the feature `gather`; of files of transfer, with the feature `transfer`): a pass `wgsl/pass/…/NAME.wgsl` has a twin `cpu/NAME.rs` that gives the same numbers, but for these:
 //!
 //! * `blur_patch_first`, `blur_patch`, `sum_patch`, `blur_patch_last`: stages of one sum, which
 //!   [`separable::ProjectedBasis::exitance`] computes as a whole.
@@ -21,8 +21,12 @@ mod mean_kernel;
 pub mod passes;
 mod rgb;
 pub mod separable;
+#[cfg(feature = "transfer")]
+mod transfer;
 pub mod uniform;
 
 pub use mean_kernel::{mean_kernel, softening_gain};
 pub use passes::{BtfLayout, MaterialLayout, TargetFormat};
 pub use rgb::Rgb;
+#[cfg(feature = "transfer")]
+pub use transfer::TransferLight;

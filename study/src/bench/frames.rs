@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use subsurf_cli::options::Size;
 use subsurf_cli::outln;
 use subsurf_cli::program::failure::bad_request;
-use subsurf_decoder::{Bssrdf, Kernel};
+use subsurf_decoder::{Bssrdf, Kernel, Transfer};
 use subsurf_encoder::baseline::song2009::per_pixel_of;
 use subsurf_runtime::{Backend, Gpu};
 use subsurf_scene::{AmbientTransfer, Mesh, relief};
@@ -61,6 +61,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         all.extend(match &material {
             DrawnMaterial::Bssrdf(material) => bssrdf_frames(args, material, name, mesh)?,
             DrawnMaterial::Kernel(kernel) => kernel_frames(args, kernel, name, mesh)?,
+            DrawnMaterial::Transfer(transfer) => transfer_frames(args, transfer, name, mesh)?,
             DrawnMaterial::Btf(_) => return Err(bad_request("a BTF, whose frames `bench btf` times")),
         });
     }
@@ -107,6 +108,16 @@ fn kernel_frames(args: &Args, kernel: &Kernel<'_>, name: &str, mesh: &Mesh) -> a
     for (backend, gpu) in &to_compare() {
         let mut cases = [BenchCase::new(gpu, || GpuAsset::kernel(gpu, mesh, kernel, &sky), mesh, args.size.0)?];
         all.extend(timed(args, (*backend, gpu), &mut cases, &["kernel"], (name, mesh))?);
+    }
+    Ok(all)
+}
+
+/// Frames of a mesh whose scattering is precomputed.
+fn transfer_frames(args: &Args, transfer: &Transfer<'_>, name: &str, mesh: &Mesh) -> anyhow::Result<Vec<Value>> {
+    let mut all = Vec::new();
+    for (backend, gpu) in &to_compare() {
+        let mut cases = [BenchCase::new(gpu, || GpuAsset::transfer(gpu, mesh, transfer), mesh, args.size.0)?];
+        all.extend(timed(args, (*backend, gpu), &mut cases, &["transfer"], (name, mesh))?);
     }
     Ok(all)
 }

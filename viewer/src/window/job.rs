@@ -136,7 +136,7 @@ impl Job {
                 let sky = AmbientTransfer::of_kernel(&self.mesh, &kernel)?;
                 Ok(Computed::Kernel { made, sky })
             }
-            (DrawnMaterial::Bssrdf(_) | DrawnMaterial::Kernel(_), mode) => {
+            (DrawnMaterial::Bssrdf(_) | DrawnMaterial::Kernel(_) | DrawnMaterial::Transfer(_), mode) => {
                 Err(Error::Request(format!("{} is not drawn in the way {mode:?}", self.material.name())))
             }
         }

@@ -1,0 +1,32 @@
+//! Row of the pass of what is precomputed for vertices.
+
+use super::binding::Binding::{Float, Uint, Uniform};
+use super::file::wgsl;
+use super::pass::{Group, Part, Pass};
+use super::table::{
+    COAT, DISPLAY, FRESNEL, HOST_SHADOW, LIT, OBJECT, OF_HOST, OF_OBJECT, SCENE, SHADING, TONE, TSM_VISIBILITY, VERTEX,
+    VISIBILITIES, shaded,
+};
+
+const TRANSFER_VERTEX: Part = Part::File(wgsl!("lib/mesh/transfer_vertex"));
+
+/// Picture of a mesh from what is precomputed for its vertices.
+pub static SHADE_TRANSFER: Pass = shaded(
+    wgsl!("pass/transfer/shade_transfer"),
+    &[
+        Part::TargetFormat,
+        TONE,
+        DISPLAY,
+        FRESNEL,
+        OBJECT,
+        SCENE,
+        COAT,
+        HOST_SHADOW,
+        TSM_VISIBILITY,
+        VISIBILITIES,
+        TRANSFER_VERTEX,
+        VERTEX,
+        SHADING,
+    ],
+    &[LIT, Group::Fixed(&[Uniform, Uint, Float]), OF_OBJECT, OF_HOST],
+);
