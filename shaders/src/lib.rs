@@ -8,7 +8,7 @@
 //!
 //! * `blur_patch_first`, `blur_patch`, `sum_patch`, `blur_patch_last`: stages of one sum, which
 //!   [`separable::ProjectedBasis::exitance`] computes as a whole.
-//! * `homogeneous`, `copy`: baselines that are timed, not looked at.
+//! * `homogeneous`, `copy`, `shade_coat`: baselines that are timed, not looked at.
 //! * `btf_query`: its twin is the decoder.
 //! * `tsm_render`, `tsm_reduce`, `surface_gbuffer`, `splat`, `splat_resolve`, `shade_splat`: they approximate what
 //!   [`cpu::surface_gather`] computes exactly, from what lights and the camera see; their pictures are held to its pictures.

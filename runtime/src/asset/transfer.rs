@@ -27,6 +27,9 @@ pub struct TransferMaterial {
     ranges: Vec<f32>,
     means: Vec<u16>,
     bases: Vec<i8>,
+    /// Whether only its coat is drawn.
+    #[cfg(feature = "reference")]
+    pub(crate) is_bare: bool,
     /// What weights between the lights are made of; none until it is prepared.
     between: OnceLock<Vec<f32>>,
 }
@@ -58,6 +61,8 @@ impl TransferMaterial {
             ranges: transfer.ranges().iter().collect(),
             means: transfer.means().iter().collect(),
             bases: transfer.bases().iter().map(|value| value.cast_signed()).collect(),
+            #[cfg(feature = "reference")]
+            is_bare: false,
             between: OnceLock::new(),
         };
         Ok((material, fills))
@@ -74,6 +79,13 @@ impl TransferMaterial {
         }
         self.between.get_or_init(|| buffer);
         Ok(())
+    }
+
+    /// The same without its scattered light, which it is timed against.
+    #[cfg(feature = "reference")]
+    #[must_use]
+    pub fn bare(self) -> Self {
+        Self { is_bare: true, ..self }
     }
 
     /// Header of the file: sizes, units, and the mesh that it belongs to.

@@ -19,6 +19,9 @@ use crate::gpu::{Gpu, Purpose, Surface2d, TextureSpec};
 #[derive(Debug)]
 pub(crate) struct Passes {
     shade: MeshPass,
+    /// What is left without scattered light, for benchmarks.
+    #[cfg(feature = "reference")]
+    coat: MeshPass,
 }
 
 /// Bind group of one material, and the table of the light that it was last lit by.
@@ -44,15 +47,35 @@ pub(crate) fn bytes_of(material: &TransferMaterial) -> u64 {
 
 impl Passes {
     pub(crate) fn new(gpu: &Gpu, options: &RuntimeOptions) -> Result<Self> {
-        Ok(Self { shade: MeshPass::picture(gpu, transfer::SHADE_TRANSFER.only(), options)? })
+        Ok(Self {
+            shade: MeshPass::picture(gpu, transfer::SHADE_TRANSFER.only(), options)?,
+            #[cfg(feature = "reference")]
+            coat: MeshPass::picture(gpu, transfer::SHADE_COAT.only(), options)?,
+        })
+    }
+
+    /// Pass that draws a material.
+    #[cfg_attr(not(feature = "reference"), allow(clippy::unused_self, reason = "there is one"))]
+    fn of(&self, material: &TransferMaterial) -> &MeshPass {
+        #[cfg(feature = "reference")]
+        if material.is_bare {
+            return &self.coat;
+        }
+        let _ = material;
+        &self.shade
     }
 
     /// Binds a material, with a table of its own.
     pub(crate) fn bind(self: &Arc<Self>, gpu: &Gpu, material: &Arc<TransferMaterial>) -> Result<Box<dyn Bindings>> {
         let table = gpu.texture(&table_spec(material))?;
         let [block, codes] = material.resources();
+        let of_shade = [block, codes, BindingResource::TextureView(&table.view)];
+        #[cfg(feature = "reference")]
+        let of_shade = if material.is_bare { &[] } else { &of_shade[..] };
+        #[cfg(not(feature = "reference"))]
+        let of_shade = &of_shade;
         Ok(Box::new(Bound {
-            shade: self.shade.bind(gpu, 1, &[block, codes, BindingResource::TextureView(&table.view)])?,
+            shade: self.of(material).bind(gpu, 1, of_shade)?,
             passes: self.clone(),
             material: material.clone(),
             table,
@@ -64,6 +87,10 @@ impl Passes {
 impl Bindings for Bound {
     /// Makes the table of the light on the mesh, unless it is known already.
     fn update(&mut self, gpu: &Gpu, group: &Group<'_>) {
+        #[cfg(feature = "reference")]
+        if self.material.is_bare {
+            return;
+        }
         let mut of_group = group.input.objects.iter().zip(group.placed).filter(|(_, placed)| placed.slot == group.slot);
         let Some((object, _)) = of_group.next() else {
             return;
@@ -81,6 +108,6 @@ impl Bindings for Bound {
     }
 
     fn shade(&self) -> (&MeshPass, &BindGroup) {
-        (&self.passes.shade, &self.shade)
+        (self.passes.of(&self.material), &self.shade)
     }
 }

@@ -4,7 +4,7 @@ use super::pass::Pass;
 use super::{kernel, linsss, table, transfer, volume};
 
 /// All passes.
-pub static ALL: [&Pass; 39] = [
+pub static ALL: [&Pass; 40] = [
     &table::GATHER,
     &table::PRESENT,
     &table::HOMOGENEOUS,
@@ -37,6 +37,7 @@ pub static ALL: [&Pass; 39] = [
     &kernel::SHADE_KERNEL,
     &kernel::COPY,
     &transfer::SHADE_TRANSFER,
+    &transfer::SHADE_COAT,
     &linsss::LINSSS_GBUFFER,
     &linsss::LINSSS_BLUR,
     &linsss::LINSSS_REDUCE,
