@@ -29,4 +29,4 @@ pub use mean_kernel::{mean_kernel, softening_gain};
 pub use passes::{BtfLayout, MaterialLayout, TargetFormat};
 pub use rgb::Rgb;
 #[cfg(feature = "transfer")]
-pub use transfer::TransferLight;
+pub use transfer::{TransferLight, transfer_tint};

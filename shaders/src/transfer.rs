@@ -3,6 +3,7 @@
 use std::f32::consts::PI;
 
 use glam::{Mat4, Vec3};
+use subsurf_decoder::Transfer;
 use subsurf_decoder::container::bytes::F32Le;
 use subsurf_decoder::transfer::LightWeights;
 
@@ -12,6 +13,15 @@ use crate::uniform::Scene;
 
 /// Roughness of the mirror in which each light of a file sees its part of the environment: of 200 lights each has a circle of 8°.
 const SKY_ROUGHNESS: f32 = 0.4;
+
+/// What each channel of a file of one channel is multiplied by, from the reflectance T(0) of its profile; 1 of three channels (`FORMAT.md`,
+/// section 7.2).
+#[must_use]
+pub fn transfer_tint(transfer: &Transfer<'_>) -> Rgb {
+    let reflectance = [0, 1, 2].map(|c| transfer.tail().get(c).unwrap_or(0.0));
+    let mean = reflectance.iter().sum::<f32>() / 3.0;
+    if transfer.header().channels == 1 && mean > 0.0 { reflectance.map(|own| own / mean) } else { [1.0; 3] }
+}
 
 /// Light that falls on a mesh, in the mesh's coordinates; linear Rec. 709.
 #[derive(Clone, Debug, Default, PartialEq)]

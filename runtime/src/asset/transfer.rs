@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use subsurf_decoder::Transfer;
 use subsurf_decoder::container::bytes::F32Le;
 use subsurf_decoder::transfer::{LightWeights, TransferHeader};
-use subsurf_shaders::{TransferLight, uniform};
+use subsurf_shaders::{TransferLight, transfer_tint, uniform};
 use wgpu::{BindingResource, Buffer, TextureFormat};
 
 use super::mesh::GpuMesh;
@@ -20,6 +20,7 @@ const TEXEL: usize = 8;
 #[derive(Debug)]
 pub struct TransferMaterial {
     header: TransferHeader,
+    tint: [f32; 3],
     block: Tracked<Buffer>,
     codes: Surface2d,
     /// Tables of the file, as they stand there.
@@ -55,6 +56,7 @@ impl TransferMaterial {
         let block = uniform::Transfer::new(&header.bits, texels as u32);
         let material = Self {
             header,
+            tint: transfer_tint(transfer),
             block: gpu.uniform(Purpose::Material, "codes of components", &block),
             codes,
             lights: transfer.lights().as_bytes().to_vec(),
@@ -133,7 +135,7 @@ impl TransferMaterial {
     }
 
     /// Table of some light: exitance of every cluster and channel, a constant and what a step of the code of each component adds,
-    /// `[cluster][1 + K]`, linear Rec. 709; the fourth place is 0. Of one channel all three are drawn.
+    /// `[cluster][1 + K]`, linear Rec. 709; the fourth place is 0.
     pub(crate) fn table(&self, light: &TransferLight) -> Vec<[f32; 4]> {
         let buffer = self.between.get().map_or(&[][..], |buffer| buffer);
         let Some(between) = LightWeights::prepared(self.lights(), buffer) else { return Vec::new() };
@@ -144,18 +146,17 @@ impl TransferMaterial {
         let mut table = vec![[0.0; 4]; usize::from(header.clusters) * rows];
         for c in 0..3 {
             let from = c.min(channels - 1);
-            let weights: Vec<f32> = weights.iter().map(|rgb| rgb[c] * header.scale[from]).collect();
+            let scale = self.tint[c] * header.scale[from];
+            let weights: Vec<f32> = weights.iter().map(|rgb| scale * rgb[c]).collect();
             let total: f32 = weights.iter().sum();
             for (cluster, table) in table.chunks_exact_mut(rows).enumerate() {
                 let range = |row: usize| [0, 1].map(|k| self.ranges[2 * (cluster * rows + row) + k]);
                 let means = &self.means[cluster * values + from * lights..][..lights];
-                let mean: f32 = means.iter().zip(&weights).map(|(mean, weight)| f32::from(*mean) * weight).sum();
                 let [offset, step] = range(0);
-                table[0][c] = offset * total + step * mean;
+                table[0][c] = offset * total + step * dot(means, &weights);
                 for row in 1..rows {
                     let first = (cluster * (rows - 1) + row - 1) * values + from * lights;
-                    let basis = self.bases[first..][..lights].iter().zip(&weights);
-                    let basis: f32 = basis.map(|(value, weight)| f32::from(*value) * weight).sum();
+                    let basis = dot(&self.bases[first..][..lights], &weights);
                     let [offset, step] = range(row);
                     table[0][c] += offset * basis;
                     table[row][c] = step * basis;
@@ -164,4 +165,18 @@ impl TransferMaterial {
         }
         table
     }
+}
+
+/// Sum of products, in as many sums at once as vector units take.
+fn dot<T: Copy + Into<f32>>(values: &[T], weights: &[f32]) -> f32 {
+    const LANES: usize = 8;
+    let ((values, values_left), (weights, weights_left)) = (values.as_chunks::<LANES>(), weights.as_chunks::<LANES>());
+    let mut sums = [0.0; LANES];
+    for (values, weights) in values.iter().zip(weights) {
+        for ((sum, value), weight) in sums.iter_mut().zip(values).zip(weights) {
+            *sum += (*value).into() * weight;
+        }
+    }
+    let left = values_left.iter().zip(weights_left).map(|(value, weight)| (*value).into() * weight);
+    sums.into_iter().chain(left).sum()
 }

@@ -8,9 +8,9 @@ use subsurf_scene::MAX_LIGHTS;
 use super::raster::rasterise;
 use super::shading::{Point, shaded};
 use super::{KernelMesh, Reflections};
-use crate::TransferLight;
 use crate::rgb::Rgb;
 use crate::uniform::Blocks;
+use crate::{TransferLight, transfer_tint};
 
 /// Exitance of all vertices of a mesh under some light, at least 0, linear Rec. 709.
 ///
@@ -21,13 +21,13 @@ pub fn transfer_exitance(transfer: &Transfer<'_>, light: &TransferLight) -> Vec<
     let header = transfer.header();
     let mut buffer = vec![0.0; LightWeights::buffer_len(header.lights.into())];
     let between = LightWeights::new(transfer.lights(), &mut buffer).expect("lights that are several");
-    let weights = light.weights(&between);
+    let (weights, tint) = (light.weights(&between), transfer_tint(transfer));
     let channels = usize::from(header.channels);
     let mut table = vec![0.0; header.table_len()];
     let mut found = vec![[0.0; 3]; header.vertices as usize];
     let mut exitance = vec![0.0; channels * found.len()];
     for c in 0..3 {
-        transfer.light_table(&weights.iter().map(|rgb| rgb[c]).collect::<Vec<f32>>(), &mut table);
+        transfer.light_table(&weights.iter().map(|rgb| tint[c] * rgb[c]).collect::<Vec<f32>>(), &mut table);
         transfer.exitance(&table, 0, &mut exitance);
         for (rgb, exitance) in found.iter_mut().zip(exitance.chunks_exact(channels)) {
             rgb[c] = exitance[c.min(channels - 1)].max(0.0);
