@@ -55,13 +55,14 @@ impl Passes {
     }
 
     /// Pass that draws a material.
-    #[cfg_attr(not(feature = "reference"), allow(clippy::unused_self, reason = "there is one"))]
+    #[cfg(feature = "reference")]
     fn of(&self, material: &TransferMaterial) -> &MeshPass {
-        #[cfg(feature = "reference")]
-        if material.is_bare {
-            return &self.coat;
-        }
-        let _ = material;
+        if material.is_bare { &self.coat } else { &self.shade }
+    }
+
+    /// Pass that draws all materials.
+    #[cfg(not(feature = "reference"))]
+    fn of(&self, _material: &TransferMaterial) -> &MeshPass {
         &self.shade
     }
 
