@@ -35,9 +35,9 @@ pub(crate) struct Args {
     /// Which way is up in the mesh
     #[arg(long, value_enum, default_value = "y")]
     up: UpArg,
-    /// What stands around the mesh, and from where both are lit and seen
-    #[arg(long, value_enum, default_value = "hero")]
-    scene: SceneArg,
+    /// What stands around the mesh, and from where both are lit and seen; hero if not given, studio for transfers, which are of a mesh alone
+    #[arg(long, value_enum)]
+    scene: Option<SceneArg>,
     /// Where the material lies on the mesh
     #[arg(long, value_enum, default_value = "auto")]
     mapping: MappingArg,
@@ -91,6 +91,7 @@ Examples:
   subsurf view jade.subsurf onyx.subsurf --mesh bunny.ply
   subsurf view jade.subsurf --budget 16MB --backend gl
   subsurf view jade.subsurf --technique splat --screenshot jade.png
+  subsurf view bunny-marble.subsurf --mesh bunny.ply
   subsurf view leather.subsurf --images leather/ --repeat 6
 
 Exit codes: 3 if there is no display or no device that draws to it.";
@@ -114,7 +115,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 impl Args {
     fn config(&self) -> anyhow::Result<Config> {
         let usual = subsurf_viewer::options();
-        let set = Set::from(self.scene);
+        let has_transfer = has_transfer(&self.files)?;
+        if has_transfer && self.scene == Some(SceneArg::Hero) {
+            return Err(bad_request("a transfer is of a mesh alone, and --scene hero stands it on a plate"));
+        }
+        let usual_scene = if has_transfer { SceneArg::Studio } else { SceneArg::Hero };
+        let set = Set::from(self.scene.unwrap_or(usual_scene));
         Ok(Config {
             files: self.files.clone(),
             material: self.btf.material.clone(),
@@ -125,6 +131,7 @@ impl Args {
             mapping: self.mapping.into(),
             technique: match self.technique {
                 Some(TechniqueArg::Kernel) => of_kernels(&self.files)?,
+                Some(TechniqueArg::Transfer) if has_transfer => usual_technique(&self.files)?,
                 None => usual_technique(&self.files)?,
                 Some(technique) => technique.scattering()?,
             },
@@ -164,6 +171,16 @@ fn usual_technique(files: &[PathBuf]) -> anyhow::Result<Scattering> {
         }
     }
     Ok(Scattering::Separable)
+}
+
+/// Whether a file is precomputed for a mesh.
+fn has_transfer(files: &[PathBuf]) -> anyhow::Result<bool> {
+    for path in files {
+        if matches!(parse(path, &read(path)?)?, DrawnMaterial::Transfer(_)) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// What kernels are opened with, which are drawn in one way; refused if other files are among them.

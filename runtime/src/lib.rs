@@ -9,6 +9,8 @@ mod gpu;
 mod load;
 mod technique;
 
+#[cfg(feature = "transfer")]
+pub use asset::TransferMaterial;
 pub use asset::{
     BssrdfPlanes, BtfImages, BtfMaterial, GatherMaterial, GpuMesh, GpuPoints, KernelMaterial, Material,
     SeparableMaterial, SplatMaterial, VertexData, layout_of,

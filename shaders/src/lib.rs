@@ -4,11 +4,11 @@
 //!   the parts that its first line names, files under `wgsl/lib/` and `wgsl/material/`.
 //! - [`uniform`]: uniform blocks, laid out as in WGSL.
 //! - [`separable`]: what the separable passes draw, the basis of a material, with the coefficients of every pixel for the CPU.
-//! - [`cpu`] (the gathers, on all cores, with the feature `gather`): a pass `wgsl/pass/…/NAME.wgsl` has a twin `cpu/NAME.rs` that gives the same numbers, but for these:
+//! - [`cpu`] (the gathers, on all cores, with the feature `gather`; of files of transfer, with the feature `transfer`): a pass `wgsl/pass/…/NAME.wgsl` has a twin `cpu/NAME.rs` that gives the same numbers, but for these:
 //!
 //! * `blur_patch_first`, `blur_patch`, `sum_patch`, `blur_patch_last`: stages of one sum, which
 //!   [`separable::ProjectedBasis::exitance`] computes as a whole.
-//! * `homogeneous`, `copy`: baselines that are timed, not looked at.
+//! * `homogeneous`, `copy`, `shade_coat`: baselines that are timed, not looked at.
 //! * `btf_query`: its twin is the decoder.
 //! * `tsm_render`, `tsm_reduce`, `surface_gbuffer`, `splat`, `splat_resolve`, `shade_splat`: they approximate what
 //!   [`cpu::surface_gather`] computes exactly, from what lights and the camera see; their pictures are held to its pictures.
@@ -21,8 +21,12 @@ mod mean_kernel;
 pub mod passes;
 mod rgb;
 pub mod separable;
+#[cfg(feature = "transfer")]
+mod transfer;
 pub mod uniform;
 
 pub use mean_kernel::{mean_kernel, softening_gain};
 pub use passes::{BtfLayout, MaterialLayout, TargetFormat};
 pub use rgb::Rgb;
+#[cfg(feature = "transfer")]
+pub use transfer::{TransferLight, transfer_tint};

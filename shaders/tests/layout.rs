@@ -68,6 +68,7 @@ fn uniforms_are_laid_out_as_in_wgsl() {
     assert_layout_of!(BtfTexture: levels, count, filtering, samples);
     assert_layout_of!(KernelTerm: taps, sign, axis, side, falloff);
     assert_layout_of!(KernelProfile: reflectance, radius_mm, last_node, spread_mm);
+    assert_layout_of!(Transfer: codes, components, texels);
     assert_layout_of!(Linsss: sigmas_mm, gaussians, is_exact, turn);
     assert_layout_of!(LinsssStage: sigma_mm, axis, size, focal_texels, middle_mm, perspective, levels, level, most);
     assert_layout_of!(ScreenDomain: size, focal_texels, middle_mm, pitch_mm, perspective, is_jittered);

@@ -225,6 +225,9 @@ fn texture_loads_are_accounted_for() {
             ("sum_kernel", 2),
             ("shade_kernel", 2),
             ("copy", 1),
+            // Codes and tables clamped to their textures; translucent shadow maps as above.
+            ("shade_transfer", 3),
+            ("shade_coat", 1),
             // Taps clamped to what the maps hold; levels of the pyramid to what is left of it.
             ("linsss_gbuffer", 4),
             ("linsss_blur", 3),

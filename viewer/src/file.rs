@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use subsurf_decoder::container::MAGIC;
-use subsurf_decoder::{Bssrdf, Family, File, Kernel, NestedBtf, ReadError};
+use subsurf_decoder::{Bssrdf, Family, File, Kernel, NestedBtf, ReadError, Transfer};
 
 use crate::error::{Error, Result};
 
@@ -19,6 +19,8 @@ pub enum DrawnMaterial<'a> {
     Btf(NestedBtf<'a>),
     /// A homogeneous material with its separable kernel.
     Kernel(Kernel<'a>),
+    /// Scattering precomputed for the vertices of one mesh.
+    Transfer(Transfer<'a>),
 }
 
 /// Bytes of a material file. No more than its beginning is read of anything else, however long it is.
@@ -48,6 +50,7 @@ pub fn parse<'a>(path: &Path, bytes: &'a [u8]) -> Result<DrawnMaterial<'a>> {
         subsurf_decoder::Content::Bssrdf(material) => Ok(DrawnMaterial::Bssrdf(material)),
         subsurf_decoder::Content::NestedBtf(btf) => Ok(DrawnMaterial::Btf(btf)),
         subsurf_decoder::Content::Kernel(kernel) => Ok(DrawnMaterial::Kernel(kernel)),
+        subsurf_decoder::Content::Transfer(transfer) => Ok(DrawnMaterial::Transfer(transfer)),
         other => Err(not_drawn(path, other.family())),
     }
 }

@@ -142,7 +142,10 @@ impl OpenMaterial {
 fn begin<'a>(gpu: &'a OpenGpu, file: &File<'a>, technique: SubsurfTechnique) -> Result<Load<'a>> {
     let wrong = |expected| Fault::from(Failure::Family { found: file.content().family(), expected });
     let load = match (technique, file.content()) {
-        (_, Content::FactoredBtf(_)) => return Err(wrong("BSSRDF, nested BTF or kernel")),
+        // What this library knows, whatever the renderer of the build does.
+        (_, content) if !matches!(content, Content::Bssrdf(_) | Content::NestedBtf(_) | Content::Kernel(_)) => {
+            return Err(wrong("BSSRDF, nested BTF or kernel"));
+        }
         (SubsurfTechnique::Kernel, Content::Bssrdf(_) | Content::NestedBtf(_)) => return Err(wrong("kernel")),
         (SubsurfTechnique::Btf, Content::Bssrdf(_) | Content::Kernel(_)) => return Err(wrong("nested BTF")),
         (SubsurfTechnique::Splat | SubsurfTechnique::Separable, Content::NestedBtf(_) | Content::Kernel(_)) => {

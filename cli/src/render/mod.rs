@@ -7,6 +7,7 @@ mod kernel;
 mod mesh;
 mod options;
 mod patch;
+mod transfer;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -27,13 +28,15 @@ use crate::program::failure::bad_request;
 use btf::draw_btf;
 use kernel::draw_kernel;
 use options::{AnglesArg, LightArg};
+use transfer::draw_transfer;
 
 pub(crate) use btf_args::{BtfArgs, Copies};
 pub(crate) use mesh::draw_mesh;
 pub(crate) use options::{MappingArg, SceneArg, TechniqueArg, read_environment};
 pub(crate) use patch::{draw_patch, patch_irradiance};
 
-/// Draw a material: a translucent one flat or on a mesh, by the reference technique or by a fast one; a BTF or a kernel on a mesh.
+/// Draw a material: a translucent one flat or on a mesh, by the reference technique or by a fast one; a BTF or a kernel on a mesh; a
+/// transfer on the mesh that it is of.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES, group(clap::ArgGroup::new("surface").multiple(true)))]
 pub(crate) struct Args {
@@ -53,7 +56,7 @@ pub(crate) struct Args {
     #[arg(long, default_value_t = 60.0, value_name = "MM", requires = "surface")]
     extent: f32,
     /// How light scatters in a translucent material; of several, separated by commas, the pictures stand side by side, all of the
-    /// exposure of the first; gather if not given, kernel for kernels
+    /// exposure of the first; gather if not given, kernel for kernels, transfer for transfers
     #[arg(long, value_enum, value_delimiter = ',')]
     technique: Vec<TechniqueArg>,
     /// Light from all around: an equirectangular picture (.hdr, .exr, .png, .jpg ..); the scene's if not given
@@ -96,6 +99,7 @@ Examples:
   subsurf render jade.subsurf -o bunny.png --mesh bunny.ply --technique separable
   subsurf render jade.subsurf -o jade.png --scene hero --technique separable
   subsurf render jade.subsurf -o both.png --scene hero --mesh bowl --technique separable,gather
+  subsurf render knot.subsurf -o knot.png --mesh knot                    what subsurf transfer has precomputed
   subsurf render leather.subsurf -o leather.png
   subsurf render leather.subsurf -o sofa.png --mesh sofa.glb --repeat 8 --environment room.hdr --samples 32
   subsurf render leather.subsurf -o both.png --images leather/        the file and the images, side by side";
@@ -133,6 +137,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             let gpu = args.backend.open_device("kernels are drawn by devices only")?;
             let mesh = args.load_mesh(args.mesh.as_deref().unwrap_or(Path::new(USUAL_SHAPE)))?;
             (draw_kernel(&gpu, &kernel, &mesh, &args.request()?)?, devices::name(Some(&gpu)))
+        }
+        DrawnMaterial::Transfer(transfer) => {
+            args.refuse_for_transfer()?;
+            let gpu = args.backend.open_device("transfers are drawn by devices only")?;
+            let path =
+                args.mesh.as_deref().ok_or_else(|| bad_request("a transfer is of one mesh: name it by --mesh"))?;
+            (draw_transfer(&gpu, &transfer, &args.load_mesh(path)?, &args.request()?)?, devices::name(Some(&gpu)))
         }
     };
     write_picture(&args.output, &picture)?;
@@ -248,6 +259,18 @@ impl Args {
             exposure: self.exposure,
             ..usual
         })
+    }
+
+    /// Refuses options that say nothing to what is precomputed for a mesh.
+    fn refuse_for_transfer(&self) -> anyhow::Result<()> {
+        self.btf.expect_none()?;
+        if self.technique.iter().any(|technique| *technique != TechniqueArg::Transfer) {
+            return Err(bad_request("the file is a transfer, which is drawn by --technique transfer only"));
+        }
+        if self.scene == Some(SceneArg::Hero) {
+            return Err(bad_request("the file is of a mesh alone, and --scene hero stands it on a plate"));
+        }
+        Ok(())
     }
 
     /// Refuses options that say nothing to a BTF.

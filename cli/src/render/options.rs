@@ -25,6 +25,8 @@ pub(crate) enum TechniqueArg {
     Homogeneous,
     /// Separable kernel of a homogeneous material, on the screen; for kernel files, on meshes
     Kernel,
+    /// Scattering precomputed for the vertices of one mesh; for files of `subsurf transfer`, on that mesh
+    Transfer,
     /// Light leaves where it enters, as if the material were opaque; for comparison
     Opaque,
 }
@@ -49,6 +51,11 @@ impl TechniqueArg {
             Self::Separable => Scattering::Separable,
             Self::Homogeneous => Scattering::Homogeneous,
             Self::Opaque => Scattering::Opaque,
+            Self::Transfer => {
+                return Err(bad_request(
+                    "--technique transfer is for files of subsurf transfer, which are of one mesh",
+                ));
+            }
             Self::Kernel => {
                 return Err(bad_request("--technique kernel is for kernel files; this one has pixels: take separable"));
             }

@@ -83,6 +83,24 @@ impl<'a> Transfer<'a> {
         self.tail
     }
 
+    /// Offset and step of the mean of every cluster and of the coefficient of every component; shape `[cluster][1 + K][2]`.
+    #[must_use]
+    pub fn ranges(&self) -> F32Le<'a> {
+        self.ranges
+    }
+
+    /// Means of the clusters as codes of their offset and step; shape `[cluster][channel][light]`.
+    #[must_use]
+    pub fn means(&self) -> U16Le<'a> {
+        self.means
+    }
+
+    /// Components of the clusters, signed bytes; shape `[cluster][component][channel][light]`.
+    #[must_use]
+    pub fn bases(&self) -> &'a [u8] {
+        self.bases
+    }
+
     /// Cluster and coefficients of the vertices as they stand in the file, `record_bytes` each.
     #[must_use]
     pub fn vertex_codes(&self) -> &'a [u8] {

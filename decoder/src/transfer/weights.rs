@@ -55,6 +55,15 @@ impl<'b> LightWeights<'b> {
         }
         ones.fill(1.0);
         solve(factor, ones)?;
+        Self::prepared(lights, buffer)
+    }
+
+    /// Weights for the lights of a buffer that [`Self::new`] has filled, in no time. `None` where it is shorter than
+    /// [`Self::buffer_len`], or filled with something else that adds up to nothing.
+    #[must_use]
+    pub fn prepared(lights: F32Le<'b>, buffer: &'b [f32]) -> Option<Self> {
+        let count = lights.len() / 3;
+        let (factor, ones) = buffer.get(..Self::buffer_len(count))?.split_at_checked(row_start(count))?;
         let ones_sum: f32 = ones.iter().sum();
         (ones_sum > 0.0).then_some(Self { lights, factor, ones, ones_sum })
     }

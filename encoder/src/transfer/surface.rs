@@ -5,6 +5,12 @@ use std::collections::HashMap;
 use glam::Vec3;
 use subsurf_scene::Mesh;
 
+/// Distance below which vertices are in one place, by the longest side of the mesh: ends of curves that close are apart by rounding, and
+/// what one of them lets in would leave at the other as if through a hole.
+const SAME: f32 = 2e-6;
+/// Edge of the cells in which places are looked up, by that distance.
+const CELL: f32 = 64.0;
+
 /// Places of a mesh's vertices. Vertices of one place, which meshes have at seams, send together and receive the same.
 pub(super) struct Surface {
     /// Place of each vertex, by its number.
@@ -19,14 +25,21 @@ pub(super) struct Surface {
 
 impl Surface {
     pub(super) fn new(mesh: &Mesh) -> Self {
-        let mut numbers: HashMap<[u32; 3], u32> = HashMap::with_capacity(mesh.positions.len());
+        let [low, high] = mesh.bounds();
+        let same_mm = SAME * (high - low).max_element();
+        let mut cells: HashMap<[i32; 3], Vec<u32>> = HashMap::with_capacity(mesh.positions.len());
         let mut out = Self { place_of: Vec::new(), positions: Vec::new(), areas: Vec::new(), senders: Vec::new() };
         for ((vertex, position), area) in (0..).zip(&mesh.positions).zip(mesh.vertex_areas()) {
-            // 0 and −0 are one place.
-            let key = (*position + Vec3::ZERO).to_array().map(f32::to_bits);
             let next = u32::try_from(out.positions.len()).expect("fewer than 2³² vertices");
-            let number = *numbers.entry(key).or_insert(next);
+            let corner = |step: f32| ((*position - low + step) / (CELL * same_mm)).floor().as_ivec3();
+            let (first, last) = (corner(-same_mm), corner(same_mm));
+            let around = (first.x..=last.x)
+                .flat_map(|x| (first.y..=last.y).flat_map(move |y| (first.z..=last.z).map(move |z| [x, y, z])));
+            let mut known = around.filter_map(|cell| cells.get(&cell)).flatten();
+            let number = known.find(|place| out.positions[**place as usize].distance(*position) <= same_mm);
+            let number = number.copied().unwrap_or(next);
             if number == next {
+                cells.entry(corner(0.0).to_array()).or_default().push(next);
                 out.positions.push(*position);
                 out.areas.push(0.0);
                 out.senders.push(Vec::new());

@@ -13,6 +13,8 @@ use super::mesh::GpuMesh;
 use super::points::GpuPoints;
 use super::separable::SeparableMaterial;
 use super::splat::SplatMaterial;
+#[cfg(feature = "transfer")]
+use super::transfer::TransferMaterial;
 use crate::error::{Error, Result};
 use crate::technique::Technique;
 
@@ -41,6 +43,9 @@ pub enum Material {
     Btf(Arc<BtfMaterial>, usize),
     /// Homogeneous material for its separable kernel on the screen.
     Kernel(Arc<KernelMaterial>),
+    /// Homogeneous material with the scattering that is precomputed for one mesh.
+    #[cfg(feature = "transfer")]
+    Transfer(Arc<TransferMaterial>),
 }
 
 impl Material {
@@ -55,6 +60,8 @@ impl Material {
             Self::Linsss(_) => Technique::Linsss,
             Self::Btf(material, _) => Technique::Btf(material.layout()),
             Self::Kernel(_) => Technique::Kernel,
+            #[cfg(feature = "transfer")]
+            Self::Transfer(_) => Technique::Transfer,
         }
     }
 
@@ -69,6 +76,8 @@ impl Material {
             Self::Linsss(material) => material.gpu_bytes(),
             Self::Btf(material, _) => material.gpu_bytes(),
             Self::Kernel(material) => material.gpu_bytes(),
+            #[cfg(feature = "transfer")]
+            Self::Transfer(material) => material.gpu_bytes(),
         }
     }
 
@@ -82,6 +91,18 @@ impl Material {
             (Self::Linsss(a), Self::Linsss(b)) => Arc::ptr_eq(a, b),
             (Self::Btf(a, k), Self::Btf(b, l)) => Arc::ptr_eq(a, b) && k == l,
             (Self::Kernel(a), Self::Kernel(b)) => Arc::ptr_eq(a, b),
+            #[cfg(feature = "transfer")]
+            (Self::Transfer(a), Self::Transfer(b)) => Arc::ptr_eq(a, b),
+            _ => false,
+        }
+    }
+
+    /// Whether light is summed for the vertices of one object.
+    pub(crate) fn is_of_one_object(&self) -> bool {
+        match self {
+            Self::Gather(_) => true,
+            #[cfg(feature = "transfer")]
+            Self::Transfer(_) => true,
             _ => false,
         }
     }
@@ -94,6 +115,11 @@ impl Material {
         let header = match self {
             // What is the same everywhere is looked up nowhere.
             Self::Kernel(material) => {
+                return Ok(Placement::of_homogeneous_within(mesh.bounds, material.header().eta));
+            }
+            #[cfg(feature = "transfer")]
+            Self::Transfer(material) => {
+                material.expect(mesh)?;
                 return Ok(Placement::of_homogeneous_within(mesh.bounds, material.header().eta));
             }
             Self::Gather(material) => {
@@ -143,5 +169,12 @@ impl From<Arc<SeparableMaterial>> for Material {
 impl From<Arc<KernelMaterial>> for Material {
     fn from(material: Arc<KernelMaterial>) -> Self {
         Self::Kernel(material)
+    }
+}
+
+#[cfg(feature = "transfer")]
+impl From<Arc<TransferMaterial>> for Material {
+    fn from(material: Arc<TransferMaterial>) -> Self {
+        Self::Transfer(material)
     }
 }

@@ -18,6 +18,9 @@ pub struct GpuMesh {
     /// One more than the largest point that a vertex names; 0 if none does.
     pub(crate) points: usize,
     has_uvs: bool,
+    /// CRC-32 of positions and of triangles, [`Mesh::geometry_crc`].
+    #[cfg(feature = "transfer")]
+    pub(crate) geometry_crc: [u32; 2],
     /// Where the mesh is, in its own space.
     pub(crate) bounds: BoundingSphere,
     /// Lowest and highest corner of the box around it, in its own space.
@@ -100,6 +103,8 @@ impl GpuMesh {
             index_count: index_count.map_err(|_| Error::Mesh("more than 2³² indices".to_owned()))?,
             points: known.points.into_iter().flatten().max().map_or(0, |largest| *largest as usize + 1),
             has_uvs: mesh.uvs.is_some(),
+            #[cfg(feature = "transfer")]
+            geometry_crc: mesh.geometry_crc(),
             bounds: mesh.bounding_sphere(),
             corners: mesh.bounds(),
         })

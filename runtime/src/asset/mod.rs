@@ -12,6 +12,8 @@ mod patch_layers;
 mod points;
 mod separable;
 mod splat;
+#[cfg(feature = "transfer")]
+mod transfer;
 
 pub use bssrdf::{BssrdfPlanes, layout_of};
 pub use btf::BtfMaterial;
@@ -27,3 +29,5 @@ pub use points::GpuPoints;
 pub(crate) use points::{LitBy, tiled_size};
 pub use separable::SeparableMaterial;
 pub use splat::SplatMaterial;
+#[cfg(feature = "transfer")]
+pub use transfer::TransferMaterial;

@@ -8,7 +8,6 @@ use super::input::{Input, Object, Target};
 use super::options::RuntimeOptions;
 use super::prepare::Frame;
 use super::renderer::Renderer;
-use crate::asset::Material;
 use crate::error::{Error, Result};
 use crate::gpu::{BLOCK_STRIDE, Gpu, attachment};
 use crate::technique::{Attachments, Group, Lap, Viewport, group_number};
@@ -158,7 +157,7 @@ impl Frame {
             all = Some(with_this(&all));
             let unknown = || Error::Usage("a material that the frame was not prepared for".to_owned());
             let slot = self.slots.iter().position(|slot| slot.material.is(object.material)).ok_or_else(unknown)?;
-            if let Material::Gather(_) = object.material {
+            if object.material.is_of_one_object() {
                 expect_one(object, self.placed.iter().any(|placed| placed.slot == slot))?;
             }
             let is_visible = input.view.sees(&bounds);
@@ -198,13 +197,15 @@ impl Frame {
     }
 }
 
-/// Refuses what the gather does not draw: points are those of one object in its own size.
+/// Refuses what is not drawn where light is summed for the vertices of a mesh: they are those of one object in its own size.
 fn expect_one(object: &Object<'_>, has_another: bool) -> Result<()> {
     if has_another {
-        return Err(Error::Usage("a material for the gather is that of one object".to_owned()));
+        return Err(Error::Usage("a material for the gather, or of a transfer, is that of one object".to_owned()));
     }
     if (object.world_from_mesh.x_axis.truncate().length() - 1.0).abs() > 1e-3 {
-        return Err(Error::Usage("the gather draws meshes in their own size: no scale in a transform".to_owned()));
+        return Err(Error::Usage(
+            "the gather and transfers draw meshes in their own size: no scale in a transform".to_owned(),
+        ));
     }
     Ok(())
 }

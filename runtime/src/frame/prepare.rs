@@ -14,6 +14,8 @@ use crate::error::{Error, Result};
 use crate::gpu::Gpu;
 #[cfg(feature = "reference")]
 use crate::technique::linsss;
+#[cfg(feature = "transfer")]
+use crate::technique::transfer;
 use crate::technique::{
     Bindings, Common, MapArea, TranslucentShadowMaps, kernel, reflection_sampler, separable, splat,
 };
@@ -84,6 +86,7 @@ impl Renderer {
     ///
     /// # Errors
     /// [`Error::OverBudget`](crate::Error::OverBudget) if even the coarsest does not fit, before anything is allocated;
+    /// [`Error::Mesh`] if a transfer lies on a mesh that it is not of;
     /// [`Error::Usage`] if a technique was not compiled, the size is 0, there are too many lights or materials, or a shadow map
     /// is not what it has to be; [`Error::Device`] if the device is lost.
     pub fn prepare(&self, gpu: &Gpu, input: &Input<'_>, size: [u32; 2]) -> Result<Frame> {
@@ -92,6 +95,10 @@ impl Renderer {
         for object in input.objects {
             if !materials.iter().any(|known| known.is(object.material)) {
                 materials.push(object.material);
+            }
+            #[cfg(feature = "transfer")]
+            if let Material::Transfer(material) = object.material {
+                material.expect(object.mesh)?;
             }
         }
         if size.contains(&0) {
@@ -169,7 +176,18 @@ impl Renderer {
             .sum();
         #[cfg(not(feature = "reference"))]
         let of_rivals = 0;
+        #[cfg(feature = "transfer")]
+        let of_tables: u64 = materials
+            .iter()
+            .filter_map(|material| match material {
+                Material::Transfer(of) => Some(transfer::bytes_of(of)),
+                _ => None,
+            })
+            .sum();
+        #[cfg(not(feature = "transfer"))]
+        let of_tables = 0;
         of_rivals
+            + of_tables
             + self.blur_bytes(materials, plan.blur_size)
             + if splats { splat::Maps::bytes_of(plan, &self.options) } else { 0 }
     }
@@ -246,6 +264,8 @@ impl Renderer {
                 passes.bind(gpu, material, common, lights, &maps)
             }
             Material::Btf(material, number) => self.btf.of(material.layout())?.bind(gpu, material, *number),
+            #[cfg(feature = "transfer")]
+            Material::Transfer(material) => self.transfer.of(())?.bind(gpu, material),
         }
     }
 
@@ -279,6 +299,8 @@ impl Renderer {
                 }
                 Material::Kernel(material) => Some(kernel::divisor(material, pixels_per_mm)),
                 Material::Gather(_) | Material::Btf(..) => None,
+                #[cfg(feature = "transfer")]
+                Material::Transfer(_) => None,
             }
         });
         divisors.reduce(f32::min).unwrap_or(1.0)

@@ -11,6 +11,8 @@ use crate::error::{Error, Result};
 use crate::gpu::{BLOCK_STRIDE, Gpu};
 #[cfg(feature = "reference")]
 use crate::technique::linsss;
+#[cfg(feature = "transfer")]
+use crate::technique::transfer;
 use crate::technique::{Technique, TsmPasses, btf, gather, kernel, separable, splat};
 
 /// Pipelines of the techniques that a host wants; made at load, never in a frame.
@@ -25,6 +27,8 @@ pub struct Renderer {
     pub(super) linsss: Compiled<(), linsss::Passes>,
     pub(super) btf: Compiled<BtfLayout, btf::Passes>,
     pub(super) kernel: Compiled<(), kernel::Passes>,
+    #[cfg(feature = "transfer")]
+    pub(super) transfer: Compiled<(), transfer::Passes>,
 }
 
 /// Pipelines of one technique, by what they depend on.
@@ -93,6 +97,8 @@ impl Renderer {
             linsss: Compiled(Vec::new()),
             btf: Compiled(Vec::new()),
             kernel: Compiled(Vec::new()),
+            #[cfg(feature = "transfer")]
+            transfer: Compiled(Vec::new()),
         })
     }
 
@@ -124,6 +130,8 @@ impl Renderer {
             Technique::Linsss => self.linsss.add((), || linsss::Passes::new(gpu, options)),
             Technique::Btf(layout) => self.btf.add(layout, || btf::Passes::new(gpu, layout, options)),
             Technique::Kernel => self.kernel.add((), || kernel::Passes::new(gpu, options)),
+            #[cfg(feature = "transfer")]
+            Technique::Transfer => self.transfer.add((), || transfer::Passes::new(gpu, options)),
         }
     }
 

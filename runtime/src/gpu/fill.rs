@@ -47,6 +47,12 @@ impl<'a> Fill<'a> {
         Self { texture: texture.clone(), layer: 0, first_row: 0, bytes: bytes.into() }
     }
 
+    /// The same with bytes of its own.
+    #[cfg(feature = "transfer")]
+    pub(crate) fn into_owned(self) -> Fill<'static> {
+        Fill { bytes: self.bytes.into_owned().into(), ..self }
+    }
+
     /// Number of bytes.
     pub(crate) fn bytes(&self) -> usize {
         self.bytes.len()

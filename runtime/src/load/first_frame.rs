@@ -28,17 +28,30 @@ impl Stage {
         let mesh = relief(RADIUS_MM, 8, 22);
         let tangents = mesh.tangents()?;
         let known = VertexData { tangents: Some(&tangents), ..Default::default() };
+        Self::of(gpu, technique, GpuMesh::upload(gpu, &mesh, known)?, (Vec3::ZERO, RADIUS_MM))
+    }
+
+    /// The same with a mesh of the caller's, for what needs to know nothing of its vertices.
+    #[cfg(feature = "transfer")]
+    pub(super) fn on(gpu: &Gpu, technique: Technique, mesh: &subsurf_scene::Mesh) -> Result<Self> {
+        let bounds = mesh.bounding_sphere();
+        let mesh = GpuMesh::upload(gpu, mesh, VertexData::default())?;
+        Self::of(gpu, technique, mesh, (bounds.centre_mm, bounds.radius_mm))
+    }
+
+    /// A mesh about a centre, of so many mm.
+    fn of(gpu: &Gpu, technique: Technique, mesh: GpuMesh, (centre_mm, radius_mm): (Vec3, f32)) -> Result<Self> {
         let shape = LightShape::Directional { towards: Vec3::new(0.9, 1.1, 0.35) };
         Ok(Self {
             renderer: Renderer::for_technique(gpu, technique, RuntimeOptions::default())?,
-            mesh: GpuMesh::upload(gpu, &mesh, known)?,
+            mesh,
             scene: Scene {
                 lights: vec![Light { shape, irradiance: [3.0, 2.9, 2.7], shadow: Shadow::Drawn }],
                 environment: Environment::uniform([0.35, 0.4, 0.5]),
                 roughness: 0.25,
                 camera: Camera {
-                    eye_mm: 4.2 * RADIUS_MM * Vec3::new(0.5, 0.3, 0.8).normalize(),
-                    target_mm: Vec3::ZERO,
+                    eye_mm: centre_mm + 4.2 * radius_mm * Vec3::new(0.5, 0.3, 0.8).normalize(),
+                    target_mm: centre_mm,
                     fov_y_rad: 0.5,
                     exposure: 1.0,
                 },

@@ -2,12 +2,16 @@
 
 use std::sync::Arc;
 
+#[cfg(feature = "transfer")]
+use subsurf_decoder::Transfer;
 use subsurf_decoder::{Bssrdf, Content, File, Kernel};
 use subsurf_shaders::MaterialLayout;
 use subsurf_shaders::separable::{BasisNumbers, ProfileSums};
 
 use super::projection::{Projection, levels_pass, sums_pass, table};
 use super::steps::{Load, LoadPhase};
+#[cfg(feature = "transfer")]
+use crate::asset::TransferMaterial;
 use crate::asset::{BssrdfPlanes, BtfMaterial, KernelMaterial, Material, SeparableMaterial, SplatMaterial};
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
@@ -15,7 +19,7 @@ use crate::technique::PatchCascade;
 
 impl<'a> Load<'a> {
     /// Begins to load a file for the fastest technique that it offers: separable blurs where it has a basis for them, else splats;
-    /// a BTF as it is, its first material; a kernel as it is.
+    /// a BTF as it is, its first material; a kernel or a transfer as it is.
     ///
     /// # Errors
     /// [`Error::Usage`] for a factored BTF, which no technique draws; [`Error::Unsupported`] if the device takes no texture of
@@ -31,7 +35,12 @@ impl<'a> Load<'a> {
                 Ok(Load::of(gpu, Material::Btf(Arc::new(material), 0)).filled(fills))
             }
             Content::Kernel(kernel) => Ok(Load::kernel(gpu, &kernel)?.map(Material::Kernel)),
-            _ => Err(Error::Usage("factored BTFs are not drawn from the file: encode the images as nested".to_owned())),
+            #[cfg(feature = "transfer")]
+            Content::Transfer(transfer) => Ok(Load::transfer(gpu, &transfer)?.map(Material::Transfer)),
+            Content::FactoredBtf(_) => {
+                Err(Error::Usage("factored BTFs are not drawn from the file: encode the images as nested".to_owned()))
+            }
+            other => Err(Error::Usage(format!("no technique here draws a file of the family {}", other.family()))),
         }
     }
 }
@@ -107,6 +116,20 @@ impl<'a> Load<'a, Arc<KernelMaterial>> {
     pub fn kernel(gpu: &'a Gpu, kernel: &Kernel<'_>) -> Result<Self> {
         let (material, fill) = KernelMaterial::begin(gpu, kernel)?;
         Ok(Load::of(gpu, Arc::new(material)).filled([fill]))
+    }
+}
+
+#[cfg(feature = "transfer")]
+impl<'a> Load<'a, Arc<TransferMaterial>> {
+    /// Begins to load what is precomputed for the vertices of a mesh.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] if the device takes no texture of that size.
+    pub fn transfer(gpu: &'a Gpu, transfer: &Transfer<'_>) -> Result<Self> {
+        let (material, fills) = TransferMaterial::begin(gpu, transfer)?;
+        let made = Arc::new(material);
+        let to = made.clone();
+        Ok(Load::of(gpu, made).filled(fills).then(LoadPhase::Projection, move |_| to.prepare()))
     }
 }
 

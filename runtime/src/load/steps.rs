@@ -38,7 +38,7 @@ pub enum LoadPhase {
     Upload,
     /// Pipelines of the projection, compiled once for each device and layout.
     Pipelines,
-    /// Coefficients and albedo over the patch, drawn from the planes of the file.
+    /// Coefficients and albedo over the patch, drawn from the planes of the file; of a transfer, weights between its lights.
     Projection,
 }
 

@@ -16,6 +16,9 @@ pub enum Stored {
     Planes(MaterialLayout),
     /// `.subsurf` file for splats, separable blurs or as a BTF: on a mesh.
     File(Technique),
+    /// File of a transfer: on the mesh that it is of.
+    #[cfg(feature = "transfer")]
+    Transfer(Box<subsurf_scene::Mesh>),
     /// Uncompressed capture of this size, `[y][x][dy][dx][rgb]` of little-endian f32: gathered on a flat patch.
     Capture(BssrdfHeader),
     /// Uncompressed images of a BTF: on a mesh.

@@ -76,6 +76,8 @@ impl<'a> LoadTimer<'a> {
             Stored::Planes(layout) => Ready::Patch(PatchRenderer::new(gpu, layout)?, None),
             Stored::Capture(header) => Ready::Patch(PatchRenderer::new(gpu, MaterialLayout::Capture)?, Some(header)),
             Stored::File(technique) => Ready::File(Stage::new(gpu, technique)?, technique),
+            #[cfg(feature = "transfer")]
+            Stored::Transfer(mesh) => Ready::File(Stage::on(gpu, Technique::Transfer, &mesh)?, Technique::Transfer),
             Stored::Images(images) => Ready::Images(Stage::new(gpu, Technique::Btf(BtfLayout::Images))?, images),
         };
         Ok(Self { gpu, ready, compiled: begin.elapsed() })

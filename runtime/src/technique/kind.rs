@@ -18,4 +18,7 @@ pub enum Technique {
     Btf(BtfLayout),
     /// Separable kernel of a homogeneous material, blurred on the screen, two passes for each of its terms.
     Kernel,
+    /// Scattering precomputed for the vertices of one mesh; no passes of its own.
+    #[cfg(feature = "transfer")]
+    Transfer,
 }

@@ -18,6 +18,8 @@ mod mesh_pass;
 mod patch;
 pub(crate) mod separable;
 pub(crate) mod splat;
+#[cfg(feature = "transfer")]
+pub(crate) mod transfer;
 mod tsm;
 pub(crate) mod volume;
 

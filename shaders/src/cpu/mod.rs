@@ -17,6 +17,8 @@ mod raster;
 mod scene;
 mod shade_btf;
 mod shade_kernel;
+#[cfg(feature = "transfer")]
+mod shade_transfer;
 mod shade_vertex;
 mod shading;
 mod sum_kernel;
@@ -37,6 +39,8 @@ pub use profile_sums::profile_sums;
 pub use scene::{entering, incident, sky_irradiance};
 pub use shade_btf::{BtfSurface, BtfTriangles, shade_btf};
 pub use shade_kernel::shade_kernel;
+#[cfg(feature = "transfer")]
+pub use shade_transfer::{shade_transfer, transfer_exitance};
 pub use shade_vertex::{Triangles, shade_vertex};
 pub use sum_kernel::sum_kernel;
 #[cfg(feature = "gather")]

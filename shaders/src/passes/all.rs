@@ -1,10 +1,10 @@
 //! All passes.
 
 use super::pass::Pass;
-use super::{kernel, linsss, table, volume};
+use super::{kernel, linsss, table, transfer, volume};
 
 /// All passes.
-pub static ALL: [&Pass; 38] = [
+pub static ALL: [&Pass; 40] = [
     &table::GATHER,
     &table::PRESENT,
     &table::HOMOGENEOUS,
@@ -36,6 +36,8 @@ pub static ALL: [&Pass; 38] = [
     &kernel::SUM_KERNEL,
     &kernel::SHADE_KERNEL,
     &kernel::COPY,
+    &transfer::SHADE_TRANSFER,
+    &transfer::SHADE_COAT,
     &linsss::LINSSS_GBUFFER,
     &linsss::LINSSS_BLUR,
     &linsss::LINSSS_REDUCE,

@@ -1,8 +1,8 @@
 //! The passes: which WGSL files each is joined from, its entry points, its bindings.
 //!
 //! [`table`] has a row for each file under `wgsl/pass/`, but for those of separable kernels, in [`kernel`], of light volumes, in
-//! [`volume`], and of a rival, in [`linsss`]. A row may leave open how the material, the intermediate targets and so
-//! on are stored; a [`Variant`] has chosen.
+//! [`volume`], of what is precomputed for vertices, in [`transfer`], and of a rival, in [`linsss`]. A row may leave open how the material,
+//! the intermediate targets and so on are stored; a [`Variant`] has chosen.
 
 mod all;
 mod binding;
@@ -12,6 +12,7 @@ mod layout;
 pub mod linsss;
 mod pass;
 pub mod table;
+pub mod transfer;
 pub mod volume;
 
 pub use all::ALL;

@@ -1,5 +1,6 @@
 //! The table of passes; those of separable kernels are in [`kernel`](super::kernel), of light volumes in
-//! [`volume`](super::volume), of rivals in [`linsss`](super::linsss).
+//! [`volume`](super::volume), of what is precomputed for vertices in [`transfer`](super::transfer), of rivals in
+//! [`linsss`](super::linsss).
 
 use super::binding::Binding::{
     self, Filtered, FilteredLayers, Float, FloatLayers, Nearest, Sampler, Target, TargetLayers, Uniform,

@@ -9,6 +9,7 @@ mod object;
 mod patch;
 mod scene;
 mod splat;
+mod transfer;
 mod volume;
 
 pub use blur::{BlurStage, MOST_TAPS, ScreenDomain, Transmission, Upsampling};
@@ -20,4 +21,5 @@ pub use object::{Blocks, Object};
 pub use patch::{Frame, Kernel, MAX_KERNEL, PatchDomain, PatchRegion};
 pub use scene::{HOST_SHADOW, HOST_SHADOW_REVERSED, LightSource, NO_SHADOW, OWN_SHADOW, PointGrid, Scene};
 pub use splat::{MAX_RINGS, Splat, SplatRings, TsmLight};
+pub use transfer::Transfer;
 pub use volume::Volume;

@@ -1,14 +1,15 @@
 //! `subsurf-study bench frames`: how long frames take, pass by pass.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use serde_json::{Value, json};
 use subsurf_cli::options::Size;
 use subsurf_cli::outln;
 use subsurf_cli::program::failure::bad_request;
-use subsurf_decoder::{Bssrdf, Kernel};
+use subsurf_decoder::{Bssrdf, Kernel, Transfer};
 use subsurf_encoder::baseline::song2009::per_pixel_of;
-use subsurf_runtime::{Backend, Gpu};
+use subsurf_runtime::{Backend, Gpu, Load};
 use subsurf_scene::{AmbientTransfer, Mesh, relief};
 use subsurf_viewer::{
     Asset, DrawnMaterial, GpuAsset, MappingChoice, RenderRequest, Scattering, choose_mapping, human, parse, read,
@@ -19,7 +20,7 @@ use super::devices::to_compare;
 use super::meshes::{EXTENT_MM, named};
 use super::timing::{median, quantile};
 
-/// Time frames of meshes of 5 to 871 thousand triangles, pass by pass, on every device there is, of a translucent material or a kernel.
+/// Time frames of meshes of 5 to 871 thousand triangles, pass by pass, on every device there is, of a translucent material, a kernel or a transfer.
 ///
 /// The light turns a little from frame to frame, so that everything is computed anew; paths take turns. Times of frames are
 /// wall-clock milliseconds until the device is through; those of passes are timestamps of the device within whole frames where
@@ -61,6 +62,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         all.extend(match &material {
             DrawnMaterial::Bssrdf(material) => bssrdf_frames(args, material, name, mesh)?,
             DrawnMaterial::Kernel(kernel) => kernel_frames(args, kernel, name, mesh)?,
+            DrawnMaterial::Transfer(transfer) => transfer_frames(args, transfer, name, mesh)?,
             DrawnMaterial::Btf(_) => return Err(bad_request("a BTF, whose frames `bench btf` times")),
         });
     }
@@ -107,6 +109,25 @@ fn kernel_frames(args: &Args, kernel: &Kernel<'_>, name: &str, mesh: &Mesh) -> a
     for (backend, gpu) in &to_compare() {
         let mut cases = [BenchCase::new(gpu, || GpuAsset::kernel(gpu, mesh, kernel, &sky), mesh, args.size.0)?];
         all.extend(timed(args, (*backend, gpu), &mut cases, &["kernel"], (name, mesh))?);
+    }
+    Ok(all)
+}
+
+/// Frames of a mesh whose scattering is precomputed.
+fn transfer_frames(args: &Args, transfer: &Transfer<'_>, name: &str, mesh: &Mesh) -> anyhow::Result<Vec<Value>> {
+    let mut all = Vec::new();
+    for (backend, gpu) in &to_compare() {
+        let bare = || {
+            let asset = GpuAsset::transfer(gpu, mesh, transfer)?;
+            let material = Load::transfer(gpu, transfer)?.finish()?;
+            let material = Arc::into_inner(material).map(|material| Arc::new(material.bare()).into());
+            Ok(GpuAsset { material: material.expect("the load is through"), ..asset })
+        };
+        let mut cases = [
+            BenchCase::new(gpu, || GpuAsset::transfer(gpu, mesh, transfer), mesh, args.size.0)?,
+            BenchCase::new(gpu, bare, mesh, args.size.0)?,
+        ];
+        all.extend(timed(args, (*backend, gpu), &mut cases, &["transfer", "without scattering"], (name, mesh))?);
     }
     Ok(all)
 }

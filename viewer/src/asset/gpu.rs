@@ -1,6 +1,6 @@
 //! Material and mesh on a device.
 
-use subsurf_decoder::Kernel;
+use subsurf_decoder::{Kernel, Transfer};
 use subsurf_runtime::{BtfMaterial, Gpu, GpuMesh, Load, Material, Object, Technique, VertexData};
 use subsurf_scene::{AmbientTransfer, Mapping, Mesh};
 
@@ -40,6 +40,18 @@ impl GpuAsset {
         Ok(Self {
             mesh: GpuMesh::upload(gpu, mesh, known)?,
             material: Load::kernel(gpu, kernel)?.finish()?.into(),
+            mapping: Mapping::Box,
+        })
+    }
+
+    /// Brings a mesh to a device, beside what is precomputed for its vertices; of another mesh it is not drawn.
+    ///
+    /// # Errors
+    /// The device has no room for it, or the file is unfit.
+    pub fn transfer(gpu: &Gpu, mesh: &Mesh, transfer: &Transfer<'_>) -> Result<Self> {
+        Ok(Self {
+            mesh: GpuMesh::upload(gpu, mesh, VertexData::default())?,
+            material: Load::transfer(gpu, transfer)?.finish()?.into(),
             mapping: Mapping::Box,
         })
     }

@@ -267,6 +267,7 @@ fn stem(session: &Session) -> String {
         Kind::Bssrdf => format!("{:?}", session.settings.technique),
         Kind::Btf => "btf".to_owned(),
         Kind::Kernel(_) => "kernel".to_owned(),
+        Kind::Transfer => "transfer".to_owned(),
     };
     format!("{}-{}-{technique}", material.name(), session.assets.mesh_name).to_lowercase()
 }

@@ -27,6 +27,8 @@ pub(super) enum Kind {
     Btf,
     /// Kernel, and the numbers that it was made of, if those are two Gaussians.
     Kernel(Option<Artist>),
+    /// Scattering precomputed for one mesh.
+    Transfer,
 }
 
 impl MaterialFile {
@@ -39,6 +41,7 @@ impl MaterialFile {
         match parse(path, &bytes)? {
             DrawnMaterial::Bssrdf(_) => Ok(vec![one(stem(path), 0, Kind::Bssrdf)]),
             DrawnMaterial::Kernel(kernel) => Ok(vec![one(stem(path), 0, Kind::Kernel(Artist::of(&kernel)))]),
+            DrawnMaterial::Transfer(_) => Ok(vec![one(stem(path), 0, Kind::Transfer)]),
             DrawnMaterial::Btf(btf) => {
                 let names: Vec<String> = btf.materials().map(|material| material.name().to_owned()).collect();
                 let of = |number: usize| match &names[..] {

@@ -27,6 +27,8 @@ pub(super) enum RenderMode {
     Images,
     /// By its separable kernel, or by one that is made of the panel's numbers.
     Kernel(Option<Artist>),
+    /// From what is precomputed for the mesh.
+    Transfer,
 }
 
 /// Identity of a picture: what it is of, and how it is drawn.
@@ -76,6 +78,7 @@ pub(super) enum Computed {
         made: Option<Vec<u8>>,
         sky: Vec<AmbientTransfer>,
     },
+    Transfer,
     Images {
         repeats: [f32; 2],
         images: Box<dyn BtfImageSet>,
@@ -94,6 +97,7 @@ impl Computed {
             (Self::Kernel { made: None, sky }, DrawnMaterial::Kernel(kernel)) => {
                 GpuAsset::kernel(gpu, mesh, &kernel, sky)
             }
+            (Self::Transfer, DrawnMaterial::Transfer(transfer)) => GpuAsset::transfer(gpu, mesh, &transfer),
             (Self::Images { repeats, images }, _) => {
                 GpuAsset::btf(gpu, mesh, *repeats, upload_images(gpu, images.as_ref())?, 0)
             }
@@ -105,7 +109,7 @@ impl Computed {
     fn sky(&self) -> Option<&Arc<Vec<AmbientTransfer>>> {
         match self {
             Self::Scattering(asset) => asset.sky(),
-            Self::Btf { .. } | Self::Images { .. } | Self::Kernel { .. } => None,
+            Self::Btf { .. } | Self::Images { .. } | Self::Kernel { .. } | Self::Transfer => None,
         }
     }
 }
@@ -136,7 +140,8 @@ impl Job {
                 let sky = AmbientTransfer::of_kernel(&self.mesh, &kernel)?;
                 Ok(Computed::Kernel { made, sky })
             }
-            (DrawnMaterial::Bssrdf(_) | DrawnMaterial::Kernel(_), mode) => {
+            (DrawnMaterial::Transfer(_), RenderMode::Transfer) => Ok(Computed::Transfer),
+            (DrawnMaterial::Bssrdf(_) | DrawnMaterial::Kernel(_) | DrawnMaterial::Transfer(_), mode) => {
                 Err(Error::Request(format!("{} is not drawn in the way {mode:?}", self.material.name())))
             }
         }

@@ -110,8 +110,9 @@ impl Session {
             (Role::Shown, Kind::Kernel(_)) => Some(key(RenderMode::Kernel(self.settings.artist))),
             (Role::Reference, Kind::Bssrdf) => (shows_error && technique != Scattering::Gather).then(|| key(GATHER)),
             (Role::Reference, Kind::Btf) => self.compares_images().then(|| key(RenderMode::Images)),
+            (Role::Shown, Kind::Transfer) => Some(key(RenderMode::Transfer)),
             // There is one way to draw it.
-            (Role::Reference, Kind::Kernel(_)) => None,
+            (Role::Reference, Kind::Kernel(_) | Kind::Transfer) => None,
         }
     }
 
@@ -346,6 +347,7 @@ impl Session {
             RenderMode::Btf => "reading the BTF ...".to_owned(),
             RenderMode::Images => "reading images ...".to_owned(),
             RenderMode::Kernel(_) => "making the kernel ...".to_owned(),
+            RenderMode::Transfer => "reading what is precomputed ...".to_owned(),
         });
         Facts {
             device: format!("{}, {:?}", stage.gpu.info().name, stage.gpu.info().backend),

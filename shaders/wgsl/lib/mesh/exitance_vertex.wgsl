@@ -15,7 +15,7 @@ fn point_exitance(point: u32) -> vec3<f32> {
 }
 
 // Exitance at a vertex: of its point, or of two that follow each other where box mapping blends two places.
-fn vertex_exitance(point: u32, shares: vec3<f32>) -> vec3<f32> {
+fn vertex_exitance(vertex: u32, point: u32, shares: vec3<f32>) -> vec3<f32> {
     let share = box_sides(shares).share;
     if object.is_boxed == 0u || share == 1.0 {
         return point_exitance(point);

@@ -20,6 +20,7 @@ struct Varying {
 
 @vertex
 fn project(
+    @builtin(vertex_index) vertex: u32,
     @location(0) position_mm: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) uv: vec2<f32>,
@@ -34,7 +35,7 @@ fn project(
     out.position_mm = position;
     out.normal = world_direction(normal);
     out.uv = material_uv(uv);
-    out.exitance = vertex_exitance(point, sides.xyz);
+    out.exitance = vertex_exitance(vertex, point, sides.xyz);
     let seen = vertex_visibilities(point);
     out.visibility = seen.first;
     out.visibility_of_last = seen.last;

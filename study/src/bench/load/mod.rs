@@ -4,7 +4,7 @@ mod bssrdf;
 mod btf;
 mod btf_loader;
 mod file_loader;
-mod kernel;
+mod homogeneous;
 mod one;
 mod options;
 mod results;
@@ -28,7 +28,8 @@ pub(super) use one::{Args as OneArgs, run as run_one};
 /// Each is read, parsed with all checks, uploaded, projected where its technique wants that, and drawn once (64 × 64 pixels), again and
 /// again, in a process of its own, with the file in the page cache and without. Times are medians in microseconds. The materials are synthetic:
 /// for timing their numbers do not matter. With --btf, a file of yours is timed beside its images. So it
-/// is with --files and three files of one material. With --kernel, kernels are timed.
+/// is with --files and three files of one material. With --kernel, kernels are timed, with --transfer
+/// transfers and the mesh that they are of.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// WIDTHxHEIGHT,WINDOW,M,S; more than once for several. The last of the usual ones has the size of the paper's onyx
@@ -46,6 +47,12 @@ pub(crate) struct Args {
     /// Kernels of homogeneous materials instead
     #[arg(long = "kernel", value_name = "FILE", conflicts_with_all = ["cases", "files", "btf", "output"])]
     kernels: Vec<PathBuf>,
+    /// Transfers of one mesh instead, of 60 mm
+    #[arg(long = "transfer", value_name = "FILE", requires = "mesh", conflicts_with_all = ["cases", "files", "btf", "kernels", "output"])]
+    transfers: Vec<PathBuf>,
+    /// The mesh of the transfers: a file, or the name of a shape
+    #[arg(long, value_name = "FILE|SHAPE", requires = "transfers")]
+    mesh: Option<PathBuf>,
     /// Also write loading.md and loading.json into this folder
     #[arg(long, short, value_name = "DIR", conflicts_with = "btf")]
     output: Option<PathBuf>,
@@ -62,7 +69,10 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
         return btf::run(options, btf, images);
     }
     if !args.kernels.is_empty() {
-        return kernel::run(options, &args.kernels);
+        return homogeneous::run(options, &args.kernels, None);
+    }
+    if !args.transfers.is_empty() {
+        return homogeneous::run(options, &args.transfers, args.mesh.as_deref());
     }
     let mut results = Vec::new();
     let mut add = |case: &Case| -> anyhow::Result<()> {

@@ -12,7 +12,7 @@ use subsurf_decoder::container::{Container, Crc, crc32};
 
 use super::btf_loader::BtfLoader;
 use super::file_loader::FileLoader;
-use super::kernel::KernelLoader;
+use super::homogeneous::HomogeneousLoader;
 use super::options::Way;
 use super::results::{Steps, Storage, medians};
 use crate::bench::timing::{Clock, median};
@@ -27,6 +27,9 @@ pub(crate) struct Args {
     /// A kernel
     #[arg(long)]
     kernel: bool,
+    /// The mesh of a transfer
+    #[arg(long)]
+    mesh: Option<PathBuf>,
     /// What a translucent material is drawn by
     #[arg(long, value_enum, default_value = "gather")]
     way: Way,
@@ -44,8 +47,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let loader = BtfLoader::new(gpu.as_ref(), &args.file, images)?;
         return report(args, baseline, || loader.once(), || Ok(BTreeMap::new()));
     }
-    if args.kernel {
-        let loader = KernelLoader::new(gpu.as_ref(), &args.file)?;
+    if args.kernel || args.mesh.is_some() {
+        let loader = HomogeneousLoader::new(gpu.as_ref(), &args.file, args.mesh.as_deref())?;
         return report(args, baseline, || loader.once(), || Ok(BTreeMap::new()));
     }
     let is_capture = args.file.extension().is_some_and(|extension| extension == "npy");

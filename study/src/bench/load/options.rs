@@ -9,6 +9,7 @@ use anyhow::{Context, bail};
 use clap::ValueEnum;
 use subsurf_cli::devices::{self, BackendArg};
 use subsurf_cli::program::failure::bad_request;
+use subsurf_runtime::Gpu;
 use tempfile::TempDir;
 
 use super::results::Storage;
@@ -62,9 +63,14 @@ impl LoadOptions {
         }
     }
 
+    /// What draws, if it is a device.
+    pub(super) fn open(&self) -> anyhow::Result<Option<Gpu>> {
+        self.backend.open()
+    }
+
     /// Whether a device draws, not the CPU.
     pub(super) fn has_device(&self) -> anyhow::Result<bool> {
-        Ok(self.backend.open()?.is_some())
+        Ok(self.open()?.is_some())
     }
 
     /// Name of what draws.

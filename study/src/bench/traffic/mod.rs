@@ -73,6 +73,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             DrawnMaterial::Bssrdf(material) => scattering(material, &mesh, *size)?,
             DrawnMaterial::Btf(btf) => vec![textured(btf, *size)?],
             DrawnMaterial::Kernel(kernel) => vec![homogeneous(kernel, &mesh, *size)?],
+            DrawnMaterial::Transfer(_) => {
+                return Err(bad_request("a transfer, which has no passes but the picture: `bench frames` times it"));
+            }
         };
         for Counts { technique, numbers, rows } in counts {
             let name = stem(&args.file);

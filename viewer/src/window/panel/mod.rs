@@ -114,6 +114,9 @@ fn choices(ui: &mut Ui, settings: &mut Settings, facts: &Facts, commands: &mut V
         Kind::Btf => {
             ui.label("A BTF, without images to compare it with");
         }
+        Kind::Transfer => {
+            ui.label("Precomputed for this mesh");
+        }
         Kind::Kernel(artist) => {
             kernel::numbers(ui, artist.filter(|_| facts.makes_kernels), &mut settings.artist, commands)
         }
