@@ -37,7 +37,6 @@ fn assert_loads(gpu: &Gpu, cases: &[Case<'_>]) {
             let times = timer.load(bytes).unwrap();
             assert_eq!(times.gpu_bytes, *gpu_bytes, "{name}: bytes on the device");
             assert_eq!(times.recording > Duration::ZERO, projected, "{name}: passes of a projection");
-            assert!(times.recording <= times.projection, "{name}: recording is a part of the projection");
         }
     }
 }

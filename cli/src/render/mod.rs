@@ -267,6 +267,9 @@ impl Args {
         if self.technique.iter().any(|technique| *technique != TechniqueArg::Transfer) {
             return Err(bad_request("the file is a transfer, which is drawn by --technique transfer only"));
         }
+        if self.technique.len() > 1 {
+            return Err(bad_request("a transfer is drawn in one way: --technique once, or not at all"));
+        }
         if self.scene == Some(SceneArg::Hero) {
             return Err(bad_request("the file is of a mesh alone, and --scene hero stands it on a plate"));
         }

@@ -23,6 +23,21 @@ fn a_transfer_is_made_shown_and_judged() {
     assert!(number("compression", "max") < 0.01, "{judged}");
     assert!(number("total", "rms") < 0.6 * number("four_nearest", "rms"), "{judged}");
 
+    let drawn = json(folder, "render ball.subsurf --mesh sphere --extent 12 --size 64x48 -o ball.png --json");
+    assert!(drawn["gpu_bytes"].as_u64().is_some_and(|bytes| bytes > 0), "{drawn}");
+    let picture = image::open(folder.join("ball.png")).unwrap().into_rgb8();
+    assert_ne!(picture.get_pixel(32, 24), picture.get_pixel(0, 0), "a ball before its background");
+    for (options, reasons) in [
+        ("--mesh sphere --extent 13", ["precomputed for these triangles in another size", "extent"]),
+        ("--mesh knot", ["precomputed for another mesh", "CRC-32"]),
+        ("--mesh sphere --extent 12 --scene hero", ["--scene hero", "mesh alone"]),
+        ("--mesh sphere --extent 12 --technique splat", ["--technique transfer", "only"]),
+        ("", ["--mesh", "mesh"]),
+    ] {
+        let refused = run(folder, &format!("render ball.subsurf {options} --size 64x48 -o none.png"));
+        assert_refused(&refused, &reasons);
+    }
+
     let other = run(folder, "compare sphere ball.subsurf --extent 13");
     assert_refused(&other, &["the file is for another mesh"]);
     let coarse = run(folder, "transfer sphere --extent 5000 --material ketchup --lights 4 --grey -o coarse.subsurf");

@@ -49,7 +49,7 @@ impl Eigen {
 
 /// Orthonormal axes along which a positive semidefinite matrix is largest, the largest first, by subspace iteration (Halko,
 /// Martinsson and Tropp 2011, algorithms 4.4 and 5.3): a few products in place of all eigenvectors. Where eigenvalues near
-/// `count` are close to each other, axes mix with those that are left out, which are nearly as large.
+/// `count` are close to each other, axes mix with those that are left out, which are nearly as large. Axes of a matrix that is zero are zero.
 pub(crate) fn leading_axes(matrix: DMatrix<f32>, count: usize) -> DMatrix<f32> {
     let size = matrix.nrows();
     let width = count + OVERSAMPLING;

@@ -25,11 +25,15 @@ pub(super) struct Surface {
 
 impl Surface {
     pub(super) fn new(mesh: &Mesh) -> Self {
-        let [low, high] = mesh.bounds();
+        let areas = mesh.vertex_areas();
+        // Vertices without a triangle may be anywhere.
+        let of_surface = mesh.positions.iter().zip(&areas).filter(|(_, area)| **area > 0.0);
+        let bounds = of_surface.map(|(at, _)| [*at; 2]).reduce(|[low, high], [at, _]| [low.min(at), high.max(at)]);
+        let [low, high] = bounds.unwrap_or_else(|| mesh.bounds());
         let same_mm = SAME * (high - low).max_element();
         let mut cells: HashMap<[i32; 3], Vec<u32>> = HashMap::with_capacity(mesh.positions.len());
         let mut out = Self { place_of: Vec::new(), positions: Vec::new(), areas: Vec::new(), senders: Vec::new() };
-        for ((vertex, position), area) in (0..).zip(&mesh.positions).zip(mesh.vertex_areas()) {
+        for ((vertex, position), area) in (0..).zip(&mesh.positions).zip(areas) {
             let next = u32::try_from(out.positions.len()).expect("fewer than 2³² vertices");
             let corner = |step: f32| ((*position - low + step) / (CELL * same_mm)).floor().as_ivec3();
             let (first, last) = (corner(-same_mm), corner(same_mm));

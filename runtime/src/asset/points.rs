@@ -83,11 +83,8 @@ impl GpuPoints {
     pub fn read(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>> {
         let texels = gpu.read_rgb(&self.exitance.texture)?;
         let width = tiled_size(self.count)[0] as usize;
-        let side = TILE as usize;
         let at = |point: usize| {
-            let (tile, within) = (point / (side * side), point % (side * side));
-            let tiles = width / side;
-            let [x, y] = [tile % tiles * side + within % side, tile / tiles * side + within / side];
+            let [x, y] = tiled_texel(point);
             texels[y * width + x]
         };
         Ok((0..self.count).map(at).collect())
@@ -102,4 +99,26 @@ pub(crate) fn tiled_size(len: usize) -> [u32; 2] {
     let tiles = u32::try_from(len).unwrap_or(u32::MAX).div_ceil(TILE * TILE).max(1);
     let in_row = ROW / TILE;
     [tiles.min(in_row) * TILE, tiles.div_ceil(in_row) * TILE]
+}
+
+/// Column and row of a point in tiles: `point_at` of `surface_gather.wgsl` and `point_exitance` of `exitance_vertex.wgsl` are the same.
+fn tiled_texel(point: usize) -> [usize; 2] {
+    let (side, tiles) = (TILE as usize, (ROW / TILE) as usize);
+    let (tile, within) = (point / (side * side), point % (side * side));
+    [tile % tiles * side + within % side, tile / tiles * side + within / side]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_point_has_a_texel_of_its_own() {
+        for count in [1, 64, 65, 16_384, 16_385, 40_000] {
+            let [width, height] = tiled_size(count).map(|side| side as usize);
+            let texels: std::collections::HashSet<[usize; 2]> = (0..count).map(tiled_texel).collect();
+            assert_eq!(texels.len(), count, "no two are one");
+            assert!(texels.iter().all(|[x, y]| *x < width && *y < height), "{count} points: {width} × {height}");
+        }
+    }
 }

@@ -73,11 +73,13 @@ impl TransferMaterial {
     /// Prepares weights between the lights of the file, once: O(n³).
     ///
     /// # Errors
-    /// [`Error::Usage`] if two of the lights are one.
+    /// [`Error::Usage`] if two of the lights are too close to each other.
     pub(crate) fn prepare(&self) -> Result<()> {
         let mut buffer = vec![0.0; LightWeights::buffer_len(self.header.lights.into())];
         if LightWeights::new(self.lights(), &mut buffer).is_none() {
-            return Err(Error::Usage("two lights of the transfer file are one".to_owned()));
+            return Err(Error::Usage(
+                "two lights of the transfer file are too close to each other: precompute it with fewer".to_owned(),
+            ));
         }
         self.between.get_or_init(|| buffer);
         Ok(())
@@ -127,9 +129,13 @@ impl TransferMaterial {
         if of == found {
             return Ok(());
         }
-        let what = if of[1] == found[1] { "these triangles in another size or place" } else { "another mesh" };
+        let what = if of[1] == found[1] {
+            "these triangles in another size or place: give the mesh the extent and the upward axis of then"
+        } else {
+            "another mesh: draw that one, alone"
+        };
         Err(Error::Mesh(format!(
-            "the transfer file was precomputed for {what}: CRC-32 of positions {:08x}, of triangles {:08x}; of this mesh {:08x}, {:08x}",
+            "the transfer file was precomputed for {what}; CRC-32 of positions {:08x}, of triangles {:08x}; of this mesh {:08x}, {:08x}",
             of[0], of[1], found[0], found[1]
         )))
     }

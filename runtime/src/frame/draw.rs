@@ -42,7 +42,7 @@ impl Renderer {
     /// # Errors
     /// [`Error::Usage`] if the frame was not prepared for a material or for as many shadows, if there are too many objects or
     /// lights, a shadow map is not what it has to be, an object lacks what its material needs, the light of a gather was never summed, or the target is smaller than the
-    /// frame; [`Error::Device`] if the device is lost.
+    /// frame; [`Error::Mesh`] if a material is precomputed for another mesh; [`Error::Device`] if the device is lost.
     pub fn draw(
         &self,
         gpu: &Gpu,
@@ -200,7 +200,9 @@ impl Frame {
 /// Refuses what is not drawn where light is summed for the vertices of a mesh: they are those of one object in its own size.
 fn expect_one(object: &Object<'_>, has_another: bool) -> Result<()> {
     if has_another {
-        return Err(Error::Usage("a material for the gather, or of a transfer, is that of one object".to_owned()));
+        return Err(Error::Usage(
+            "a material for the gather, or of a transfer, is that of one object: load it once for each".to_owned(),
+        ));
     }
     if (object.world_from_mesh.x_axis.truncate().length() - 1.0).abs() > 1e-3 {
         return Err(Error::Usage(

@@ -228,9 +228,9 @@ mod tests {
     #[test]
     fn long_vectors_are_searched_in_fewer_dimensions() {
         let shape = |k: usize, d: usize| ((d * (k + 1)) as f32 * 0.013 + k as f32).sin();
-        let vectors = DMatrix::from_fn(300, 700, |d, x| shape(x % 30, d));
+        let vectors = DMatrix::from_fn(400, 700, |d, x| shape(x % 30, d));
         let samples = Samples::new(vectors, vec![1.0; 700], false);
-        let words = DMatrix::from_fn(300, 30, |d, k| 2.0 * shape(k, d));
+        let words = DMatrix::from_fn(400, 30, |d, k| 2.0 * shape(k, d));
         for (x, found) in samples.search(&words).iter().enumerate() {
             assert_eq!(found.index as usize, x % 30);
             assert!((found.gain - 0.5).abs() < 0.02, "{found:?}");

@@ -46,7 +46,11 @@ fn cell_start(cell: u32) -> u32 {
 
 @fragment
 fn surface_gather(@builtin(position) at: vec4<f32>) -> @location(0) TargetTexel {
-    let point = min(point_at(vec2<u32>(at.xy)), grid.points - 1u);
+    let point = point_at(vec2<u32>(at.xy));
+    // The last tiles are not full.
+    if point >= grid.points {
+        return pack(vec4<f32>(0.0));
+    }
     let texel = array_texel(point);
     let x_o = textureLoad(positions, texel, 0).xyz;
     let o = load_pixel(min(textureLoad(pixels, texel, 0).xy, material.size - 1u));

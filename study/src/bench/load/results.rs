@@ -17,7 +17,7 @@ pub(super) struct Steps {
     pub(super) parse: f64,
     /// Onto the device, until it has everything.
     pub(super) upload: f64,
-    /// Coefficients and albedo, until the device has drawn them.
+    /// What is computed of a file once it is there, until the device is done: coefficients and albedo, or weights between lights.
     pub(super) projection: f64,
     /// Of that, until they were recorded and submitted.
     pub(super) recording: f64,

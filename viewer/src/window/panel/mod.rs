@@ -115,7 +115,7 @@ fn choices(ui: &mut Ui, settings: &mut Settings, facts: &Facts, commands: &mut V
             ui.label("A BTF, without images to compare it with");
         }
         Kind::Transfer => {
-            ui.label("Precomputed for this mesh");
+            ui.label("Precomputed for one mesh");
         }
         Kind::Kernel(artist) => {
             kernel::numbers(ui, artist.filter(|_| facts.makes_kernels), &mut settings.artist, commands)
