@@ -5,17 +5,16 @@ use std::sync::Arc;
 #[cfg(feature = "transfer")]
 use subsurf_decoder::Transfer;
 use subsurf_decoder::{Bssrdf, Content, File, Kernel};
-use subsurf_shaders::MaterialLayout;
 use subsurf_shaders::separable::{BasisNumbers, ProfileSums};
 
-use super::projection::{Projection, levels_pass, sums_pass, table};
-use super::steps::{Load, LoadPhase};
+use super::projection::table;
+use super::steps::Load;
+use super::work::Work;
 #[cfg(feature = "transfer")]
 use crate::asset::TransferMaterial;
 use crate::asset::{BssrdfPlanes, BtfMaterial, KernelMaterial, Material, SeparableMaterial, SplatMaterial};
 use crate::error::{Error, Result};
 use crate::gpu::Gpu;
-use crate::technique::PatchCascade;
 
 impl<'a> Load<'a> {
     /// Begins to load a file for the fastest technique that it offers: separable blurs where it has a basis for them, else splats;
@@ -59,13 +58,11 @@ impl<'a> Load<'a, Arc<SeparableMaterial>> {
         let made = Arc::new(SeparableMaterial::new(gpu, numbers)?);
         let (terms, to) = (made.terms(), made.clone());
         let load = Load::of(gpu, made).filled(fills.into_iter().chain([fill]));
-        let load = load.sums_compiled(planes.layout(), terms).albedo_compiled(terms).levels_compiled(terms + 1);
-        Ok(load.then(LoadPhase::Projection, move |gpu| {
-            let mut projection = Projection::new(gpu);
-            projection.basis((&planes, &table), &to, (&to.layers, to.layers.count - 1))?;
-            projection.levels(&to.layers)?;
-            projection.submit()
-        }))
+        let load = load
+            .then(Work::CompileSums(planes.layout(), terms))
+            .then(Work::CompileAlbedo(terms))
+            .then(Work::CompileLevels(terms + 1));
+        Ok(load.then(Work::ProjectBasis { planes, table, to }))
     }
 }
 
@@ -83,28 +80,21 @@ impl<'a> Load<'a, Arc<SplatMaterial>> {
         let load = Load::of(gpu, made);
         let Some(numbers) = BasisNumbers::of(material) else {
             let (table, fill) = table(gpu, &ProfileSums::albedo(material))?;
-            let load = load.filled(fills.into_iter().chain([fill])).sums_compiled(layout, 1).levels_compiled(1);
-            return Ok(load.then(LoadPhase::Projection, move |gpu| {
-                let mut projection = Projection::new(gpu);
-                projection.layers((&to.planes, &table), &to.albedo)?;
-                projection.levels(&to.albedo)?;
-                projection.submit()
-            }));
+            let load = load
+                .filled(fills.into_iter().chain([fill]))
+                .then(Work::CompileSums(layout, 1))
+                .then(Work::CompileLevels(1));
+            return Ok(load.then(Work::ProjectAlbedo { table, to }));
         };
         let (table, fill) = table(gpu, numbers.sums())?;
         let basis = SeparableMaterial::new(gpu, &numbers)?;
         let terms = basis.terms();
         let load = load
             .filled(fills.into_iter().chain([fill]))
-            .sums_compiled(layout, terms)
-            .albedo_compiled(terms)
-            .levels_compiled(1);
-        Ok(load.then(LoadPhase::Projection, move |gpu| {
-            let mut projection = Projection::new(gpu);
-            projection.basis((&to.planes, &table), &basis, (&to.albedo, 0))?;
-            projection.levels(&to.albedo)?;
-            projection.submit()
-        }))
+            .then(Work::CompileSums(layout, terms))
+            .then(Work::CompileAlbedo(terms))
+            .then(Work::CompileLevels(1));
+        Ok(load.then(Work::ProjectAlbedoByBasis { table, basis: Box::new(basis), to }))
     }
 }
 
@@ -129,24 +119,7 @@ impl<'a> Load<'a, Arc<TransferMaterial>> {
         let (material, fills) = TransferMaterial::begin(gpu, transfer)?;
         let made = Arc::new(material);
         let to = made.clone();
-        Ok(Load::of(gpu, made).filled(fills).then(LoadPhase::Projection, move |_| to.prepare()))
-    }
-}
-
-impl<M> Load<'_, M> {
-    /// Compiles the pass of so many sums over profiles.
-    fn sums_compiled(self, layout: MaterialLayout, count: usize) -> Self {
-        self.then(LoadPhase::Pipelines, move |gpu| sums_pass(gpu, layout, count).map(|_| ()))
-    }
-
-    /// Compiles the passes of an albedo by a basis of so many terms.
-    fn albedo_compiled(self, terms: usize) -> Self {
-        self.then(LoadPhase::Pipelines, move |gpu| PatchCascade::new(gpu, terms).map(|_| ()))
-    }
-
-    /// Compiles the pass of mipmap levels of so many layers.
-    fn levels_compiled(self, layers: usize) -> Self {
-        self.then(LoadPhase::Pipelines, move |gpu| levels_pass(gpu, layers).map(|_| ()))
+        Ok(Load::of(gpu, made).filled(fills).then(Work::PrepareTransfer(to)))
     }
 }
 

@@ -6,7 +6,9 @@ mod projection;
 mod steps;
 mod stored;
 mod timer;
+mod work;
 
-pub use steps::{Load, LoadPhase};
+pub use steps::Load;
 pub use stored::{RawImages, Stored};
 pub use timer::{LoadTimer, LoadTimes};
+pub use work::LoadPhase;

@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use super::work::{LoadPhase, Work};
 use crate::asset::Material;
 use crate::error::{Error, Result};
 use crate::gpu::{Fill, Gpu, PIECE_BYTES};
@@ -26,30 +27,10 @@ pub struct Load<'a, M = Material> {
     gpu: &'a Gpu,
     /// The material, whole once there are no steps left; none after a step that failed.
     made: Option<M>,
-    steps: VecDeque<Step<'a>>,
+    steps: VecDeque<Work<'a>>,
     /// Number of steps from the beginning on.
     all: usize,
 }
-
-/// Kind of work that a step of a load does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LoadPhase {
-    /// Bytes of the file, handed to the device.
-    Upload,
-    /// Pipelines of the projection, compiled once for each device and layout.
-    Pipelines,
-    /// Coefficients and albedo over the patch, drawn from the planes of the file; of a transfer, weights between its lights.
-    Projection,
-}
-
-/// Step of a load.
-struct Step<'a> {
-    phase: LoadPhase,
-    work: Work<'a>,
-}
-
-/// Work of a step, which may wait on any thread.
-type Work<'a> = Box<dyn FnOnce(&Gpu) -> Result<()> + Send + 'a>;
 
 impl<'a, M> Load<'a, M> {
     /// Load of what is made already but for its contents.
@@ -58,8 +39,8 @@ impl<'a, M> Load<'a, M> {
     }
 
     /// Adds a step.
-    pub(super) fn then(mut self, phase: LoadPhase, work: impl FnOnce(&Gpu) -> Result<()> + Send + 'a) -> Self {
-        self.steps.push_back(Step { phase, work: Box::new(work) });
+    pub(super) fn then(mut self, work: Work<'a>) -> Self {
+        self.steps.push_back(work);
         self.all += 1;
         self
     }
@@ -76,8 +57,7 @@ impl<'a, M> Load<'a, M> {
                 _ => steps.push((fill.bytes(), vec![fill])),
             }
         }
-        let write = |together: Vec<Fill<'a>>| move |gpu: &Gpu| together.iter().try_for_each(|fill| fill.write(gpu));
-        steps.into_iter().fold(self, |load, (_, together)| load.then(LoadPhase::Upload, write(together)))
+        steps.into_iter().fold(self, |load, (_, together)| load.then(Work::Write(together)))
     }
 
     /// Load of what `make` makes of the material.
@@ -93,7 +73,7 @@ impl<'a, M> Load<'a, M> {
     /// What the next step does; none if there is none.
     #[must_use]
     pub fn phase(&self) -> Option<LoadPhase> {
-        self.steps.front().map(|step| step.phase)
+        self.steps.front().map(Work::phase)
     }
 
     /// Share of the steps that are done, 0 to 1.
@@ -109,8 +89,8 @@ impl<'a, M> Load<'a, M> {
     /// # Errors
     /// [`Error::Device`] if the device fails or is lost; the load is over then.
     pub fn step(&mut self) -> Result<f32> {
-        if let Some(step) = self.steps.pop_front() {
-            (step.work)(self.gpu).and_then(|()| self.gpu.expect_alive()).inspect_err(|_| {
+        if let Some(work) = self.steps.pop_front() {
+            work.run(self.gpu).and_then(|()| self.gpu.expect_alive()).inspect_err(|_| {
                 self.made = None;
                 self.steps.clear();
             })?;

@@ -8,8 +8,9 @@ use subsurf_shaders::{BtfLayout, MaterialLayout};
 use web_time::Instant;
 
 use super::first_frame::{Stage, gathered};
-use super::steps::{Load, LoadPhase};
+use super::steps::Load;
 use super::stored::{RawImages, Stored, capture_bytes, expect_length};
+use super::work::LoadPhase;
 use crate::asset::{BssrdfPlanes, Material};
 use crate::error::Result;
 use crate::gpu::Gpu;
