@@ -46,12 +46,12 @@ macro_rules! assert_layout_of {
 
 #[test]
 fn uniforms_are_laid_out_as_in_wgsl() {
-    assert_layout_of!(Material: size, addressing, window_radius, samples, base_materials, pitch_mm, r_max_mm, nodes_per_mm, base_rows, row, rows);
+    assert_layout_of!(Material: size, addressing, window_radius, samples, base_materials, pitch_mm, r_max_mm, nodes_per_mm, rows);
     assert_layout_of!(PatchRegion: origin);
     assert_layout_of!(PatchDomain: size, addressing);
     assert_layout_of!(PointGrid: origin_mm, cell_mm, cells, points);
     assert_layout_of!(LightSource: clip_from_world, position_or_direction, is_local, irradiance, cos_outer, axis, cos_inner, middle_mm, texel_mm, shadow, map);
-    assert_layout_of!(Scene: clip_from_world, eye_mm, exposure, forward, lights, centre_mm, row, light_texels, light_columns, sky, light);
+    assert_layout_of!(Scene: clip_from_world, eye_mm, exposure, forward, lights, centre_mm, light_texels, light_columns, sky, light);
     assert_layout_of!(Object: world_from_mesh, place_from_world, uv_scale, patches_per_mm, is_boxed, eta, sky_transmittance, roughness, depth_offset_mm, group, handedness);
     assert_layout_of!(TsmLight: light, group, level);
     assert_layout_of!(Splat: softening_gain, clip_from_centre, fade_in, fade_out, middle_mm, texel_mm, tile, level, side, refines, stride, pitch_mm, group, columns);
@@ -113,6 +113,16 @@ fn addressing_codes_are_those_of_the_format() {
         text.contains("material.addressing == 0u") && text.contains("material.addressing == 2u"),
         "clamp and mirror"
     );
+}
+
+#[test]
+fn rows_of_arrays_are_those_of_the_textures() {
+    use uniform::{BASE_ROWS, ROW};
+    let text = gather(MaterialLayout::Capture) + &gather(MaterialLayout::Bmpp2);
+    for (name, value) in [("ROW", ROW), ("BASE_ROWS", BASE_ROWS)] {
+        let wanted = format!("const {name}: u32 = {value}u;");
+        assert!(text.contains(&wanted), "{wanted}");
+    }
 }
 
 #[test]

@@ -15,7 +15,7 @@ use subsurf_tests::{drawable, shape};
 fn paths_come_close_to_the_gather_and_apis_to_each_other() {
     let file = material_of("jade");
     let gpus = Backend::ALL.map(device);
-    let meshes = [("knot", knot(14.0, 4.5, 32)), ("bowl", bowl(12.0, 2.0, 32)), ("drapery", drapery(14.0, 1.0, 5, 40))];
+    let meshes = [("knot", knot(14.0, 4.5, 32)), ("bowl", bowl(12.0, 2.0, 32)), ("drapery", drapery(12.0, 1.0, 5, 32))];
     for (name, mesh) in &meshes {
         let scene = scene(mesh);
         let draw = |gpu: &Gpu, mode| Loaded::new(gpu, mode, &file, mesh).picture(gpu, &scene, SIZE);

@@ -64,7 +64,7 @@ impl BssrdfPlanes {
                 planes.mixtures(*mixtures)?;
             }
         }
-        Ok((Self::new(gpu, layout, header, [ROW; 2], planes.textures), planes.fills))
+        Ok((Self::new(gpu, layout, header, ROW, planes.textures), planes.fills))
     }
 
     /// Uploads an uncompressed capture, `[y][x][dy][dx][rgb]` of little-endian f32, for comparison: sizes, pitch and
@@ -85,17 +85,11 @@ impl BssrdfPlanes {
             // Copies wait in buffers of their own until they are submitted: do not let them all wait together.
             gpu.finish()?;
         }
-        Ok(Self::new(gpu, MaterialLayout::Capture, header, [ROW, rows], vec![texture]))
+        Ok(Self::new(gpu, MaterialLayout::Capture, header, rows, vec![texture]))
     }
 
-    fn new(
-        gpu: &Gpu,
-        layout: MaterialLayout,
-        header: &BssrdfHeader,
-        layer: [u32; 2],
-        textures: Vec<Surface2d>,
-    ) -> Self {
-        let block = uniform::Material::new(header, layer);
+    fn new(gpu: &Gpu, layout: MaterialLayout, header: &BssrdfHeader, rows: u32, textures: Vec<Surface2d>) -> Self {
+        let block = uniform::Material::new(header, rows);
         Self { layout, header: *header, uniform: gpu.uniform(Purpose::Material, "material", &block), textures }
     }
 

@@ -87,7 +87,7 @@ impl MaterialLayout {
                 wgsl!("material/reflectance"),
             ],
             Self::PerPixel => &[wgsl!("material/material"), wgsl!("material/per_pixel"), wgsl!("material/reflectance")],
-            Self::Capture => &[wgsl!("material/material"), wgsl!("material/capture")],
+            Self::Capture => &[wgsl!("lib/array"), wgsl!("material/material"), wgsl!("material/capture")],
         }
     }
 

@@ -8,6 +8,7 @@ use super::binding::Binding::{
 use super::file::{File, wgsl};
 use super::pass::{Group, Part, Pass};
 
+pub(super) const ARRAY: Part = Part::File(wgsl!("lib/array"));
 pub(super) const FULLSCREEN: Part = Part::File(wgsl!("lib/fullscreen"));
 pub(super) const FRESNEL: Part = Part::File(wgsl!("lib/fresnel"));
 pub(super) const OBJECT: Part = Part::File(wgsl!("lib/mesh/object"));
@@ -132,7 +133,7 @@ pub static BLUR_PATCH_LAST: Pass = fullscreen(
 /// Coefficients of the separable basis of every pixel, or its albedo, from the planes of a file.
 pub static PROFILE_SUMS: Pass = fullscreen(
     wgsl!("pass/patch/profile_sums"),
-    &[Part::TargetFormat, Part::FittedLayout, FULLSCREEN],
+    &[Part::TargetFormat, Part::FittedLayout, ARRAY, FULLSCREEN],
     &[Group::Material, Group::Fixed(&[Float])],
 );
 
@@ -150,7 +151,7 @@ pub static IRRADIANCE: Pass = fullscreen(
 /// Exitance at the points of a surface, by the reference sum.
 pub static SURFACE_GATHER: Pass = fullscreen(
     wgsl!("pass/surface/surface_gather"),
-    &[Part::TargetFormat, Part::FittedLayout, FULLSCREEN],
+    &[Part::TargetFormat, Part::FittedLayout, ARRAY, FULLSCREEN],
     &[Group::Material, Group::Fixed(&[Uniform, Float, Binding::Uint, Binding::Uint, Target])],
 );
 
@@ -167,6 +168,7 @@ pub static SHADE_VERTEX: Pass = picture(
         COAT,
         MAPPING,
         VISIBILITIES,
+        ARRAY,
         EXITANCE_VERTEX,
         VERTEX,
         SHADING,

@@ -4,8 +4,8 @@ use super::binding::Binding::{Float, Uint, Uniform};
 use super::file::wgsl;
 use super::pass::{Group, Part, Pass};
 use super::table::{
-    COAT, DISPLAY, FRESNEL, HOST_SHADOW, LIT, OBJECT, OF_HOST, OF_OBJECT, SCENE, SHADING, TONE, TSM_VISIBILITY, VERTEX,
-    VERTEX_NONE, VISIBILITIES, shaded,
+    ARRAY, COAT, DISPLAY, FRESNEL, HOST_SHADOW, LIT, OBJECT, OF_HOST, OF_OBJECT, SCENE, SHADING, TONE, TSM_VISIBILITY,
+    VERTEX, VERTEX_NONE, VISIBILITIES, shaded,
 };
 
 const TRANSFER_VERTEX: Part = Part::File(wgsl!("lib/mesh/transfer_vertex"));
@@ -24,6 +24,7 @@ pub static SHADE_TRANSFER: Pass = shaded(
         HOST_SHADOW,
         TSM_VISIBILITY,
         VISIBILITIES,
+        ARRAY,
         TRANSFER_VERTEX,
         VERTEX,
         SHADING,

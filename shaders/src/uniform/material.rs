@@ -27,11 +27,7 @@ pub struct Material {
     pub r_max_mm: f32,
     /// (S − 1) / r_max, in nodes per mm.
     pub nodes_per_mm: f32,
-    /// Base materials to a column of their texture.
-    pub base_rows: u32,
-    /// Texels to a row of textures that hold plain arrays.
-    pub row: u32,
-    /// Rows to a layer of those that have layers.
+    /// Rows to a layer of plain arrays that have layers.
     pub rows: u32,
 }
 
@@ -40,9 +36,9 @@ pub struct Material {
 pub const BASE_ROWS: u32 = 1_024;
 
 impl Material {
-    /// The block for a file's header; plain arrays have layers of `layer` texels.
+    /// The block for a file's header; layers of plain arrays have `rows` rows.
     #[must_use]
-    pub fn new(header: &BssrdfHeader, layer: [u32; 2]) -> Self {
+    pub fn new(header: &BssrdfHeader, rows: u32) -> Self {
         Self {
             size: [header.width, header.height],
             addressing: header.addressing.code().into(),
@@ -52,9 +48,7 @@ impl Material {
             pitch_mm: header.pitch_mm,
             r_max_mm: header.r_max_mm,
             nodes_per_mm: f32::from(header.samples.saturating_sub(1)) / header.r_max_mm,
-            base_rows: BASE_ROWS,
-            row: layer[0],
-            rows: layer[1],
+            rows,
         }
     }
 }

@@ -6,8 +6,6 @@ use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec3};
 use subsurf_scene::{BoundingSphere, Light, LightShape, Lighting, MAX_LIGHTS, Shadow, SurfacePoints, View};
 
-use super::material::ROW;
-
 /// Widest half angle of a light's view.
 const WIDEST: f32 = 75.0 * std::f32::consts::PI / 180.0;
 /// Eye of a parallel projection: so many radii of the scene away.
@@ -82,14 +80,12 @@ pub struct Scene {
     pub lights: u32,
     /// Middle of the scene in mm, where depth is 0.
     pub centre_mm: [f32; 3],
-    /// Texels to a row of textures that hold plain arrays.
-    pub row: u32,
     /// Texels to a side of a tile of the translucent shadow maps.
     pub light_texels: u32,
     /// Tiles in a row of them, at least 1.
     pub light_columns: u32,
     #[doc(hidden)]
-    pub pad: [u32; 2],
+    pub pad: [u32; 3],
     /// Irradiance of the environment on a normal (x, y, z): coefficients of 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y².
     pub sky: [[f32; 4]; 9],
     /// Lights, of which the first `lights` count.
@@ -126,10 +122,9 @@ impl Scene {
             forward: forward.into(),
             lights: u32::try_from(lighting.lights.len().min(MAX_LIGHTS)).unwrap_or(0),
             centre_mm: bounds.centre_mm.into(),
-            row: ROW,
             light_texels,
             light_columns: 1,
-            pad: [0; 2],
+            pad: [0; 3],
             sky: [[0.0; 4]; 9],
             light: [LightSource::default(); MAX_LIGHTS],
         };

@@ -46,8 +46,6 @@ struct Scene {
     lights: u32,
     // Middle of the scene in mm: depth is 0 there, and half-float positions are finest.
     centre_mm: vec3<f32>,
-    // Texels to a row of textures that hold plain arrays.
-    row: u32,
     // Texels to a side of a tile of the translucent shadow maps, and tiles in a row of them, at least 1.
     light_texels: u32,
     light_columns: u32,

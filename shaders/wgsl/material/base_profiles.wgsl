@@ -1,13 +1,16 @@
 // Log-scale base scattering profiles (Yatagawa et al. 2020, eq. 3).
 
-// S x M texels: node across, base material down; natural log of P in mm^-2, linear Rec. 709. Where there are more than base_rows
+// S x M texels: node across, base material down; natural log of P in mm^-2, linear Rec. 709. Where there are more than BASE_ROWS
 // materials, the next ones stand beside the first.
 @group(0) @binding(1) var profiles: texture_2d<f32>;
+
+// Base materials to a column of the texture.
+const BASE_ROWS: u32 = 1024u;
 
 // Texel of node 0 of a base material; an index too large names the last one.
 fn base_texel(index: u32) -> vec2<u32> {
     let base = min(index, material.base_materials - 1u);
-    return vec2<u32>(base / material.base_rows * material.samples, base % material.base_rows);
+    return vec2<u32>(base / BASE_ROWS * material.samples, base % BASE_ROWS);
 }
 
 // Node h of a profile that begins at a texel.

@@ -15,8 +15,8 @@ fn load_pixel(texel: vec2<u32>) -> Pixel {
 
 // Entry `index` of the array.
 fn entry(index: u32) -> f32 {
-    let row = index / material.row;
-    let rd = textureLoad(entries, vec2<u32>(index % material.row, row % material.rows), row / material.rows, 0).x;
+    let row = index / ROW;
+    let rd = textureLoad(entries, vec2<u32>(index % ROW, row % material.rows), row / material.rows, 0).x;
     // Entries that are not positive were not measured; NaN compares false.
     return select(0.0, rd, rd > 0.0);
 }

@@ -17,11 +17,7 @@ struct Material {
     r_max_mm: f32,
     // (S - 1) / r_max, in nodes per mm.
     nodes_per_mm: f32,
-    // Base materials to a column of their texture.
-    base_rows: u32,
-    // Texels to a row of textures that hold plain arrays.
-    row: u32,
-    // Rows to a layer of one that has layers.
+    // Rows to a layer of a plain array that has layers.
     rows: u32,
 }
 
@@ -52,9 +48,4 @@ fn address(x: vec2<i32>) -> vec2<u32> {
         return m;
     }
     return min(m, period - 1u - m);
-}
-
-// Texel of entry `index` of a plain array in a texture.
-fn array_texel(index: u32) -> vec2<u32> {
-    return vec2<u32>(index % material.row, index / material.row);
 }

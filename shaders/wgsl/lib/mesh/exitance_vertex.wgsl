@@ -8,7 +8,7 @@
 // Exitance at a point, by its number.
 fn point_exitance(point: u32) -> vec3<f32> {
     // Points that follow each other share tiles of 8 x 8 texels.
-    let tiles = scene.row / 8u;
+    let tiles = ROW / 8u;
     let tile = vec2<u32>(point / 64u % tiles, point / 64u / tiles);
     let texel = min(8u * tile + vec2<u32>(point % 8u, point / 8u % 8u), textureDimensions(exitances) - 1u);
     return unpack(textureLoad(exitances, texel, 0)).xyz;
@@ -25,5 +25,5 @@ fn vertex_exitance(vertex: u32, point: u32, shares: vec3<f32>) -> vec3<f32> {
 
 // Visibility of the lights from a point, by its number.
 fn vertex_visibilities(point: u32) -> Visibilities {
-    return unpack_visibilities(textureLoad(visibilities, vec2<u32>(point % scene.row, point / scene.row), 0));
+    return unpack_visibilities(textureLoad(visibilities, array_texel(point), 0));
 }

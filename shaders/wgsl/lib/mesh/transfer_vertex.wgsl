@@ -19,7 +19,7 @@ struct Transfer {
 
 // Texel of the codes, by its number.
 fn code_texel(number: u32) -> vec4<u32> {
-    let texel = min(vec2<u32>(number % scene.row, number / scene.row), textureDimensions(vertex_codes) - 1u);
+    let texel = min(array_texel(number), textureDimensions(vertex_codes) - 1u);
     return textureLoad(vertex_codes, texel, 0);
 }
 

@@ -1,4 +1,4 @@
-// Needs: <target format>, <fitted material layout>, fullscreen.
+// Needs: <target format>, <fitted material layout>, array, fullscreen.
 // Two weighted sums over the log-scale profile of every pixel: y_l(x) = sum over k of d_lk exp(s_k P_x(r_k)). With s = 1/2 and
 // the projection of a separable basis they are its coefficients c_l; with s = 1, an albedo.
 

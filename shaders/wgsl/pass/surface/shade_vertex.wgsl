@@ -1,4 +1,4 @@
-// Needs: <target format>, tone, display, fresnel, object, scene, coat, mapping, visibilities, exitance_vertex, vertex, shading.
+// Needs: <target format>, tone, display, fresnel, object, scene, coat, mapping, visibilities, array, exitance_vertex, vertex, shading.
 // Picture of a mesh from the exitance of its vertices.
 
 // Exitance, linear between the vertices.

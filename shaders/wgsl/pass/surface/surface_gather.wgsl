@@ -1,4 +1,4 @@
-// Needs: <target format>, <fitted material layout>, fullscreen.
+// Needs: <target format>, <fitted material layout>, array, fullscreen.
 // Reference pass on a surface: exitance(x_o) = sum over points x_i of Rd(x_i, x_o) E(x_i) dA, r their distance in space.
 // Points are spread over the surface and sorted into the cells of a grid; all tables are arrays in textures.
 
@@ -36,7 +36,7 @@ fn cell_of(position_mm: vec3<f32>) -> vec3<u32> {
 fn point_at(texel: vec2<u32>) -> u32 {
     let tile = texel / 8u;
     let within = texel % 8u;
-    return (tile.y * (material.row / 8u) + tile.x) * 64u + within.y * 8u + within.x;
+    return (tile.y * (ROW / 8u) + tile.x) * 64u + within.y * 8u + within.x;
 }
 
 // First point of a cell.
@@ -75,12 +75,17 @@ fn surface_gather(@builtin(position) at: vec4<f32>) -> @location(0) TargetTexel 
                 let texel_i = array_texel(i);
                 let x_i = textureLoad(positions, texel_i, 0);
                 let r_mm = distance(x_i.xyz, x_o);
-                if r_mm <= material.r_max_mm {
-                    let pixel = min(textureLoad(pixels, texel_i, 0).xy, material.size - 1u);
-                    let e = unpack(textureLoad(irradiances, texel_i, 0)).xyz;
-                    let partner = partner_at(o, r_mm);
-                    sum += reflectance(load_pixel(pixel), partner, vec2<i32>(0)) * e * x_i.w;
+                if r_mm > material.r_max_mm {
+                    continue;
                 }
+                // Half of a closed surface is turned away from a light: nothing enters there.
+                let e = unpack(textureLoad(irradiances, texel_i, 0)).xyz;
+                if all(e == vec3<f32>(0.0)) {
+                    continue;
+                }
+                let pixel = min(textureLoad(pixels, texel_i, 0).xy, material.size - 1u);
+                let partner = partner_at(o, r_mm);
+                sum += reflectance(load_pixel(pixel), partner, vec2<i32>(0)) * e * x_i.w;
             }
         }
     }

@@ -1,4 +1,4 @@
-// Needs: <target format>, tone, display, fresnel, object, scene, coat, host_shadow, tsm_visibility, visibilities, transfer_vertex, vertex, shading.
+// Needs: <target format>, tone, display, fresnel, object, scene, coat, host_shadow, tsm_visibility, visibilities, array, transfer_vertex, vertex, shading.
 // Picture of a mesh from what is precomputed for its vertices.
 
 // Exitance, linear between the vertices.
