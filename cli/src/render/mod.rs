@@ -1,13 +1,12 @@
 //! `subsurf render`: a picture of a material, flat or on a mesh.
 
+mod asset;
 mod btf;
 mod btf_args;
 mod exposure;
-mod kernel;
 mod mesh;
 mod options;
 mod patch;
-mod transfer;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -25,10 +24,9 @@ use crate::options::{MeshArgs, Size, UpArg};
 use crate::outln;
 use crate::picture::{check_picture_target, montage, write_picture};
 use crate::program::failure::bad_request;
+use asset::{draw_kernel, draw_transfer};
 use btf::draw_btf;
-use kernel::draw_kernel;
 use options::{AnglesArg, LightArg};
-use transfer::draw_transfer;
 
 pub(crate) use btf_args::{BtfArgs, Copies};
 pub(crate) use mesh::draw_mesh;

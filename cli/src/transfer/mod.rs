@@ -10,6 +10,8 @@ use clap::builder::PossibleValuesParser;
 use subsurf_decoder::Transfer;
 use subsurf_encoder::kernel::Profile;
 use subsurf_encoder::kernel::profile::shipped;
+use subsurf_encoder::rate::Target;
+use subsurf_encoder::rate::transfer::{Subject, search};
 use subsurf_encoder::simulate::diffusion::Medium;
 use subsurf_encoder::transfer::{Options, RdTable, Size, encode, fibonacci, precompute};
 use subsurf_encoder::{check_target, write_bytes};
@@ -19,7 +21,9 @@ pub(crate) use report::{bytes_per_vertex, clusters};
 
 use crate::info::read_error;
 use crate::options::MeshArgs;
+use crate::outln;
 use crate::program::failure::bad_request;
+use crate::program::interrupt::Graceful;
 use crate::program::progress::Bars;
 use crate::program::threads;
 
@@ -45,6 +49,12 @@ pub(crate) struct Args {
     /// The .subsurf file to write
     #[arg(long, short)]
     output: PathBuf,
+    /// Choose lights and sizes: the smallest file with at most this e_rms in the worst of 100 views, as a share of the largest q; 0.01
+    #[arg(long, value_name = "E", conflicts_with_all = ["target_bytes_per_vertex", "lights", "clusters", "components", "bits"])]
+    target_error: Option<f64>,
+    /// Choose lights and sizes: the best file of at most so many bytes per vertex, all of it counted; 20
+    #[arg(long, value_name = "B", conflicts_with_all = ["lights", "clusters", "components", "bits"])]
+    target_bytes_per_vertex: Option<f64>,
     /// Directions of light, 4 to 1,024: more are closer to the truth in between, and cost side data and time alone
     #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u16).range(4..=1024))]
     lights: u16,
@@ -74,6 +84,7 @@ The file is for this mesh in this size alone. Vertices should be closer than lig
   subsurf transfer bunny.ply --extent 40 --material marble -o bunny.subsurf
   subsurf transfer knot --material skin1 --lights 400 -o knot.subsurf
   subsurf transfer dragon.obj --profile measured.csv --grey -o dragon.subsurf
+  subsurf transfer bunny.ply --extent 40 --material marble --target-error 0.02 -o bunny.subsurf
   subsurf compare bunny.ply bunny.subsurf --extent 40                     how far off, in images";
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
@@ -84,17 +95,45 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let table = RdTable::of(&profile)?;
     let eta = args.eta.unwrap_or(usual);
     let options = Options { channels: if args.grey { 1 } else { 3 }, eta };
-    let clusters = args.clusters.unwrap_or(Size::of_vertices(mesh.positions.len()).clusters);
-    let size = Size { clusters, components: args.components, bits: args.bits };
-    size.check()?;
     let (bars, began) = (Bars::new(), Instant::now());
-    let of = precompute(&mesh, &table, &fibonacci(args.lights.into()), &options, &bars)?;
-    let bytes = encode(&mesh, &table, &of, eta, &size, &bars)?;
+    let bytes = match args.target(mesh.positions.len()) {
+        Some(target) => searched(&Subject { mesh: &mesh, table: &table, options: &options }, target, &bars)?,
+        None => {
+            let clusters = args.clusters.unwrap_or(Size::of_vertices(mesh.positions.len()).clusters);
+            let size = Size { clusters, components: args.components, bits: args.bits };
+            size.check()?;
+            let of = precompute(&mesh, &table, &fibonacci(args.lights.into()), &options, &bars)?;
+            encode(&mesh, &table, &of, eta, &size, &bars)?
+        }
+    };
     drop(bars);
     write_bytes(&args.output, &bytes)?;
     let file = Transfer::parse(&bytes).map_err(|error| read_error(&args.output, error))?;
     report::written(&args.output, &file, bytes.len(), began.elapsed());
     Ok(())
+}
+
+impl Args {
+    /// What is looked for in a file for so many vertices.
+    fn target(&self, vertices: usize) -> Option<Target> {
+        #[allow(
+            clippy::cast_precision_loss,
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "numbers out of range saturate"
+        )]
+        let bytes = |per_vertex: f64| (per_vertex * vertices as f64) as u64;
+        let of_bytes = self.target_bytes_per_vertex.map(|per_vertex| Target::Bytes(bytes(per_vertex)));
+        self.target_error.map(|error| Target::Quality(-error)).or(of_bytes)
+    }
+}
+
+/// The file to take; says what is tried.
+fn searched(subject: &Subject<'_>, target: Target, bars: &Bars) -> anyhow::Result<Vec<u8>> {
+    let _graceful = Graceful::new();
+    outln!("rate-distortion curve, e_rms of the worst view and of all, and that of q before it is compressed:");
+    let curve = search(subject, target, bars, &mut |point| report::tried(subject.mesh.positions.len(), point))?;
+    Ok(curve.chosen().file.clone())
 }
 
 /// The profile that is asked for, and the refractive index that comes with it.

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use subsurf_decoder::Transfer;
+use subsurf_encoder::rate::transfer::{Candidate, Point, TransferDistortion};
 use subsurf_viewer::human;
 
 use crate::outln;
@@ -22,6 +23,25 @@ pub(super) fn written(path: &Path, file: &Transfer<'_>, bytes: usize, took: Dura
         took.as_secs_f64()
     );
     outln!("  {}", clusters(file));
+}
+
+/// Line about one file that was tried.
+pub(super) fn tried(vertices: usize, point: &Point) {
+    let Candidate { lights, size } = &point.candidate;
+    let TransferDistortion { total, interpolation } = &point.distortion;
+    #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
+    let per_vertex = point.bytes() as f64 / vertices as f64;
+    outln!(
+        "  {:>8}, {per_vertex:>5.1} bytes per vertex: {lights:>4} lights, {:>3} clusters of {:>2} components, {:>3} bits: {:.2e} {:.2e}; {:.2e} {:.2e}",
+        human(point.bytes() as u64),
+        size.clusters,
+        size.components,
+        size.bits,
+        total.max,
+        total.rms,
+        interpolation.max,
+        interpolation.rms
+    );
 }
 
 /// Clusters, components and records in a line.

@@ -38,6 +38,22 @@ fn a_transfer_is_made_shown_and_judged() {
         assert_refused(&refused, &reasons);
     }
 
+    let chosen =
+        succeed(folder, "transfer sphere --extent 12 --material skin1 --grey --target-error 0.1 -o chosen.subsurf");
+    assert!(
+        chosen.out.contains("e_rms of the worst view") && chosen.out.contains("50 lights, 1 channels"),
+        "{}",
+        chosen.out
+    );
+    let chosen = json(folder, "compare sphere chosen.subsurf --extent 12 --json");
+    assert!(chosen["total"]["max"].as_f64().unwrap() <= 0.1, "{chosen}");
+    for (options, reason) in
+        [("--target-error 0", "above 0"), ("--target-error 0.1 --lights 20", "cannot be used with")]
+    {
+        let refused = run(folder, &format!("transfer sphere --extent 12 --material skin1 {options} -o none.subsurf"));
+        assert_refused(&refused, &[reason]);
+    }
+
     let other = run(folder, "compare sphere ball.subsurf --extent 13");
     assert_refused(&other, &["the file is for another mesh"]);
     let coarse = run(folder, "transfer sphere --extent 5000 --material ketchup --lights 4 --grey -o coarse.subsurf");

@@ -24,7 +24,7 @@ impl Target {
 /// How far a file is from what was measured.
 pub trait Distortion {
     /// The number that [`Target::Quality`] is about, larger for better files: PSNR under uniform light in dB of a
-    /// BSSRDF, mean structural similarity of Y, Cr and Cb (0 to 1) of a BTF; −∞ or 0 where there is none.
+    /// BSSRDF, mean structural similarity of Y, Cr and Cb (0 to 1) of a BTF, minus e_rms of a transfer; −∞ or 0 where there is none.
     fn quality(&self) -> f64;
 }
 

@@ -17,4 +17,4 @@ pub use compress::Size;
 pub use lights::fibonacci;
 pub use precompute::{Options, Precomputed, precompute};
 pub use rd_table::RdTable;
-pub use write::encode;
+pub use write::{encode, file_bytes};

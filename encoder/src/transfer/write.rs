@@ -30,24 +30,14 @@ pub fn encode(
     progress: &dyn Progress,
 ) -> Result<Vec<u8>> {
     size.check()?;
-    let refuse = |what: String| Error::Request(format!("{what} are more than a file has"));
     let (lights, vertices) = (of.light_count(), of.place_of.len());
+    let usual = header(mesh, table, of.channels, lights, eta, size)?;
     memory::expect(COPIES * 4 * of.q.len() as u64, || format!("compressing {lights} lights at {vertices} vertices"))?;
     let quantised = compress(of, size, progress);
-    let [positions_crc, triangles_crc] = mesh.geometry_crc();
-    let scale = |c: usize| quantised.scales.get(c).copied().unwrap_or(1.0);
     let header = TransferHeader {
-        channels: if of.channels == 1 { 1 } else { 3 },
-        lights: u16::try_from(lights).map_err(|_| refuse(format!("{lights} lights")))?,
-        clusters: u16::try_from(size.clusters).unwrap_or(u16::MAX),
-        tail_nodes: u16::try_from(table.tail.len()).map_err(|_| refuse(format!("{} nodes", table.tail.len())))?,
-        vertices: u32::try_from(vertices).map_err(|_| refuse(format!("{vertices} vertices")))?,
-        positions_crc,
-        triangles_crc,
-        radius_mm: table.radius_mm,
-        eta,
-        scale: [0, 1, 2].map(scale),
+        scale: [0, 1, 2].map(|c| quantised.scales.get(c).copied().unwrap_or(1.0)),
         bits: quantised.bits,
+        ..usual
     };
     let floats = |values: &[f32]| values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>();
     let means: Vec<u8> = quantised.means.iter().flat_map(|value| value.to_le_bytes()).collect();
@@ -55,16 +45,58 @@ pub fn encode(
     let (head, codes) = (header.to_bytes(), codes(&quantised, &header, &of.place_of));
     let [ranges, lights, tail] =
         [quantised.ranges.as_flattened(), of.lights.as_flattened(), table.tail.as_flattened()].map(floats);
-    let sections = [
-        (Section::TransferHeader, &head[..]),
-        (Section::Lights, &lights),
-        (Section::ClusterRanges, &ranges),
-        (Section::ClusterMeans, &means),
-        (Section::ClusterBases, &components),
-        (Section::VertexCodes, &codes),
-        (Section::KernelTail, &tail),
-    ];
-    reread(container::write(sections))
+    let contents = [&head[..], &lights, &ranges, &means, &components, &codes, &tail];
+    reread(container::write(SECTIONS.into_iter().zip(contents)))
+}
+
+/// Bytes of a file that [`encode`] makes of a mesh.
+///
+/// # Errors
+/// As [`encode`].
+pub fn file_bytes(mesh: &Mesh, table: &RdTable, channels: usize, lights: usize, size: &Size) -> Result<u64> {
+    size.check()?;
+    let header = header(mesh, table, channels, lights, 1.0, size)?;
+    Ok(container::file_bytes(&SECTIONS.map(|section| header.section_bytes(section))))
+}
+
+/// Sections of a file, in their order.
+const SECTIONS: [Section; 7] = [
+    Section::TransferHeader,
+    Section::Lights,
+    Section::ClusterRanges,
+    Section::ClusterMeans,
+    Section::ClusterBases,
+    Section::VertexCodes,
+    Section::KernelTail,
+];
+
+/// Header of a file before anything is compressed: of scale 1, its bits shared evenly.
+fn header(
+    mesh: &Mesh,
+    table: &RdTable,
+    channels: usize,
+    lights: usize,
+    eta: f32,
+    size: &Size,
+) -> Result<TransferHeader> {
+    let refuse = |what: String| Error::Request(format!("{what} are more than a file has"));
+    let vertices = mesh.positions.len();
+    let [positions_crc, triangles_crc] = mesh.geometry_crc();
+    let Size { clusters, components, bits } = *size;
+    let share = |k: usize| if k < components { bits / components + usize::from(k < bits % components) } else { 0 };
+    Ok(TransferHeader {
+        channels: if channels == 1 { 1 } else { 3 },
+        lights: u16::try_from(lights).map_err(|_| refuse(format!("{lights} lights")))?,
+        clusters: u16::try_from(clusters).unwrap_or(u16::MAX),
+        tail_nodes: u16::try_from(table.tail.len()).map_err(|_| refuse(format!("{} nodes", table.tail.len())))?,
+        vertices: u32::try_from(vertices).map_err(|_| refuse(format!("{vertices} vertices")))?,
+        positions_crc,
+        triangles_crc,
+        radius_mm: table.radius_mm,
+        eta,
+        scale: [1.0; 3],
+        bits: std::array::from_fn(|k| u8::try_from(share(k)).unwrap_or(u8::MAX)),
+    })
 }
 
 /// Records of the vertices, in the mesh's order.

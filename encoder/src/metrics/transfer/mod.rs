@@ -1,26 +1,22 @@
 //! Errors of transfer files, of q and in images of the mesh (Hao and Varshney 2004, section 3.3).
 
+mod between;
 mod views;
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use subsurf_decoder::Transfer;
-use subsurf_decoder::transfer::LightWeights;
 use subsurf_scene::Mesh;
 
+pub use between::Between;
 pub use views::{ImageError, Views};
 
 use crate::baseline::hao2004::{Lloyd, four_nearest};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
-use crate::transfer::{Options, Precomputed, RdTable, fibonacci, precompute};
+use crate::transfer::{Options, Precomputed, RdTable, precompute};
+use between::{SIDE, VIEWS, directions, weights};
 
-/// Views, as many as the paper has.
-const VIEWS: usize = 100;
-/// Sides of views in pixels.
-const SIDE: u16 = 256;
-/// Directions between the lights that errors are measured at.
-const BETWEEN: usize = 24;
 /// Rounds of the paper's quantiser.
 const LLOYD_ROUNDS: usize = 20;
 
@@ -44,16 +40,7 @@ pub struct TransferError {
 /// # Errors
 /// [`Error::Request`] if two lights of the file are one.
 pub fn weights_of(file: &Transfer<'_>, directions: &[[f32; 3]]) -> Result<Vec<Vec<f32>>> {
-    let lights = usize::from(file.header().lights);
-    let mut buffer = vec![0.0; LightWeights::buffer_len(lights)];
-    let between = LightWeights::new(file.lights(), &mut buffer)
-        .ok_or_else(|| Error::Request("two lights of the file are one: nothing lies between them".to_owned()))?;
-    let of = |towards: &[f32; 3]| {
-        let mut weights = vec![0.0; lights];
-        between.at(*towards, &mut weights);
-        weights
-    };
-    Ok(directions.iter().map(of).collect())
+    weights(file.lights(), directions)
 }
 
 /// Exitance of all vertices under light of given weights, `[vertex][channel]`.
@@ -88,8 +75,7 @@ pub fn judge(mesh: &Mesh, file: &Transfer<'_>, progress: &dyn Progress) -> Resul
     };
     let table = RdTable::of_tail(header.radius_mm, rows(file.tail()));
     let lights: Vec<[f32; 3]> = rows(file.lights());
-    // Between the stored ones: turned by a number that no spiral of lights has.
-    let between: Vec<[f32; 3]> = fibonacci(BETWEEN).into_iter().map(|[x, y, z]| [y, z, x]).collect();
+    let between = directions();
     let smooth = weights_of(file, &between)?;
     let all = [&lights[..], &between].concat();
     let options = Options { channels: header.channels.into(), eta: header.eta };
@@ -135,7 +121,8 @@ fn of_channel(
         let value = of.tr_mul(&DVector::from_column_slice(&smooth[k]));
         of_places(value.map(|value| value.max(0.0)).as_slice())
     };
-    let errors = |pairs: &(dyn Fn(usize) -> [Vec<f32>; 2] + Sync)| views.errors(|view| pairs(view % BETWEEN), mesh);
+    let errors =
+        |pairs: &(dyn Fn(usize) -> [Vec<f32>; 2] + Sync)| views.errors(|view| pairs(view % between.len()), mesh);
     TransferError {
         q: (squares.iter().sum::<f64>() / (lights * stored.place_of.len()) as f64).sqrt(),
         compression: errors(&|k| [decoded(&smooth[k]), interpolated(&q, k)]),
@@ -148,7 +135,7 @@ fn of_channel(
 impl TransferError {
     /// The larger of each error.
     fn worse(self, other: Self) -> Self {
-        let larger = |a: ImageError, b: ImageError| ImageError { max: a.max.max(b.max), rms: a.rms.max(b.rms) };
+        let larger = ImageError::larger;
         Self {
             q: self.q.max(other.q),
             compression: larger(self.compression, other.compression),
@@ -166,7 +153,7 @@ mod tests {
     use super::*;
     use crate::kernel::Profile;
     use crate::simulate::diffusion::Medium;
-    use crate::transfer::{Size, encode};
+    use crate::transfer::{Size, encode, fibonacci};
 
     /// Bounds a little above what was found, on a knot of few vertices, which shades itself everywhere; larger and smoother meshes
     /// have a fraction of it.

@@ -73,6 +73,14 @@ impl Views {
     }
 }
 
+impl ImageError {
+    /// The larger of each.
+    #[must_use]
+    pub(super) fn larger(self, other: Self) -> Self {
+        Self { max: self.max.max(other.max), rms: self.rms.max(other.rms) }
+    }
+}
+
 impl View {
     /// What is seen along `forward`, turned by `roll`.
     fn new(mesh: &Mesh, forward: Vec3, roll: Vec3, side: u16) -> Self {

@@ -1,0 +1,276 @@
+//! Transfer files along the rate-distortion curve.
+
+use subsurf_decoder::Transfer;
+use subsurf_decoder::transfer::layout::MAX_CLUSTERS;
+use subsurf_scene::Mesh;
+
+use super::curve::{Distortion, RdCurve, RdPoint, Target};
+use super::search::{Codec, Search};
+use crate::error::{Error, Result};
+use crate::metrics::transfer::{Between, ImageError};
+use crate::progress::Progress;
+use crate::transfer::{Options, Precomputed, RdTable, Size, encode, fibonacci, file_bytes, precompute};
+
+/// A transfer file that was tried.
+pub type Point = RdPoint<Candidate, Vec<u8>, TransferDistortion>;
+/// Transfer files that were tried, in the order in which they were tried.
+pub type Curve = RdCurve<Candidate, Vec<u8>, TransferDistortion>;
+
+/// Lights and size of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Candidate {
+    /// Number of lights.
+    pub lights: usize,
+    /// Size of what is compressed.
+    pub size: Size,
+}
+
+/// Errors in images between the lights, against exact sums; of the worst channel, each divided by its largest q.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TransferDistortion {
+    /// Of the file.
+    pub total: ImageError,
+    /// Of q before it is compressed: no file of as many lights has less.
+    pub interpolation: ImageError,
+}
+
+/// Minus e_rms of the worst view.
+impl Distortion for TransferDistortion {
+    fn quality(&self) -> f64 {
+        -self.total.max
+    }
+}
+
+/// Numbers of lights that are tried.
+const LIGHTS: [usize; 6] = [50, 100, 200, 400, 700, 1024];
+/// The number of lights that a size is first looked for with.
+const USUAL_LIGHTS: usize = 2;
+/// Clusters, as quarters of [`Size::of_vertices`], components and bits of a vertex, by falling error.
+const LADDER: [(usize, usize, usize); 9] =
+    [(1, 4, 16), (1, 6, 24), (1, 8, 40), (2, 8, 40), (4, 8, 40), (4, 10, 48), (8, 12, 56), (16, 14, 72), (32, 16, 112)];
+/// The step of the ladder that a size is first looked for with.
+const USUAL_STEP: usize = 4;
+
+/// What is precomputed: a mesh in mm, a profile and options.
+#[derive(Clone, Copy)]
+pub struct Subject<'a> {
+    /// Mesh.
+    pub mesh: &'a Mesh,
+    /// Profile.
+    pub table: &'a RdTable,
+    /// Channels and refractive index.
+    pub options: &'a Options,
+}
+
+/// The best file of a mesh for a target; every file that is tried is shown to `found` as it comes.
+///
+/// For a quality lights are added until interpolation between them leaves room for what compression does, and then the smallest
+/// size of as many lights is taken that reaches it. For a number of bytes, lights and sizes of a vertex are changed in turns for as
+/// long as the error falls, with as many clusters as there is room for.
+///
+/// # Errors
+/// As [`precompute`] and [`encode`]; [`Error::Request`] if nothing reaches the target, or if it is no number.
+pub fn search(
+    subject: &Subject<'_>,
+    target: Target,
+    progress: &dyn Progress,
+    found: &mut dyn FnMut(&Point),
+) -> Result<Curve> {
+    if matches!(target, Target::Quality(least) if !least.is_finite() || least >= 0.0) {
+        return Err(Error::Request("an error to reach must be a number above 0, for example 0.01".to_owned()));
+    }
+    let between = Between::new(subject.mesh, subject.table, subject.options, progress)?;
+    let codec = Files { subject: *subject, between, made: None, progress };
+    let mut search = Search::new(codec, target, progress, found);
+    match target {
+        Target::Quality(least) => along_quality(&mut search, least)?,
+        Target::Bytes(limit) => along_bytes(&mut search, limit)?,
+    }
+    let curve = search.finish().expect("something was tried");
+    let best = curve.chosen();
+    match target {
+        Target::Quality(least) if best.quality() < least && !curve.stopped => Err(Error::Request(format!(
+            "no file that was tried has an error of at most {:.2e} in the worst view; the best has {:.2e} in {} bytes: \
+             shadows on the mesh are sharper than what {} lights show",
+            -least,
+            -best.quality(),
+            best.bytes(),
+            best.candidate.lights
+        ))),
+        _ => Ok(curve),
+    }
+}
+
+/// Adds lights until interpolation is good enough, and takes the smallest size that is.
+fn along_quality(search: &mut Search<'_, Files<'_>>, least: f64) -> Result<()> {
+    let clusters = Size::of_vertices(search.codec.subject.mesh.positions.len()).clusters;
+    let sizes = LADDER.map(|(quarters, components, bits)| Size {
+        clusters: (quarters * clusters / 4).clamp(1, MAX_CLUSTERS.into()),
+        components,
+        bits,
+    });
+    for (step, lights) in LIGHTS.into_iter().enumerate() {
+        let is_last = step + 1 == LIGHTS.len();
+        if -search.codec.made(lights)?.interpolation.max < least && !is_last {
+            continue;
+        }
+        let ladder = sizes.map(|size| Candidate { lights, size });
+        if !search.bisect(&ladder)? || search.smallest().is_some() {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Changes lights and bits of a vertex in turns, for as long as the error falls.
+fn along_bytes(search: &mut Search<'_, Files<'_>>, limit: u64) -> Result<()> {
+    let Subject { mesh, table, options } = search.codec.subject;
+    let bytes = |candidate: &Candidate| file_bytes(mesh, table, options.channels, candidate.lights, &candidate.size);
+    // The most clusters that there is room for.
+    let within = |[lights, step]: [usize; 2]| -> Result<Option<Candidate>> {
+        let (_, components, bits) = LADDER[step];
+        let of = |clusters| Candidate { lights: LIGHTS[lights], size: Size { clusters, components, bits } };
+        let (mut fits, mut too_many) = (0, usize::from(MAX_CLUSTERS) + 1);
+        while fits + 1 < too_many {
+            let clusters = fits.midpoint(too_many);
+            *(if bytes(&of(clusters))? <= limit { &mut fits } else { &mut too_many }) = clusters;
+        }
+        Ok((fits > 0).then(|| of(fits)))
+    };
+    // The usual place, or the nearest below it where a file fits.
+    let mut at = [USUAL_LIGHTS, USUAL_STEP];
+    while within(at)?.is_none() {
+        match at {
+            [0, 0] => {
+                let [(_, components, bits), ..] = LADDER;
+                let least = bytes(&Candidate { lights: LIGHTS[0], size: Size { clusters: 1, components, bits } })?;
+                return Err(Error::Request(format!(
+                    "no file that is tried takes {limit} bytes or less; the smallest takes {least}"
+                )));
+            }
+            [lights, step] if step > 0 => at = [lights, step - 1],
+            [lights, _] => at = [lights - 1, USUAL_STEP],
+        }
+    }
+    let (mut steps, mut tried) = (vec![at], Vec::new());
+    let mut quality = f64::NEG_INFINITY;
+    while let Some(next) = steps.pop() {
+        tried.push(next);
+        let Some(candidate) = within(next)? else { continue };
+        let found = search.try_out(&candidate)?.quality.unwrap_or(f64::NEG_INFINITY);
+        if search.progress.stopped() {
+            break;
+        }
+        if found <= quality {
+            continue;
+        }
+        // From a better place all neighbours are worth a look; lights, which cost more work, after sizes of as many.
+        quality = found;
+        let [lights, step] = next;
+        let neighbours = [
+            (lights + 1 < LIGHTS.len()).then_some([lights + 1, step]),
+            lights.checked_sub(1).map(|lights| [lights, step]),
+            (step + 1 < LADDER.len()).then_some([lights, step + 1]),
+            step.checked_sub(1).map(|step| [lights, step]),
+        ];
+        steps = neighbours.into_iter().flatten().filter(|place| !tried.contains(place)).collect();
+    }
+    Ok(())
+}
+
+/// q for a number of lights.
+struct Made {
+    of: Precomputed,
+    interpolation: ImageError,
+}
+
+/// Files of one mesh, judged by exact sums.
+struct Files<'a> {
+    subject: Subject<'a>,
+    between: Between<'a>,
+    /// The last that was asked for.
+    made: Option<Made>,
+    progress: &'a dyn Progress,
+}
+
+impl Files<'_> {
+    fn made(&mut self, lights: usize) -> Result<&Made> {
+        let Subject { mesh, table, options } = self.subject;
+        if self.made.as_ref().is_none_or(|made| made.of.light_count() != lights) {
+            let of = precompute(mesh, table, &fibonacci(lights), options, self.progress)?;
+            let interpolation = self.between.interpolation(&of)?;
+            self.made = Some(Made { of, interpolation });
+        }
+        Ok(self.made.as_ref().expect("it was just made"))
+    }
+}
+
+impl Codec for Files<'_> {
+    type Candidate = Candidate;
+    type File = Vec<u8>;
+    type Distortion = TransferDistortion;
+
+    fn encode(&mut self, candidate: &Candidate) -> Result<Vec<u8>> {
+        let (Subject { mesh, table, options }, progress) = (self.subject, self.progress);
+        let Made { of, .. } = self.made(candidate.lights)?;
+        encode(mesh, table, of, options.eta, &candidate.size, progress)
+    }
+
+    fn judge(&self, file: &Vec<u8>) -> Result<TransferDistortion> {
+        let Made { of, interpolation } = self.made.as_ref().expect("what was encoded was made before");
+        let transfer = Transfer::parse(file).map_err(|source| Error::OwnOutput { source })?;
+        Ok(TransferDistortion { total: self.between.total(&transfer, of)?, interpolation: *interpolation })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use subsurf_scene::torus;
+
+    use super::*;
+    use crate::kernel::Profile;
+    use crate::simulate::diffusion::Medium;
+
+    #[test]
+    fn targets_choose_lights_and_sizes() {
+        let mesh = torus(4.0, 1.5, 10);
+        let profile = Profile::dipole(&Medium::measured("marble").unwrap(), 1.5).unwrap();
+        let table = RdTable::of(&profile).unwrap();
+        let options = Options { channels: 1, eta: 1.5 };
+        let subject = Subject { mesh: &mesh, table: &table, options: &options };
+        let mut shown = 0;
+        let mut run = |target| search(&subject, target, &(), &mut |_| shown += 1);
+
+        let [rough, fine] = [0.12, 0.06].map(|error| run(Target::Quality(-error)).unwrap());
+        for (curve, error) in [(&rough, 0.12), (&fine, 0.06)] {
+            let chosen = curve.chosen();
+            assert!(chosen.distortion.total.max <= error, "{:?}", chosen.distortion);
+            let reaches = |point: &&Point| point.distortion.total.max <= error;
+            assert!(curve.points.iter().filter(reaches).all(|point| point.bytes() >= chosen.bytes()), "the smallest");
+            for point in &curve.points {
+                let Candidate { lights, size } = &point.candidate;
+                let expected = file_bytes(&mesh, &table, 1, *lights, size).unwrap();
+                assert_eq!(expected, point.bytes() as u64, "bytes are known before: {:?}", point.candidate);
+            }
+        }
+        let [few, many] = [&rough, &fine].map(|curve| curve.chosen().candidate.lights);
+        assert!(few < many && rough.chosen().bytes() < fine.chosen().bytes(), "{few} and {many} lights");
+
+        let limit = 2 * rough.chosen().bytes() as u64;
+        let most = run(Target::Bytes(limit)).unwrap();
+        assert!(
+            most.points.len() > 2 && most.points.iter().all(|point| point.bytes() as u64 <= limit),
+            "{limit} bytes"
+        );
+        assert!(most.chosen().distortion.total.max < rough.chosen().distortion.total.max, "what room is for is used");
+        for (target, reason) in [
+            (Target::Bytes(1_000), "smallest"),
+            (Target::Quality(0.0), "above 0"),
+            (Target::Quality(f64::NAN), "above 0"),
+        ] {
+            let refused = run(target).unwrap_err().to_string();
+            assert!(refused.contains(reason), "{refused}");
+        }
+        assert!(shown > 6, "{shown} files were shown");
+    }
+}
