@@ -1,5 +1,8 @@
 //! Scattering precomputed for a mesh: made, shown and judged.
 
+use subsurf_scene::torus;
+use subsurf_tests::meshes::write_obj;
+
 use crate::common::{assert_refused, json, run, succeed};
 
 #[test]
@@ -38,19 +41,16 @@ fn a_transfer_is_made_shown_and_judged() {
         assert_refused(&refused, &reasons);
     }
 
-    let chosen =
-        succeed(folder, "transfer sphere --extent 12 --material skin1 --grey --target-error 0.1 -o chosen.subsurf");
-    assert!(
-        chosen.out.contains("e_rms of the worst view") && chosen.out.contains("50 lights, 1 channels"),
-        "{}",
-        chosen.out
-    );
-    let chosen = json(folder, "compare sphere chosen.subsurf --extent 12 --json");
-    assert!(chosen["total"]["max"].as_f64().unwrap() <= 0.1, "{chosen}");
+    write_obj(&folder.join("torus.obj"), &torus(4.0, 1.5, 10));
+    let chosen = "transfer torus.obj --extent 11 --material marble --grey --target-error 0.12 -o chosen.subsurf";
+    let chosen = succeed(folder, chosen).out;
+    assert!(chosen.contains("e_rms of the worst view") && chosen.contains("50 lights, 1 channels"), "{chosen}");
+    let judged = json(folder, "compare torus.obj chosen.subsurf --extent 11 --json");
+    assert!(judged["total"]["max"].as_f64().unwrap() <= 0.12, "{judged}");
     for (options, reason) in
         [("--target-error 0", "above 0"), ("--target-error 0.1 --lights 20", "cannot be used with")]
     {
-        let refused = run(folder, &format!("transfer sphere --extent 12 --material skin1 {options} -o none.subsurf"));
+        let refused = run(folder, &format!("transfer torus.obj --material skin1 {options} -o none.subsurf"));
         assert_refused(&refused, &[reason]);
     }
 

@@ -4,6 +4,7 @@
 //! views. Radial basis functions (Havran et al. 2010, section 4.1) interpolate the measurements, but what is read back
 //! between the nodes is 2.7 to 3.5 dB farther from them.
 
+use crate::math::envelope::EnvelopeCholesky;
 use crate::math::parallel;
 use glam::Vec3;
 use nalgebra::{DMatrix, DVector};
@@ -94,11 +95,12 @@ fn inverse(weights: &[Weights], squared_differences: &DMatrix<f64>) -> DMatrix<f
     let nodes = squared_differences.ncols();
     let normal = square(weights, nodes) + squared_differences * SMOOTHNESS;
     let normal = normal + DMatrix::identity(nodes, nodes) * SMALLNESS;
-    let inverse = normal.cholesky().expect("it is positive: ε > 0").inverse();
+    let factor = EnvelopeCholesky::new(&normal).expect("it is positive: ε > 0");
     let mut product = DMatrix::zeros(nodes, weights.len());
-    for (mut column, weights) in product.column_iter_mut().zip(weights) {
-        weights.iter().for_each(|(node, weight)| column.axpy(*weight, &inverse.column(*node), 1.0));
-    }
+    parallel::for_chunks(product.as_mut_slice(), nodes, |number, column| {
+        weights[number].iter().for_each(|(node, weight)| column[*node] += weight);
+        factor.solve(column);
+    });
     product
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod banded;
 pub(crate) mod eigen;
+pub(crate) mod envelope;
 pub(crate) mod k_means;
 pub(crate) mod lanes;
 pub(crate) mod lbfgs;
