@@ -45,11 +45,14 @@ impl Distortion for TransferDistortion {
 const LIGHTS: [usize; 6] = [50, 100, 200, 400, 700, 1024];
 /// The number of lights that a size is first looked for with.
 const USUAL_LIGHTS: usize = 2;
-/// Clusters, as quarters of [`Size::of_vertices`], components and bits of a vertex, by falling error.
-const LADDER: [(usize, usize, usize); 9] =
-    [(1, 4, 16), (1, 6, 24), (1, 8, 40), (2, 8, 40), (4, 8, 40), (4, 10, 48), (8, 12, 56), (16, 14, 72), (32, 16, 112)];
-/// The step of the ladder that a size is first looked for with.
-const USUAL_STEP: usize = 4;
+/// Components and bits of a vertex.
+const RECORDS: [(usize, usize); 9] =
+    [(4, 16), (6, 24), (8, 32), (8, 40), (10, 48), (12, 56), (14, 72), (16, 88), (16, 112)];
+/// The record that a size is first looked for with.
+const USUAL_RECORD: usize = 3;
+/// Clusters, as quarters of [`Size::of_vertices`], and records, by falling error.
+const LADDER: [(usize, usize); 11] =
+    [(1, 0), (1, 1), (1, 2), (2, 2), (2, 3), (4, 2), (4, 3), (4, 4), (8, 5), (16, 6), (32, 8)];
 
 /// What is precomputed: a mesh in mm, a profile and options.
 #[derive(Clone, Copy)]
@@ -104,10 +107,9 @@ pub fn search(
 /// Adds lights until interpolation is good enough, and takes the smallest size that is.
 fn along_quality(search: &mut Search<'_, Files<'_>>, least: f64) -> Result<()> {
     let clusters = Size::of_vertices(search.codec.subject.mesh.positions.len()).clusters;
-    let sizes = LADDER.map(|(quarters, components, bits)| Size {
-        clusters: (quarters * clusters / 4).clamp(1, MAX_CLUSTERS.into()),
-        components,
-        bits,
+    let sizes = LADDER.map(|(quarters, record)| {
+        let (components, bits) = RECORDS[record];
+        Size { clusters: (quarters * clusters / 4).clamp(1, MAX_CLUSTERS.into()), components, bits }
     });
     for (step, lights) in LIGHTS.into_iter().enumerate() {
         let is_last = step + 1 == LIGHTS.len();
@@ -127,8 +129,8 @@ fn along_bytes(search: &mut Search<'_, Files<'_>>, limit: u64) -> Result<()> {
     let Subject { mesh, table, options } = search.codec.subject;
     let bytes = |candidate: &Candidate| file_bytes(mesh, table, options.channels, candidate.lights, &candidate.size);
     // The most clusters that there is room for.
-    let within = |[lights, step]: [usize; 2]| -> Result<Option<Candidate>> {
-        let (_, components, bits) = LADDER[step];
+    let within = |[lights, record]: [usize; 2]| -> Result<Option<Candidate>> {
+        let (components, bits) = RECORDS[record];
         let of = |clusters| Candidate { lights: LIGHTS[lights], size: Size { clusters, components, bits } };
         let (mut fits, mut too_many) = (0, usize::from(MAX_CLUSTERS) + 1);
         while fits + 1 < too_many {
@@ -138,18 +140,18 @@ fn along_bytes(search: &mut Search<'_, Files<'_>>, limit: u64) -> Result<()> {
         Ok((fits > 0).then(|| of(fits)))
     };
     // The usual place, or the nearest below it where a file fits.
-    let mut at = [USUAL_LIGHTS, USUAL_STEP];
+    let mut at = [USUAL_LIGHTS, USUAL_RECORD];
     while within(at)?.is_none() {
         match at {
             [0, 0] => {
-                let [(_, components, bits), ..] = LADDER;
+                let [(components, bits), ..] = RECORDS;
                 let least = bytes(&Candidate { lights: LIGHTS[0], size: Size { clusters: 1, components, bits } })?;
                 return Err(Error::Request(format!(
                     "no file that is tried takes {limit} bytes or less; the smallest takes {least}"
                 )));
             }
-            [lights, step] if step > 0 => at = [lights, step - 1],
-            [lights, _] => at = [lights - 1, USUAL_STEP],
+            [lights, record] if record > 0 => at = [lights, record - 1],
+            [lights, _] => at = [lights - 1, USUAL_RECORD],
         }
     }
     let (mut steps, mut tried) = (vec![at], Vec::new());
@@ -166,12 +168,12 @@ fn along_bytes(search: &mut Search<'_, Files<'_>>, limit: u64) -> Result<()> {
         }
         // From a better place all neighbours are worth a look; lights, which cost more work, after sizes of as many.
         quality = found;
-        let [lights, step] = next;
+        let [lights, record] = next;
         let neighbours = [
-            (lights + 1 < LIGHTS.len()).then_some([lights + 1, step]),
-            lights.checked_sub(1).map(|lights| [lights, step]),
-            (step + 1 < LADDER.len()).then_some([lights, step + 1]),
-            step.checked_sub(1).map(|step| [lights, step]),
+            (lights + 1 < LIGHTS.len()).then_some([lights + 1, record]),
+            lights.checked_sub(1).map(|lights| [lights, record]),
+            (record + 1 < RECORDS.len()).then_some([lights, record + 1]),
+            record.checked_sub(1).map(|record| [lights, record]),
         ];
         steps = neighbours.into_iter().flatten().filter(|place| !tried.contains(place)).collect();
     }
