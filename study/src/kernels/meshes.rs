@@ -10,6 +10,7 @@ use subsurf_cli::options::Size;
 use subsurf_cli::outln;
 use subsurf_cli::program::progress::Bars;
 use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::Addressing;
 use subsurf_encoder::baseline::linsss::fit;
 use subsurf_encoder::bssrdf::basis::{BasisOptions, add_basis};
 use subsurf_encoder::bssrdf::{HomogeneousPatch, homogeneous};
@@ -99,7 +100,8 @@ fn write_linsss(folder: &Path, name: &str, material: &Bssrdf<'_>) -> anyhow::Res
     let path = folder.join(format!("{name}.npy"));
     let sidecar = Sidecar {
         pitch_mm: header.pitch_mm,
-        addressing: header.addressing,
+        // LinSSS is fitted to patches that end; where all pixels are alike, they have the same entries.
+        addressing: Addressing::Clamp,
         eta: header.eta,
         simulated: Some(json!("a profile everywhere")),
     };
