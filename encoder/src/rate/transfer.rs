@@ -7,9 +7,11 @@ use subsurf_scene::Mesh;
 use super::curve::{Distortion, RdCurve, RdPoint, Target};
 use super::search::{Codec, Search};
 use crate::error::{Error, Result};
-use crate::metrics::transfer::{Between, ImageError};
+use crate::metrics::transfer::{
+    FileChannel, ImageError, Reference, Views, between, precompute_with_between, radial_weights,
+};
 use crate::progress::Progress;
-use crate::transfer::{Options, Precomputed, RdTable, Size, encode, fibonacci, file_bytes, precompute};
+use crate::transfer::{Options, Precomputed, RdTable, Size, encode, fibonacci, file_bytes};
 
 /// A transfer file that was tried.
 pub type Point = RdPoint<Candidate, Vec<u8>, TransferDistortion>;
@@ -72,7 +74,7 @@ pub struct Subject<'a> {
 /// long as the error falls, with as many clusters as there is room for.
 ///
 /// # Errors
-/// As [`precompute`] and [`encode`]; [`Error::Request`] if nothing reaches the target, or if it is no number.
+/// As [`precompute`](crate::transfer::precompute) and [`encode`]; [`Error::Request`] if nothing reaches the target, or if it is no number.
 pub fn search(
     subject: &Subject<'_>,
     target: Target,
@@ -82,8 +84,7 @@ pub fn search(
     if matches!(target, Target::Quality(least) if !least.is_finite() || least >= 0.0) {
         return Err(Error::Request("an error to reach must be a number above 0, for example 0.01".to_owned()));
     }
-    let between = Between::new(subject.mesh, subject.table, subject.options, progress)?;
-    let codec = Files { subject: *subject, between, made: None, progress };
+    let codec = Files { subject: *subject, views: Views::of(subject.mesh), made: None, progress };
     let mut search = Search::new(codec, target, progress, found);
     match target {
         Target::Quality(least) => along_quality(&mut search, least)?,
@@ -183,13 +184,17 @@ fn along_bytes(search: &mut Search<'_, Files<'_>>, limit: u64) -> Result<()> {
 /// q for a number of lights.
 struct Made {
     of: Precomputed,
+    /// The same and that between the lights, as references have it.
+    all: Precomputed,
+    /// Weights of the lights for directions between them.
+    weights: Vec<Vec<f32>>,
     interpolation: ImageError,
 }
 
 /// Files of one mesh, judged by exact sums.
 struct Files<'a> {
     subject: Subject<'a>,
-    between: Between<'a>,
+    views: Views,
     /// The last that was asked for.
     made: Option<Made>,
     progress: &'a dyn Progress,
@@ -199,11 +204,21 @@ impl Files<'_> {
     fn made(&mut self, lights: usize) -> Result<&Made> {
         let Subject { mesh, table, options } = self.subject;
         if self.made.as_ref().is_none_or(|made| made.of.light_count() != lights) {
-            let of = precompute(mesh, table, &fibonacci(lights), options, self.progress)?;
-            let interpolation = self.between.interpolation(&of)?;
-            self.made = Some(Made { of, interpolation });
+            self.made = None;
+            let directions = fibonacci(lights);
+            let all = precompute_with_between(mesh, table, &directions, options, self.progress)?;
+            let weights = radial_weights(&directions, &between())?;
+            let interpolation = self.worst(&all, |reference, _| reference.total(reference.q(), &weights));
+            let of = all.select(&(0..lights).collect::<Vec<usize>>());
+            self.made = Some(Made { of, all, weights, interpolation });
         }
         Ok(self.made.as_ref().expect("it was just made"))
+    }
+
+    /// The larger of the errors of all channels.
+    fn worst(&self, all: &Precomputed, error: impl Fn(&Reference<'_>, usize) -> ImageError) -> ImageError {
+        let of = |channel| error(&Reference::new(self.subject.mesh, &self.views, all, channel), channel);
+        (0..all.channels).map(of).reduce(ImageError::larger).expect("at least one channel")
     }
 }
 
@@ -219,9 +234,12 @@ impl Codec for Files<'_> {
     }
 
     fn judge(&self, file: &Vec<u8>) -> Result<TransferDistortion> {
-        let Made { of, interpolation } = self.made.as_ref().expect("what was encoded was made before");
-        let transfer = Transfer::parse(file).map_err(|source| Error::OwnOutput { source })?;
-        Ok(TransferDistortion { total: self.between.total(&transfer, of)?, interpolation: *interpolation })
+        let Made { all, weights, interpolation, .. } = self.made.as_ref().expect("what was encoded was made before");
+        let file = &Transfer::parse(file).map_err(|source| Error::OwnOutput { source })?;
+        let total = self.worst(all, |reference, channel| {
+            reference.total(&FileChannel { file, channel, largest: reference.largest() }, weights)
+        });
+        Ok(TransferDistortion { total, interpolation: *interpolation })
     }
 }
 
