@@ -54,7 +54,7 @@ impl From<UpArg> for UpAxis {
 pub struct MeshArgs {
     /// Longest side of the mesh in mm
     #[arg(long, default_value_t = 60.0, value_name = "MM")]
-    pub(crate) extent: f32,
+    pub extent: f32,
     /// Which way is up in the mesh
     #[arg(long, value_enum, default_value = "y")]
     pub(crate) up: UpArg,

@@ -6,6 +6,7 @@ mod btf;
 mod cache;
 mod kernels;
 mod linsss;
+mod meshes;
 mod page;
 mod photons;
 
@@ -31,6 +32,7 @@ Examples:
   subsurf-study photons out                                 diffusion beside photons, as one page: half an hour
   subsurf-study btf out                                     Havran et al. 2010, as one page: more than an hour
   subsurf-study kernels out                                 Jimenez et al. 2015: separable kernels, as one page
+  subsurf-study meshes -o out                               Hao and Varshney 2004 on meshes, as one page: ten minutes
   subsurf-study bench load                                  load size and latency, compressed and not
   subsurf-study bench render jade.subsurf -o out            every path against the reference, as one page
   subsurf-study bench btf leather.subsurf --images leather  frames of a BTF, compressed and not
@@ -44,6 +46,7 @@ enum Command {
     Btf(btf::Args),
     Kernels(kernels::Args),
     Linsss(linsss::Args),
+    Meshes(meshes::Args),
     Photons(photons::Args),
     #[command(subcommand)]
     Bench(bench::Command),
@@ -55,6 +58,7 @@ fn main() -> ExitCode {
         Command::Btf(args) => btf::run(&args),
         Command::Kernels(args) => kernels::run(&args),
         Command::Linsss(args) => linsss::run(&args),
+        Command::Meshes(args) => meshes::run(&args),
         Command::Photons(args) => photons::run(&args),
         Command::Bench(command) => bench::run(&command),
     })

@@ -10,3 +10,4 @@ pub(crate) mod parallel;
 pub(crate) mod quadrature;
 pub(crate) mod side_by_side;
 pub(crate) mod svd;
+pub(crate) mod uniform;

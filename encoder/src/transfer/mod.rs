@@ -10,6 +10,7 @@ mod lights;
 mod point_tree;
 mod precompute;
 mod rd_table;
+mod scheme;
 mod surface;
 mod write;
 
@@ -17,4 +18,5 @@ pub use compress::Size;
 pub use lights::fibonacci;
 pub use precompute::{Options, Precomputed, precompute};
 pub use rd_table::RdTable;
+pub use scheme::Scheme;
 pub use write::encode;

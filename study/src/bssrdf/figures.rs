@@ -8,15 +8,7 @@ use super::record::Record;
 use super::results::Results;
 use crate::page::colour::grey;
 use crate::page::panel::{Bar, Row, panel};
-use crate::page::plots::{Axis, Scale, Series, chart};
-
-/// Range of positive values, a little wider.
-fn widened(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
-    let (low, high) = values
-        .filter(|value| *value > 0.0 && value.is_finite())
-        .fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
-    if low > high { 1.0..10.0 } else { low / 1.5..high * 1.5 }
-}
+use crate::page::plots::{Axis, Scale, Series, chart, widened};
 
 /// Charts of error against K, and of quality against size.
 pub(super) fn charts(study: &Results<'_>, out: &mut String) -> anyhow::Result<()> {

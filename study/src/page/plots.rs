@@ -49,6 +49,14 @@ impl Axis {
     }
 }
 
+/// Range of positive values, a little wider.
+pub(crate) fn widened(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+    let (low, high) = values
+        .filter(|value| *value > 0.0 && value.is_finite())
+        .fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
+    if low > high { 1.0..10.0 } else { low / 1.5..high * 1.5 }
+}
+
 const COLOURS: [RGBColor; 8] = [
     RGBColor(0x1f, 0x77, 0xb4),
     RGBColor(0xd6, 0x27, 0x28),

@@ -6,3 +6,4 @@ mod btf;
 mod common;
 mod kernel;
 mod linsss;
+mod mesh;

@@ -1,28 +1,19 @@
-//! Errors of transfer files, of q and in images of the mesh (Hao and Varshney 2004, section 3.3).
+//! Errors of transfer files and of other schemes, of q and in images of the mesh (Hao and Varshney 2004, section 3.3).
 
+mod reference;
 mod views;
 
-use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 use subsurf_decoder::Transfer;
-use subsurf_decoder::transfer::LightWeights;
+use subsurf_decoder::container::bytes::F32Le;
 use subsurf_scene::Mesh;
 
+pub use reference::{Reference, between, precompute_with_between, radial_weights};
 pub use views::{ImageError, Views};
 
-use crate::baseline::hao2004::{Lloyd, four_nearest};
+use crate::baseline::hao2004::{LLOYD_ROUNDS, Lloyd, four_nearest};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
-use crate::transfer::{Options, Precomputed, RdTable, fibonacci, precompute};
-
-/// Views, as many as the paper has.
-const VIEWS: usize = 100;
-/// Sides of views in pixels.
-const SIDE: u16 = 256;
-/// Directions between the lights that errors are measured at.
-const BETWEEN: usize = 24;
-/// Rounds of the paper's quantiser.
-const LLOYD_ROUNDS: usize = 20;
+use crate::transfer::{Options, RdTable, Scheme};
 
 /// How far a file is off. Each channel is divided by its largest q, and the errors are those of the worst channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,23 +30,6 @@ pub struct TransferError {
     pub four_nearest: ImageError,
 }
 
-/// Weights of a file's lights for a direction.
-///
-/// # Errors
-/// [`Error::Request`] if two lights of the file are one.
-pub fn weights_of(file: &Transfer<'_>, directions: &[[f32; 3]]) -> Result<Vec<Vec<f32>>> {
-    let lights = usize::from(file.header().lights);
-    let mut buffer = vec![0.0; LightWeights::buffer_len(lights)];
-    let between = LightWeights::new(file.lights(), &mut buffer)
-        .ok_or_else(|| Error::Request("two lights of the file are one: nothing lies between them".to_owned()))?;
-    let of = |towards: &[f32; 3]| {
-        let mut weights = vec![0.0; lights];
-        between.at(*towards, &mut weights);
-        weights
-    };
-    Ok(directions.iter().map(of).collect())
-}
-
 /// Exitance of all vertices under light of given weights, `[vertex][channel]`.
 #[must_use]
 pub fn decode(file: &Transfer<'_>, weights: &[f32]) -> Vec<f32> {
@@ -65,6 +39,23 @@ pub fn decode(file: &Transfer<'_>, weights: &[f32]) -> Vec<f32> {
     let mut out = vec![0.0; header.vertices as usize * usize::from(header.channels)];
     file.exitance(&table, 0, &mut out);
     out
+}
+
+/// One channel of a file.
+pub struct FileChannel<'a> {
+    /// The file.
+    pub file: &'a Transfer<'a>,
+    /// Number of the channel.
+    pub channel: usize,
+    /// What q is divided by: [`Reference::largest`].
+    pub largest: f32,
+}
+
+impl Scheme for FileChannel<'_> {
+    fn exitance(&self, weights: &[f32]) -> Vec<f32> {
+        let channels = usize::from(self.file.header().channels);
+        decode(self.file, weights)[self.channel..].iter().step_by(channels).map(|value| value / self.largest).collect()
+    }
 }
 
 /// Errors of a file on its mesh. What it was made from is summed up again from mesh and file, which takes as long as the first time.
@@ -82,67 +73,33 @@ pub fn judge(mesh: &Mesh, file: &Transfer<'_>, progress: &dyn Progress) -> Resul
             mesh.positions.len()
         )));
     }
-    let rows = |of: subsurf_decoder::container::bytes::F32Le<'_>| {
+    let rows = |of: F32Le<'_>| {
         let values: Vec<f32> = of.iter().collect();
         values.as_chunks::<3>().0.to_vec()
     };
     let table = RdTable::of_tail(header.radius_mm, rows(file.tail()));
     let lights: Vec<[f32; 3]> = rows(file.lights());
-    // Between the stored ones: turned by a number that no spiral of lights has.
-    let between: Vec<[f32; 3]> = fibonacci(BETWEEN).into_iter().map(|[x, y, z]| [y, z, x]).collect();
-    let smooth = weights_of(file, &between)?;
-    let all = [&lights[..], &between].concat();
+    let radial = radial_weights(&lights, &between())?;
+    let four: Vec<Vec<f32>> = between().iter().map(|towards| four_nearest(&lights, *towards)).collect();
     let options = Options { channels: header.channels.into(), eta: header.eta };
-    let exact = precompute(mesh, &table, &all, &options, progress)?;
-    let stored = exact.select(&(0..lights.len()).collect::<Vec<usize>>());
+    let all = precompute_with_between(mesh, &table, &lights, &options, progress)?;
     progress.begin("images", header.channels.into());
-    let views = Views::new(mesh, VIEWS, SIDE);
-    let channels = (0..stored.channels).map(|c| {
-        let error = of_channel(mesh, file, [&exact, &stored], (&between, &smooth), &views, c);
+    let views = Views::of(mesh);
+    let errors = (0..options.channels).map(|channel| {
+        let reference = Reference::new(mesh, &views, &all, channel);
+        let own = FileChannel { file, channel, largest: reference.largest() };
+        let lloyd = Lloyd::new(reference.q().as_slice(), LLOYD_ROUNDS);
+        let error = TransferError {
+            q: reference.q_error(&own),
+            compression: reference.compression(&own, &radial),
+            lloyd: reference.compression(&lloyd, &radial),
+            total: reference.total(&own, &radial),
+            four_nearest: reference.total(&own, &four),
+        };
         progress.advance(1);
         error
     });
-    Ok(channels.reduce(TransferError::worse).expect("at least one channel"))
-}
-
-fn of_channel(
-    mesh: &Mesh,
-    file: &Transfer<'_>,
-    [exact, stored]: [&Precomputed; 2],
-    (between, smooth): (&[[f32; 3]], &[Vec<f32>]),
-    views: &Views,
-    c: usize,
-) -> TransferError {
-    let lights = stored.light_count();
-    let q = stored.q.rows(c * lights, lights).into_owned();
-    let scale = 1.0 / q.amax().max(f32::MIN_POSITIVE);
-    let of_places = |values: &[f32]| stored.place_of.iter().map(|place| scale * values[*place as usize]).collect();
-    let decoded = |weights: &[f32]| -> Vec<f32> {
-        decode(file, weights).iter().skip(c).step_by(stored.channels).map(|value| scale * value.max(0.0)).collect()
-    };
-    let square = |light: usize| {
-        let mut weights = vec![0.0; lights];
-        weights[light] = 1.0;
-        let own: Vec<f32> = of_places(q.row(light).transpose().as_slice());
-        decoded(&weights).iter().zip(&own).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>()
-    };
-    let squares: Vec<f64> = (0..lights).into_par_iter().map(square).collect();
-    let four: Vec<Vec<f32>> = between.iter().map(|towards| four_nearest(&stored.lights, *towards)).collect();
-    let truth =
-        |k: usize| -> Vec<f32> { of_places(exact.q.row(c * exact.light_count() + lights + k).transpose().as_slice()) };
-    let rounded = DMatrix::from_iterator(lights, q.ncols(), Lloyd::new(q.as_slice(), LLOYD_ROUNDS).values());
-    let interpolated = |of: &DMatrix<f32>, k: usize| -> Vec<f32> {
-        let value = of.tr_mul(&DVector::from_column_slice(&smooth[k]));
-        of_places(value.map(|value| value.max(0.0)).as_slice())
-    };
-    let errors = |pairs: &(dyn Fn(usize) -> [Vec<f32>; 2] + Sync)| views.errors(|view| pairs(view % BETWEEN), mesh);
-    TransferError {
-        q: (squares.iter().sum::<f64>() / (lights * stored.place_of.len()) as f64).sqrt(),
-        compression: errors(&|k| [decoded(&smooth[k]), interpolated(&q, k)]),
-        lloyd: errors(&|k| [interpolated(&rounded, k), interpolated(&q, k)]),
-        total: errors(&|k| [decoded(&smooth[k]), truth(k)]),
-        four_nearest: errors(&|k| [decoded(&four[k]), truth(k)]),
-    }
+    Ok(errors.reduce(TransferError::worse).expect("at least one channel"))
 }
 
 impl TransferError {
@@ -166,7 +123,7 @@ mod tests {
     use super::*;
     use crate::kernel::Profile;
     use crate::simulate::diffusion::Medium;
-    use crate::transfer::{Size, encode};
+    use crate::transfer::{Size, encode, fibonacci, precompute};
 
     /// Bounds a little above what was found, on a knot of few vertices, which shades itself everywhere; larger and smoother meshes
     /// have a fraction of it.

@@ -4,6 +4,7 @@ use glam::{Mat3, Vec3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use subsurf_scene::Mesh;
 
 /// Pixels of one orthographic view: the triangle in front, and where on it.
@@ -12,11 +13,16 @@ struct View {
     pixels: Vec<Option<(u32, [f32; 3])>>,
 }
 
+/// Views of a mesh, as many as the paper has.
+const VIEWS: usize = 100;
+/// Sides of views in pixels.
+const SIDE: u16 = 256;
+
 /// Random views of a mesh, in which values of its vertices are looked at.
 pub struct Views(Vec<View>);
 
 /// Root-mean-square errors of images: the largest, and the one over all.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ImageError {
     /// Of the worst view, as the paper says e_rms.
     pub max: f64,
@@ -25,9 +31,14 @@ pub struct ImageError {
 }
 
 impl Views {
-    /// `count` views from random sides, of `side` × `side` pixels that the mesh fills.
+    /// The views by which all is judged.
     #[must_use]
-    pub fn new(mesh: &Mesh, count: usize, side: u16) -> Self {
+    pub fn of(mesh: &Mesh) -> Self {
+        Self::new(mesh, VIEWS, SIDE)
+    }
+
+    /// `count` views from random sides, of `side` × `side` pixels that the mesh fills.
+    fn new(mesh: &Mesh, count: usize, side: u16) -> Self {
         let mut rng = Pcg64::seed_from_u64(1);
         let mut next = || 2.0 * rng.random::<f32>() - 1.0;
         let mut random = || {
@@ -42,13 +53,12 @@ impl Views {
         Self(axes.par_iter().map(|[forward, roll]| View::new(mesh, *forward, *roll, side)).collect())
     }
 
-    /// Errors between values of vertices, as large as 1 where images are white. The background counts and is the same in both.
-    ///
-    /// `pairs` gives for a number of a view the values of both, one for each vertex.
+    /// Errors between values of vertices `[image][vertex]`, as large as 1 where images are white. The background counts and is the same
+    /// in both. Views show the images in turn.
     #[must_use]
-    pub fn errors(&self, pairs: impl Fn(usize) -> [Vec<f32>; 2] + Sync, mesh: &Mesh) -> ImageError {
+    pub fn errors(&self, mesh: &Mesh, a: &[Vec<f32>], b: &[Vec<f32>]) -> ImageError {
         let of_view = |(number, view): (usize, &View)| {
-            let [a, b] = pairs(number);
+            let [a, b] = [&a[number % a.len()], &b[number % b.len()]];
             let square = |pixel: &Option<(u32, [f32; 3])>| {
                 let Some((triangle, share)) = pixel else { return 0.0 };
                 let corners = mesh.triangles[*triangle as usize];
@@ -130,10 +140,10 @@ mod tests {
         let disc = std::f64::consts::FRAC_PI_4;
         assert!((views.covered() - disc).abs() < 0.02, "{} of {disc}", views.covered());
         let flat = |value: f32| vec![value; ball.positions.len()];
-        let error = views.errors(|_| [flat(0.5), flat(0.4)], &ball);
+        let error = views.errors(&ball, &[flat(0.5)], &[flat(0.4)]);
         assert!((error.rms - 0.1 * views.covered().sqrt()).abs() < 1e-4, "{error:?}");
         // One view is worse than the others.
-        let worse = views.errors(|view| [flat(if view == 1 { 0.3 } else { 0.0 }), flat(0.0)], &ball);
+        let worse = views.errors(&ball, &[0.0, 0.3, 0.0].map(flat), &[flat(0.0)]);
         assert!((worse.max / worse.rms - 3.0_f64.sqrt()).abs() < 0.05, "{worse:?}");
     }
 }
