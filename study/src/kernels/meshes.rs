@@ -121,3 +121,21 @@ fn write_linsss(folder: &Path, name: &str, material: &Bssrdf<'_>) -> anyhow::Res
     write_bytes(&folder.join(format!("{name}-linsss{GAUSSIANS}.sss")), &model.to_bytes())?;
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use subsurf_encoder::kernel::profile::shipped;
+
+    use super::*;
+
+    #[test]
+    fn linsss_is_fitted_to_a_material_that_is_the_same_everywhere() {
+        let folder = tempfile::tempdir().unwrap();
+        let patch = HomogeneousPatch { side: 8, radius: 3, pitch_mm: 0.75, eta: 1.3 };
+        let file = homogeneous(&shipped::profile("skin1").unwrap(), &patch).unwrap();
+        write_linsss(folder.path(), "skin1", &Bssrdf::parse(&file).unwrap()).unwrap();
+        let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert!(left.iter().any(|name| name == "skin1-linsss4.sss"), "{left:?}");
+        assert!(!left.iter().any(|name| name == "skin1.npy"), "the capture is taken away: {left:?}");
+    }
+}
