@@ -11,7 +11,7 @@ use crate::page::plots::{Axis, Scale, Series, chart, widened};
 const Y: &str = "e_rms of the worst view";
 /// Factors of axes that make room for legends.
 const BESIDE: f64 = 2.0;
-const BELOW: f64 = 20.0;
+const BELOW: f64 = 60.0;
 
 /// Errors by the number of lights, of all meshes (their Figure 5): one chart for each interpolation, with the same axes.
 pub(super) fn lights(records: &[(String, Record)]) -> anyhow::Result<String> {

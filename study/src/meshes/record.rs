@@ -21,7 +21,7 @@ pub(super) struct Record {
     pub(super) interpolations: Vec<Interpolation>,
     /// Of a byte for each light.
     pub(super) lloyd_snr_db: f64,
-    /// Time in s to compress q to [`Record::default_size`].
+    /// Time in s to compress q to the default size.
     pub(super) compress_seconds: f64,
     pub(super) schemes: Vec<Measured>,
 }
