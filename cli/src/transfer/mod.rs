@@ -11,7 +11,7 @@ use subsurf_decoder::Transfer;
 use subsurf_encoder::kernel::Profile;
 use subsurf_encoder::kernel::profile::shipped;
 use subsurf_encoder::rate::Target;
-use subsurf_encoder::rate::transfer::{Subject, search};
+use subsurf_encoder::rate::transfer::{TransferSource, search};
 use subsurf_encoder::simulate::diffusion::Medium;
 use subsurf_encoder::transfer::{Options, RdTable, Size, encode, fibonacci, precompute};
 use subsurf_encoder::{check_target, write_bytes};
@@ -49,10 +49,10 @@ pub(crate) struct Args {
     /// The .subsurf file to write
     #[arg(long, short)]
     output: PathBuf,
-    /// Choose lights and sizes: the smallest file with at most this e_rms in the worst of 100 views, as a share of the largest q; 0.01
+    /// Choose lights and sizes: the smallest file that is found with at most this e_rms in the worst of 100 views, as a share of the largest q; for example 0.01
     #[arg(long, value_name = "E", conflicts_with_all = ["target_bytes_per_vertex", "lights", "clusters", "components", "bits"])]
     target_error: Option<f64>,
-    /// Choose lights and sizes: the best file of at most so many bytes per vertex, all of it counted; 20
+    /// Choose lights and sizes: the best file that is found of at most so many bytes per vertex, all of it counted; for example 20
     #[arg(long, value_name = "B", conflicts_with_all = ["lights", "clusters", "components", "bits"])]
     target_bytes_per_vertex: Option<f64>,
     /// Directions of light, 4 to 1,024: more are closer to the truth in between, and cost side data and time alone
@@ -96,8 +96,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let eta = args.eta.unwrap_or(usual);
     let options = Options { channels: if args.grey { 1 } else { 3 }, eta };
     let (bars, began) = (Bars::new(), Instant::now());
-    let bytes = match args.target(mesh.positions.len()) {
-        Some(target) => searched(&Subject { mesh: &mesh, table: &table, options: &options }, target, &bars)?,
+    let bytes = match args.target(mesh.positions.len())? {
+        Some(target) => searched(&TransferSource { mesh: &mesh, table: &table, options: &options }, target, &bars)?,
         None => {
             let clusters = args.clusters.unwrap_or(Size::of_vertices(mesh.positions.len()).clusters);
             let size = Size { clusters, components: args.components, bits: args.bits };
@@ -115,7 +115,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 
 impl Args {
     /// What is looked for in a file for so many vertices.
-    fn target(&self, vertices: usize) -> Option<Target> {
+    fn target(&self, vertices: usize) -> anyhow::Result<Option<Target>> {
+        if let Some(bytes) = self.target_bytes_per_vertex.filter(|bytes| !bytes.is_finite() || *bytes <= 0.0) {
+            return Err(bad_request(format!("{bytes} bytes per vertex; expected a number above 0, for example 20")));
+        }
         #[allow(
             clippy::cast_precision_loss,
             clippy::cast_possible_truncation,
@@ -124,15 +127,19 @@ impl Args {
         )]
         let bytes = |per_vertex: f64| (per_vertex * vertices as f64) as u64;
         let of_bytes = self.target_bytes_per_vertex.map(|per_vertex| Target::Bytes(bytes(per_vertex)));
-        self.target_error.map(|error| Target::Quality(-error)).or(of_bytes)
+        Ok(self.target_error.map(|error| Target::Quality(-error)).or(of_bytes))
     }
 }
 
 /// The file to take; says what is tried.
-fn searched(subject: &Subject<'_>, target: Target, bars: &Bars) -> anyhow::Result<Vec<u8>> {
+fn searched(source: &TransferSource<'_>, target: Target, bars: &Bars) -> anyhow::Result<Vec<u8>> {
     let _graceful = Graceful::new();
     outln!("rate-distortion curve, e_rms of the worst view and of all, and that of q before it is compressed:");
-    let curve = search(subject, target, bars, &mut |point| report::tried(subject.mesh.positions.len(), point))?;
+    let curve = search(source, target, bars, &mut |point| report::tried(source.mesh.positions.len(), point))?;
+    if curve.stopped {
+        let error = curve.chosen().distortion.total.max;
+        outln!("  interrupted: the best file so far is written, of {error:.2e} in the worst view");
+    }
     Ok(curve.chosen().file.clone())
 }
 

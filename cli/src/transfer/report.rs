@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use subsurf_decoder::Transfer;
-use subsurf_encoder::rate::transfer::{Candidate, Point, TransferDistortion};
+use subsurf_encoder::rate::transfer::{Point, TransferCandidate, TransferDistortion};
 use subsurf_viewer::human;
 
 use crate::outln;
@@ -27,7 +27,7 @@ pub(super) fn written(path: &Path, file: &Transfer<'_>, bytes: usize, took: Dura
 
 /// Line about one file that was tried.
 pub(super) fn tried(vertices: usize, point: &Point) {
-    let Candidate { lights, size } = &point.candidate;
+    let TransferCandidate { lights, size } = &point.candidate;
     let TransferDistortion { total, interpolation } = &point.distortion;
     #[allow(clippy::cast_precision_loss, reason = "a ratio for people")]
     let per_vertex = point.bytes() as f64 / vertices as f64;

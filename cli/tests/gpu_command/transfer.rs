@@ -47,9 +47,18 @@ fn a_transfer_is_made_shown_and_judged() {
     assert!(chosen.contains("e_rms of the worst view") && chosen.contains("50 lights, 1 channels"), "{chosen}");
     let judged = json(folder, "compare torus.obj chosen.subsurf --extent 11 --json");
     assert!(judged["total"]["max"].as_f64().unwrap() <= 0.12, "{judged}");
-    for (options, reason) in
-        [("--target-error 0", "above 0"), ("--target-error 0.1 --lights 20", "cannot be used with")]
-    {
+    let vertices = torus(4.0, 1.5, 10).positions.len() as u64;
+    let sized = "transfer torus.obj --extent 11 --material marble --grey --target-bytes-per-vertex 12 -o sized.subsurf";
+    succeed(folder, sized);
+    let bytes = std::fs::metadata(folder.join("sized.subsurf")).unwrap().len();
+    assert!(bytes <= 12 * vertices && bytes > 8 * vertices, "{bytes} bytes for {vertices} vertices");
+    for (options, reason) in [
+        ("--target-error 0", "above 0"),
+        ("--target-error 0.1 --lights 20", "cannot be used with"),
+        ("--target-bytes-per-vertex nan", "above 0"),
+        ("--target-bytes-per-vertex 0.5", "bytes per vertex, and one channel takes less"),
+        ("--target-bytes-per-vertex 9 --bits 20", "cannot be used with"),
+    ] {
         let refused = run(folder, &format!("transfer torus.obj --material skin1 {options} -o none.subsurf"));
         assert_refused(&refused, &[reason]);
     }

@@ -1,10 +1,10 @@
 //! The uniform quantiser.
 
-/// An offset, and a step by which it is left.
-pub(crate) type Range = [f32; 2];
+/// Offset and step: value = offset + step · code.
+pub(crate) type OffsetStep = [f32; 2];
 
 /// Offset, step and codes from 0 to `most` of values, even between the least and the largest.
-pub(crate) fn codes(values: impl Iterator<Item = f32> + Clone, most: u16) -> (Range, Vec<u16>) {
+pub(crate) fn codes(values: impl Iterator<Item = f32> + Clone, most: u16) -> (OffsetStep, Vec<u16>) {
     let [low, high] =
         values.clone().fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
     if low >= high || low.is_infinite() {

@@ -14,13 +14,13 @@ use crate::progress::Progress;
 use crate::transfer::{Options, Precomputed, RdTable, Size, encode, fibonacci, file_bytes};
 
 /// A transfer file that was tried.
-pub type Point = RdPoint<Candidate, Vec<u8>, TransferDistortion>;
+pub type Point = RdPoint<TransferCandidate, Vec<u8>, TransferDistortion>;
 /// Transfer files that were tried, in the order in which they were tried.
-pub type Curve = RdCurve<Candidate, Vec<u8>, TransferDistortion>;
+pub type Curve = RdCurve<TransferCandidate, Vec<u8>, TransferDistortion>;
 
 /// Lights and size of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Candidate {
+pub struct TransferCandidate {
     /// Number of lights.
     pub lights: usize,
     /// Size of what is compressed.
@@ -55,10 +55,12 @@ const USUAL_RECORD: usize = 3;
 /// Clusters, as quarters of [`Size::of_vertices`], and records, by falling error.
 const LADDER: [(usize, usize); 11] =
     [(1, 0), (1, 1), (1, 2), (2, 2), (2, 3), (4, 2), (4, 3), (4, 4), (8, 5), (16, 6), (32, 8)];
+/// The step of the ladder that a command without targets takes.
+const USUAL_STEP: usize = 6;
 
 /// What is precomputed: a mesh in mm, a profile and options.
 #[derive(Clone, Copy)]
-pub struct Subject<'a> {
+pub struct TransferSource<'a> {
     /// Mesh.
     pub mesh: &'a Mesh,
     /// Profile.
@@ -67,16 +69,17 @@ pub struct Subject<'a> {
     pub options: &'a Options,
 }
 
-/// The best file of a mesh for a target; every file that is tried is shown to `found` as it comes.
+/// The best file of a mesh that is found for a target; every file that is tried is shown to `found` as it comes.
 ///
 /// For a quality lights are added until interpolation between them leaves room for what compression does, and then the smallest
-/// size of as many lights is taken that reaches it. For a number of bytes, lights and sizes of a vertex are changed in turns for as
-/// long as the error falls, with as many clusters as there is room for.
+/// size of as many lights is taken that reaches it; more lights with smaller sizes are not compared. For a number of bytes, lights and sizes of a vertex are changed in turns for as
+/// long as the error falls, with as many clusters as there is room for. What memory does not suffice for is left out with a warning
+/// once there is a file.
 ///
 /// # Errors
 /// As [`precompute`](crate::transfer::precompute) and [`encode`]; [`Error::Request`] if nothing reaches the target, or if it is no number.
 pub fn search(
-    subject: &Subject<'_>,
+    source: &TransferSource<'_>,
     target: Target,
     progress: &dyn Progress,
     found: &mut dyn FnMut(&Point),
@@ -84,7 +87,7 @@ pub fn search(
     if matches!(target, Target::Quality(least) if !least.is_finite() || least >= 0.0) {
         return Err(Error::Request("an error to reach must be a number above 0, for example 0.01".to_owned()));
     }
-    let codec = Files { subject: *subject, views: Views::of(subject.mesh), made: None, progress };
+    let codec = Files { source: *source, views: Views::of(source.mesh), made: None, progress };
     let mut search = Search::new(codec, target, progress, found);
     match target {
         Target::Quality(least) => along_quality(&mut search, least)?,
@@ -93,31 +96,53 @@ pub fn search(
     let curve = search.finish().expect("something was tried");
     let best = curve.chosen();
     match target {
-        Target::Quality(least) if best.quality() < least && !curve.stopped => Err(Error::Request(format!(
-            "no file that was tried has an error of at most {:.2e} in the worst view; the best has {:.2e} in {} bytes: \
-             shadows on the mesh are sharper than what {} lights show",
-            -least,
-            -best.quality(),
-            best.bytes(),
-            best.candidate.lights
-        ))),
+        Target::Quality(least) if best.quality() < least && !curve.stopped => {
+            let why = if best.distortion.interpolation.max > -least {
+                format!("shadows on the mesh are sharper than what {} lights show", best.candidate.lights)
+            } else {
+                "that is what compression leaves".to_owned()
+            };
+            Err(Error::Request(format!(
+                "no file that was tried has an error of at most {:.2e} in the worst view; the best has {:.2e} in {} bytes: {why}; ask for \
+                 that or more, or give lights and sizes yourself",
+                -least,
+                -best.quality(),
+                best.bytes(),
+            )))
+        }
         _ => Ok(curve),
     }
 }
 
 /// Adds lights until interpolation is good enough, and takes the smallest size that is.
 fn along_quality(search: &mut Search<'_, Files<'_>>, least: f64) -> Result<()> {
-    let clusters = Size::of_vertices(search.codec.subject.mesh.positions.len()).clusters;
+    let clusters = Size::of_vertices(search.codec.source.mesh.positions.len()).clusters;
     let sizes = LADDER.map(|(quarters, record)| {
         let (components, bits) = RECORDS[record];
         Size { clusters: (quarters * clusters / 4).clamp(1, MAX_CLUSTERS.into()), components, bits }
     });
     for (step, lights) in LIGHTS.into_iter().enumerate() {
         let is_last = step + 1 == LIGHTS.len();
-        if -search.codec.made(lights)?.interpolation.max < least && !is_last {
+        let interpolation = match search.codec.made(lights) {
+            Ok(made) => made.interpolation,
+            Err(Error::Request(what)) if !search.points.is_empty() => {
+                search.progress.warn(&format!("more lights are not tried: {what}"));
+                break;
+            }
+            Err(Error::Request(what)) => {
+                return Err(Error::Request(format!("{what}; ask for a larger error, or for one channel")));
+            }
+            Err(other) => return Err(other),
+        };
+        let ladder = sizes.map(|size| TransferCandidate { lights, size });
+        if search.progress.stopped() {
+            // The last file that there is time for.
+            search.try_out(&ladder[USUAL_STEP])?;
+            break;
+        }
+        if -interpolation.max < least && !is_last {
             continue;
         }
-        let ladder = sizes.map(|size| Candidate { lights, size });
         if !search.bisect(&ladder)? || search.smallest().is_some() {
             break;
         }
@@ -127,12 +152,15 @@ fn along_quality(search: &mut Search<'_, Files<'_>>, least: f64) -> Result<()> {
 
 /// Changes lights and bits of a vertex in turns, for as long as the error falls.
 fn along_bytes(search: &mut Search<'_, Files<'_>>, limit: u64) -> Result<()> {
-    let Subject { mesh, table, options } = search.codec.subject;
-    let bytes = |candidate: &Candidate| file_bytes(mesh, table, options.channels, candidate.lights, &candidate.size);
+    let TransferSource { mesh, table, options } = search.codec.source;
+    let vertices = mesh.positions.len();
+    let bytes = |candidate: &TransferCandidate| {
+        file_bytes(vertices, table, options.channels, candidate.lights, &candidate.size)
+    };
     // The most clusters that there is room for.
-    let within = |[lights, record]: [usize; 2]| -> Result<Option<Candidate>> {
+    let within = |[lights, record]: [usize; 2]| -> Result<Option<TransferCandidate>> {
         let (components, bits) = RECORDS[record];
-        let of = |clusters| Candidate { lights: LIGHTS[lights], size: Size { clusters, components, bits } };
+        let of = |clusters| TransferCandidate { lights: LIGHTS[lights], size: Size { clusters, components, bits } };
         let (mut fits, mut too_many) = (0, usize::from(MAX_CLUSTERS) + 1);
         while fits + 1 < too_many {
             let clusters = fits.midpoint(too_many);
@@ -146,9 +174,12 @@ fn along_bytes(search: &mut Search<'_, Files<'_>>, limit: u64) -> Result<()> {
         match at {
             [0, 0] => {
                 let [(components, bits), ..] = RECORDS;
-                let least = bytes(&Candidate { lights: LIGHTS[0], size: Size { clusters: 1, components, bits } })?;
+                let least =
+                    bytes(&TransferCandidate { lights: LIGHTS[0], size: Size { clusters: 1, components, bits } })?;
                 return Err(Error::Request(format!(
-                    "no file that is tried takes {limit} bytes or less; the smallest takes {least}"
+                    "no file that is tried takes {limit} bytes or less; the smallest takes {least}, {:.1} bytes per vertex, and one \
+                     channel takes less than three",
+                    least as f64 / vertices as f64
                 )));
             }
             [lights, record] if record > 0 => at = [lights, record - 1],
@@ -160,7 +191,14 @@ fn along_bytes(search: &mut Search<'_, Files<'_>>, limit: u64) -> Result<()> {
     while let Some(next) = steps.pop() {
         tried.push(next);
         let Some(candidate) = within(next)? else { continue };
-        let found = search.try_out(&candidate)?.quality.unwrap_or(f64::NEG_INFINITY);
+        let found = match search.try_out(&candidate) {
+            Ok(trial) => trial.quality.unwrap_or(f64::NEG_INFINITY),
+            Err(Error::Request(what)) if !search.points.is_empty() => {
+                search.progress.warn(&format!("{} lights are not tried: {what}", candidate.lights));
+                continue;
+            }
+            Err(other) => return Err(other),
+        };
         if search.progress.stopped() {
             break;
         }
@@ -182,7 +220,7 @@ fn along_bytes(search: &mut Search<'_, Files<'_>>, limit: u64) -> Result<()> {
 }
 
 /// q for a number of lights.
-struct Made {
+struct Interpolated {
     of: Precomputed,
     /// The same and that between the lights, as references have it.
     all: Precomputed,
@@ -193,16 +231,16 @@ struct Made {
 
 /// Files of one mesh, judged by exact sums.
 struct Files<'a> {
-    subject: Subject<'a>,
+    source: TransferSource<'a>,
     views: Views,
     /// The last that was asked for.
-    made: Option<Made>,
+    made: Option<Interpolated>,
     progress: &'a dyn Progress,
 }
 
 impl Files<'_> {
-    fn made(&mut self, lights: usize) -> Result<&Made> {
-        let Subject { mesh, table, options } = self.subject;
+    fn made(&mut self, lights: usize) -> Result<&Interpolated> {
+        let TransferSource { mesh, table, options } = self.source;
         if self.made.as_ref().is_none_or(|made| made.of.light_count() != lights) {
             self.made = None;
             let directions = fibonacci(lights);
@@ -210,34 +248,38 @@ impl Files<'_> {
             let weights = radial_weights(&directions, &between())?;
             let interpolation = self.worst(&all, |reference, _| reference.total(reference.q(), &weights));
             let of = all.select(&(0..lights).collect::<Vec<usize>>());
-            self.made = Some(Made { of, all, weights, interpolation });
+            self.made = Some(Interpolated { of, all, weights, interpolation });
         }
         Ok(self.made.as_ref().expect("it was just made"))
     }
 
     /// The larger of the errors of all channels.
     fn worst(&self, all: &Precomputed, error: impl Fn(&Reference<'_>, usize) -> ImageError) -> ImageError {
-        let of = |channel| error(&Reference::new(self.subject.mesh, &self.views, all, channel), channel);
+        let of = |channel| error(&Reference::new(self.source.mesh, &self.views, all, channel), channel);
         (0..all.channels).map(of).reduce(ImageError::larger).expect("at least one channel")
     }
 }
 
 impl Codec for Files<'_> {
-    type Candidate = Candidate;
+    type Candidate = TransferCandidate;
     type File = Vec<u8>;
     type Distortion = TransferDistortion;
 
-    fn encode(&mut self, candidate: &Candidate) -> Result<Vec<u8>> {
-        let (Subject { mesh, table, options }, progress) = (self.subject, self.progress);
-        let Made { of, .. } = self.made(candidate.lights)?;
+    fn encode(&mut self, candidate: &TransferCandidate) -> Result<Vec<u8>> {
+        let (TransferSource { mesh, table, options }, progress) = (self.source, self.progress);
+        let Interpolated { of, .. } = self.made(candidate.lights)?;
         encode(mesh, table, of, options.eta, &candidate.size, progress)
     }
 
     fn judge(&self, file: &Vec<u8>) -> Result<TransferDistortion> {
-        let Made { all, weights, interpolation, .. } = self.made.as_ref().expect("what was encoded was made before");
+        let Interpolated { all, weights, interpolation, .. } =
+            self.made.as_ref().expect("what was encoded was made before");
+        self.progress.begin("images", all.channels as u64);
         let file = &Transfer::parse(file).map_err(|source| Error::OwnOutput { source })?;
         let total = self.worst(all, |reference, channel| {
-            reference.total(&FileChannel { file, channel, largest: reference.largest() }, weights)
+            let error = reference.total(&FileChannel { file, channel, largest: reference.largest() }, weights);
+            self.progress.advance(1);
+            error
         });
         Ok(TransferDistortion { total, interpolation: *interpolation })
     }
@@ -257,9 +299,9 @@ mod tests {
         let profile = Profile::dipole(&Medium::measured("marble").unwrap(), 1.5).unwrap();
         let table = RdTable::of(&profile).unwrap();
         let options = Options { channels: 1, eta: 1.5 };
-        let subject = Subject { mesh: &mesh, table: &table, options: &options };
+        let source = TransferSource { mesh: &mesh, table: &table, options: &options };
         let mut shown = 0;
-        let mut run = |target| search(&subject, target, &(), &mut |_| shown += 1);
+        let mut run = |target| search(&source, target, &(), &mut |_| shown += 1);
 
         let [rough, fine] = [0.12, 0.06].map(|error| run(Target::Quality(-error)).unwrap());
         for (curve, error) in [(&rough, 0.12), (&fine, 0.06)] {
@@ -268,8 +310,8 @@ mod tests {
             let reaches = |point: &&Point| point.distortion.total.max <= error;
             assert!(curve.points.iter().filter(reaches).all(|point| point.bytes() >= chosen.bytes()), "the smallest");
             for point in &curve.points {
-                let Candidate { lights, size } = &point.candidate;
-                let expected = file_bytes(&mesh, &table, 1, *lights, size).unwrap();
+                let TransferCandidate { lights, size } = &point.candidate;
+                let expected = file_bytes(mesh.positions.len(), &table, 1, *lights, size).unwrap();
                 assert_eq!(expected, point.bytes() as u64, "bytes are known before: {:?}", point.candidate);
             }
         }
@@ -284,13 +326,38 @@ mod tests {
         );
         assert!(most.chosen().distortion.total.max < rough.chosen().distortion.total.max, "what room is for is used");
         for (target, reason) in [
-            (Target::Bytes(1_000), "smallest"),
+            (Target::Bytes(1_000), "bytes per vertex"),
             (Target::Quality(0.0), "above 0"),
             (Target::Quality(f64::NAN), "above 0"),
+            (Target::Quality(-1e-9), "1024 lights show; ask for"),
         ] {
             let refused = run(target).unwrap_err().to_string();
             assert!(refused.contains(reason), "{refused}");
         }
         assert!(shown > 6, "{shown} files were shown");
+    }
+
+    /// An interruption that came before anything was tried.
+    struct Stopped;
+
+    impl Progress for Stopped {
+        fn begin(&self, _: &str, _: u64) {}
+        fn advance(&self, _: u64) {}
+        fn warn(&self, _: &str) {}
+        fn stopped(&self) -> bool {
+            true
+        }
+    }
+
+    #[test]
+    fn an_interrupted_search_gives_one_file() {
+        let mesh = torus(4.0, 1.5, 8);
+        let profile = Profile::dipole(&Medium::measured("marble").unwrap(), 1.5).unwrap();
+        let table = RdTable::of(&profile).unwrap();
+        let source = TransferSource { mesh: &mesh, table: &table, options: &Options { channels: 1, eta: 1.5 } };
+        for target in [Target::Quality(-1e-9), Target::Bytes(20_000)] {
+            let curve = search(&source, target, &Stopped, &mut |_| {}).unwrap();
+            assert!(curve.stopped && curve.points.len() == 1, "{} files for {target:?}", curve.points.len());
+        }
     }
 }

@@ -31,10 +31,14 @@ pub fn encode(
 ) -> Result<Vec<u8>> {
     size.check()?;
     let (lights, vertices) = (of.light_count(), of.place_of.len());
-    let usual = header(mesh, table, of.channels, lights, eta, size)?;
+    let usual = header(vertices, table, of.channels, lights, size)?;
     memory::expect(COPIES * 4 * of.q.len() as u64, || format!("compressing {lights} lights at {vertices} vertices"))?;
     let quantised = compress(of, size, progress);
+    let [positions_crc, triangles_crc] = mesh.geometry_crc();
     let header = TransferHeader {
+        positions_crc,
+        triangles_crc,
+        eta,
         scale: [0, 1, 2].map(|c| quantised.scales.get(c).copied().unwrap_or(1.0)),
         bits: quantised.bits,
         ..usual
@@ -49,13 +53,13 @@ pub fn encode(
     reread(container::write(SECTIONS.into_iter().zip(contents)))
 }
 
-/// Bytes of a file that [`encode`] makes of a mesh.
+/// Bytes of a file that [`encode`] makes of a mesh of so many vertices.
 ///
 /// # Errors
 /// As [`encode`].
-pub fn file_bytes(mesh: &Mesh, table: &RdTable, channels: usize, lights: usize, size: &Size) -> Result<u64> {
+pub fn file_bytes(vertices: usize, table: &RdTable, channels: usize, lights: usize, size: &Size) -> Result<u64> {
     size.check()?;
-    let header = header(mesh, table, channels, lights, 1.0, size)?;
+    let header = header(vertices, table, channels, lights, size)?;
     Ok(container::file_bytes(&SECTIONS.map(|section| header.section_bytes(section))))
 }
 
@@ -70,18 +74,9 @@ const SECTIONS: [Section; 7] = [
     Section::KernelTail,
 ];
 
-/// Header of a file before anything is compressed: of scale 1, its bits shared evenly.
-fn header(
-    mesh: &Mesh,
-    table: &RdTable,
-    channels: usize,
-    lights: usize,
-    eta: f32,
-    size: &Size,
-) -> Result<TransferHeader> {
+/// Header of a file before anything is compressed: for no mesh, of η and scale 1, its bits shared evenly.
+fn header(vertices: usize, table: &RdTable, channels: usize, lights: usize, size: &Size) -> Result<TransferHeader> {
     let refuse = |what: String| Error::Request(format!("{what} are more than a file has"));
-    let vertices = mesh.positions.len();
-    let [positions_crc, triangles_crc] = mesh.geometry_crc();
     let Size { clusters, components, bits } = *size;
     let share = |k: usize| if k < components { bits / components + usize::from(k < bits % components) } else { 0 };
     Ok(TransferHeader {
@@ -90,10 +85,10 @@ fn header(
         clusters: u16::try_from(clusters).unwrap_or(u16::MAX),
         tail_nodes: u16::try_from(table.tail.len()).map_err(|_| refuse(format!("{} nodes", table.tail.len())))?,
         vertices: u32::try_from(vertices).map_err(|_| refuse(format!("{vertices} vertices")))?,
-        positions_crc,
-        triangles_crc,
+        positions_crc: 0,
+        triangles_crc: 0,
         radius_mm: table.radius_mm,
-        eta,
+        eta: 1.0,
         scale: [1.0; 3],
         bits: std::array::from_fn(|k| u8::try_from(share(k)).unwrap_or(u8::MAX)),
     })

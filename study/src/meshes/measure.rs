@@ -121,7 +121,7 @@ impl MeshCase<'_> {
 }
 
 /// Sizes of our files: the default with fewer and more clusters, with other components, and one cluster.
-fn sizes(vertices: usize) -> Vec<Size> {
+pub(super) fn sizes(vertices: usize) -> Vec<Size> {
     let default = Size::of_vertices(vertices);
     let Size { clusters, .. } = default;
     let mut all: Vec<Size> = [clusters / 4, clusters / 2, clusters, 2 * clusters, 4 * clusters]

@@ -21,9 +21,9 @@ use subsurf_encoder::write_bytes;
 use subsurf_scene::SHAPES;
 use subsurf_viewer::stem;
 
-use self::measure::MeshCase;
+use self::measure::{MeshCase, sizes};
 use self::page::Page;
-use self::record::{Key, Record};
+use self::record::{Key, Kind, Record};
 use crate::cache;
 use crate::page::duration;
 
@@ -70,8 +70,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     for (number, path) in (1..).zip(&args.meshes) {
         let (name, mesh) = (stem(path), args.size.load(path)?);
         outln!("{name}, {} vertices ({number} of {})", mesh.positions.len(), args.meshes.len());
-        let key =
-            Key { material: args.material.clone(), lights: args.lights.into(), geometry_crc: mesh.geometry_crc() };
+        if records.iter().any(|(other, _)| *other == name) {
+            return Err(bad_request(format!("two meshes are called {name}; name one of the files otherwise")));
+        }
+        let key = Key {
+            material: args.material.clone(),
+            lights: args.lights.into(),
+            geometry_crc: mesh.geometry_crc(),
+            sizes: sizes(mesh.positions.len()).into_iter().map(Kind::of_size).collect(),
+        };
         let kept = folder.join(format!("{name}.json"));
         let record = match cache::read::<Record>(&kept) {
             Some(record) if record.key == key => record,

@@ -10,6 +10,8 @@ pub(super) struct Key {
     pub(super) material: String,
     pub(super) lights: usize,
     pub(super) geometry_crc: [u32; 2],
+    /// Sizes of our files, the default among them.
+    pub(super) sizes: Vec<Kind>,
 }
 
 /// What was measured on a mesh.

@@ -1,8 +1,7 @@
 //! The study of scattering precomputed for meshes, at the size of a stamp.
 
-use std::fmt::Write as _;
-
 use subsurf_scene::knot;
+use subsurf_tests::meshes::write_obj;
 
 use crate::common::{assert_refused, files, run, succeed};
 
@@ -17,13 +16,9 @@ fn numbers(csv: &str, name: &str) -> Vec<f64> {
 fn a_study_of_meshes_is_one_page_too() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let mesh = knot(10.0, 3.0, 10);
-    let mut text = format!("OFF\n{} {} 0\n", mesh.positions.len(), mesh.triangles.len());
-    mesh.positions.iter().for_each(|at| writeln!(text, "{} {} {}", at.x, at.y, at.z).unwrap());
-    mesh.triangles.iter().for_each(|[a, b, c]| writeln!(text, "3 {a} {b} {c}").unwrap());
-    std::fs::write(folder.join("small.off"), text).unwrap();
+    write_obj(&folder.join("small.obj"), &knot(10.0, 3.0, 10));
 
-    let command = "meshes small.off --extent 20 --lights 26 -o out";
+    let command = "meshes small.obj --extent 20 --lights 26 -o out";
     let told = succeed(folder, command).out;
     assert!(told.contains("small, ") && told.contains("dB"), "{told}");
     assert_eq!(files(&folder.join("out")), ["lights.csv", "meshes.csv", "meshes.html", "records"]);
@@ -62,6 +57,7 @@ fn a_study_of_meshes_is_one_page_too() {
     .unwrap();
     assert!(succeed(folder, command).out.contains("12.5 dB"), "the kept record is shown");
 
+    assert_refused(&run(folder, "meshes small.obj small.obj --extent 20 --lights 26 -o out"), &["called small"]);
     assert_refused(&run(folder, "meshes none.ply -o out"), &["none.ply"]);
     assert_refused(&run(folder, "meshes knot --lights 4 -o out"), &["--lights", "16"]);
     assert_refused(&run(folder, "meshes knot --material cheese -o out"), &["cheese", "marble"]);

@@ -38,8 +38,11 @@ pub fn between() -> Vec<[f32; 3]> {
 pub fn radial_weights(lights: &[[f32; 3]], directions: &[[f32; 3]]) -> Result<Vec<Vec<f32>>> {
     let bytes: Vec<u8> = lights.as_flattened().iter().flat_map(|value| value.to_le_bytes()).collect();
     let mut buffer = vec![0.0; LightWeights::buffer_len(lights.len())];
-    let weights = LightWeights::new(F32Le::new(&bytes), &mut buffer)
-        .ok_or_else(|| Error::Request("two lights are one: nothing lies between them".to_owned()))?;
+    let weights = LightWeights::new(F32Le::new(&bytes), &mut buffer).ok_or_else(|| {
+        Error::Request(
+            "two lights of the file are one: it is damaged; make it again with `subsurf transfer`".to_owned(),
+        )
+    })?;
     let of = |towards: &[f32; 3]| {
         let mut out = vec![0.0; lights.len()];
         weights.at(*towards, &mut out);
@@ -64,6 +67,9 @@ pub fn precompute_with_between(
 
 impl<'a> Reference<'a> {
     /// Channel `c` of what [`precompute_with_between`] gives, seen in `views` of `mesh`.
+    ///
+    /// # Panics
+    /// If it is not from there, and has fewer lights.
     #[must_use]
     pub fn new(mesh: &'a Mesh, views: &'a Views, all: &Precomputed, c: usize) -> Self {
         let (rows, lights) = (all.light_count(), all.light_count() - BETWEEN);
@@ -83,7 +89,7 @@ impl<'a> Reference<'a> {
         }
     }
 
-    /// q `[light × vertex]`, as large as 1.
+    /// q `[light × vertex]`, divided by its largest value.
     #[must_use]
     pub fn q(&self) -> &DMatrix<f32> {
         &self.q

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use subsurf_decoder::transfer::layout::{MAX_BITS, MAX_COMPONENTS};
 
 use super::cpca::Clusters;
-use crate::math::uniform::{Range, codes};
+use crate::math::uniform::{OffsetStep, codes};
 use crate::transfer::rd_table::single;
 
 /// Largest value of a component.
@@ -18,7 +18,7 @@ pub(in crate::transfer) struct Quantised {
     /// Bits of each component.
     pub(in crate::transfer) bits: [u8; MAX_COMPONENTS],
     /// Ranges `[cluster][mean, components]`.
-    pub(in crate::transfer) ranges: Vec<Range>,
+    pub(in crate::transfer) ranges: Vec<OffsetStep>,
     /// Means `[cluster][value]`.
     pub(in crate::transfer) means: Vec<u16>,
     /// Components `[cluster][component][value]`.
@@ -29,7 +29,7 @@ pub(in crate::transfer) struct Quantised {
 
 /// A cluster in few bits, with the exact coefficients of its members to these components.
 struct Cluster {
-    mean: (Range, Vec<u16>),
+    mean: (OffsetStep, Vec<u16>),
     components: Vec<Vec<i8>>,
     members: Vec<usize>,
     /// `[component × member]`.
