@@ -29,6 +29,8 @@ pub struct Material {
     pub nodes_per_mm: f32,
     /// Rows to a layer of plain arrays that have layers.
     pub rows: u32,
+    #[doc(hidden)]
+    pub pad: [u32; 2],
 }
 
 /// Base materials to a column of the texture of their profiles: every GLES 3.0 device has twice as many texels, so that
@@ -49,6 +51,7 @@ impl Material {
             r_max_mm: header.r_max_mm,
             nodes_per_mm: f32::from(header.samples.saturating_sub(1)) / header.r_max_mm,
             rows,
+            pad: [0; 2],
         }
     }
 }

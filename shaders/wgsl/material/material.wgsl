@@ -19,6 +19,9 @@ struct Material {
     nodes_per_mm: f32,
     // Rows to a layer of a plain array that has layers.
     rows: u32,
+    pad_0: u32,
+    // Blocks of OpenGL ES are multiples of 16 bytes.
+    pad_1: u32,
 }
 
 @group(0) @binding(0) var<uniform> material: Material;
