@@ -6,21 +6,29 @@ use crate::error::ReadError;
 use crate::family::Family;
 use crate::section::Section;
 
+/// Header sections of all families; a file has one of them.
+const HEADERS: &[Section] = &[
+    Section::BssrdfHeader,
+    Section::BtfHeader,
+    Section::KernelHeader,
+    #[cfg(feature = "transfer")]
+    Section::TransferHeader,
+];
+
 /// Family of a file by its header section.
 pub(crate) fn family(sections: &Sections<'_>) -> Result<Family, ReadError> {
-    #[cfg(feature = "transfer")]
-    if sections.has(Section::TransferHeader) {
-        return Ok(Family::Transfer);
+    let mut found = HEADERS.iter().copied().filter(|section| sections.has(*section));
+    let header = found.next().ok_or(ReadError::UnknownContent)?;
+    if let Some(second) = found.next() {
+        return Err(ReadError::TwoFamilies { headers: [header, second] });
     }
-    if sections.has(Section::BtfHeader) {
-        Ok(BtfHeader::parse(sections.any(Section::BtfHeader)?)?.model.family())
-    } else if sections.has(Section::BssrdfHeader) {
-        Ok(Family::Bssrdf)
-    } else if sections.has(Section::KernelHeader) {
-        Ok(Family::Kernel)
-    } else {
-        Err(ReadError::UnknownContent)
-    }
+    Ok(match header {
+        Section::BtfHeader => BtfHeader::parse(sections.any(header)?)?.model.family(),
+        Section::KernelHeader => Family::Kernel,
+        #[cfg(feature = "transfer")]
+        Section::TransferHeader => Family::Transfer,
+        _ => Family::Bssrdf,
+    })
 }
 
 /// Header section of the family that is expected. A file that has the header of another family is refused as such.
@@ -29,10 +37,9 @@ pub(crate) fn header<'a>(
     section: Section,
     expected: Family,
 ) -> Result<SectionBytes<'a>, ReadError> {
-    if !sections.has(section)
-        && let Ok(found) = family(sections)
-    {
-        return Err(ReadError::OtherFamily { found, expected });
+    match family(sections) {
+        Ok(found) if found != expected => Err(ReadError::OtherFamily { found, expected }),
+        Ok(_) | Err(ReadError::UnknownContent) => sections.any(section),
+        Err(error) => Err(error),
     }
-    sections.any(section)
 }

@@ -18,6 +18,16 @@ pub enum ReadError {
         /// Minor version of the file.
         minor: u16,
     },
+    /// A section that must not be skipped, and that this version does not know: of a later version, or of a family that was left out.
+    NewerSection {
+        /// The section.
+        section: Section,
+    },
+    /// The headers of two families in one file.
+    TwoFamilies {
+        /// Headers that are there.
+        headers: [Section; 2],
+    },
     /// A file of another family than the one that was asked for.
     OtherFamily {
         /// Family of the file.
@@ -123,6 +133,13 @@ impl fmt::Display for ReadError {
             Self::NotSubsurf => f.write_str("not a .subsurf file (its first 8 bytes are others)"),
             Self::NewerVersion { major, minor } => {
                 write!(f, "format version {major}.{minor}; this reader knows version 1")
+            }
+            Self::NewerSection { section } => write!(
+                f,
+                "{section}: a section that must not be skipped; made by a newer version of the format, or of a family that this reader was built without"
+            ),
+            Self::TwoFamilies { headers: [first, second] } => {
+                write!(f, "{first}, {second}: headers of two families; a file has one")
             }
             Self::OtherFamily { found, expected } => write!(f, "a {found}, not a {expected}"),
             Self::UnknownContent => f.write_str("a .subsurf file whose content this version does not know"),

@@ -50,6 +50,13 @@ macro_rules! sections {
                     Self::Other(kind) => kind,
                 }
             }
+
+            /// Whether a reader that does not know the section must refuse the file; it may skip those whose first letter is lower-case.
+            #[must_use]
+            pub const fn is_critical(self) -> bool {
+                let [first, ..] = self.kind();
+                !first.is_ascii_lowercase()
+            }
         }
 
         impl fmt::Display for Section {
@@ -69,6 +76,8 @@ macro_rules! sections {
 }
 
 sections! {
+    /// `meta`: who made what, and from what.
+    Metadata = b"meta", "metadata";
     /// `BSSR`: size, pitch and model of a diffuse BSSRDF.
     BssrdfHeader = b"BSSR", "material header";
     /// `PROF`: base scattering profiles.
@@ -87,8 +96,8 @@ sections! {
     Codes = b"CODE", "palette codes";
     /// `LSPP`: per-pixel local scattering profiles.
     LocalProfiles = b"LSPP", "local scattering profiles";
-    /// `SEPB`: separable basis.
-    SeparableBasis = b"SEPB", "separable basis";
+    /// `sepb`: separable basis.
+    SeparableBasis = b"sepb", "separable basis";
     /// `KERN`: sizes, signs and units of a kernel.
     KernelHeader = b"KERN", "kernel header";
     /// `KOFF`: offsets of taps.
@@ -97,8 +106,8 @@ sections! {
     KernelWeights = b"KWGT", "weights of taps";
     /// `TAIL`: tail of a diffusion profile.
     KernelTail = b"TAIL", "tail of the profile";
-    /// `TWOG`: the two Gaussians that a kernel was made of.
-    TwoGaussians = b"TWOG", "two Gaussians";
+    /// `twog`: the two Gaussians that a kernel was made of.
+    TwoGaussians = b"twog", "two Gaussians";
     /// `XFER`: sizes, units and mesh of a transfer.
     TransferHeader = b"XFER", "transfer header", if "transfer";
     /// `XDIR`: directions towards the lights of a transfer.

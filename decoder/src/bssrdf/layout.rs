@@ -141,7 +141,7 @@ impl BssrdfHeader {
     /// Reads and checks the section.
     pub(crate) fn parse(section: SectionBytes<'_>) -> Result<Self, ReadError> {
         use HeaderRecord as R;
-        let record = R::from_bytes(section.sized(HEADER_BYTES as u64)?.bytes);
+        let record = R::from_bytes(section.at_least(HEADER_BYTES as u64)?.bytes);
         let origin = section.origin;
 
         let R { model, colour_space, addressing, coding, .. } = record;

@@ -39,10 +39,6 @@ impl<'a> Catalog<'a> {
     /// Checks header and materials of a file of the expected family.
     pub(super) fn read(sections: &Sections<'a>, expected: Family) -> Result<Self, ReadError> {
         let header = BtfHeader::parse(detect::header(sections, Section::BtfHeader, expected)?)?;
-        let found = header.model.family();
-        if found != expected {
-            return Err(ReadError::OtherFamily { found, expected });
-        }
         let need_bytes = usize::from(header.materials).wrapping_mul(MATERIAL_BYTES) as u64;
         let section = sections.sized(Section::Materials, need_bytes)?;
         let (materials, _) = section.bytes.as_chunks();

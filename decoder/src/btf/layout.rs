@@ -2,6 +2,7 @@
 
 use super::colour::ColourEncoding;
 use super::grid::{Grid, MAX_NODES};
+use crate::bssrdf::layout::LENGTHS_MM;
 use crate::container::record::{Field, record};
 use crate::container::sections::SectionBytes;
 use crate::error::ReadError;
@@ -72,6 +73,7 @@ record! {
         cos_light_min: f32,
         white_or_toe: f32,
         peak: f32,
+        texel_mm: f32,
     }
 }
 
@@ -86,6 +88,8 @@ pub struct BtfHeader {
     pub materials: u8,
     /// Nodes of directions.
     pub grid: Grid,
+    /// Distance of neighbouring texels of the finest level in mm, 10⁻⁶ to 10⁶, where it is known.
+    pub texel_mm: Option<f32>,
 }
 
 impl BtfHeader {
@@ -112,6 +116,7 @@ impl BtfHeader {
             cos_light_min,
             white_or_toe,
             peak,
+            texel_mm: self.texel_mm.unwrap_or(0.0),
         }
         .to_bytes()
     }
@@ -119,7 +124,7 @@ impl BtfHeader {
     /// Reads and checks the section.
     pub(crate) fn parse(section: SectionBytes<'_>) -> Result<Self, ReadError> {
         use HeaderRecord as R;
-        let record = R::from_bytes(section.sized(HEADER_BYTES as u64)?.bytes);
+        let record = R::from_bytes(section.at_least(HEADER_BYTES as u64)?.bytes);
         let origin = section.origin;
 
         let bad_model = origin.bad_field(offset_of!(R, model), record.model);
@@ -145,6 +150,10 @@ impl BtfHeader {
             }
             other => return Err(origin.bad_field(offset_of!(R, encoding), other)),
         };
-        Ok(Self { model, encoding, materials, grid })
+        let texel_mm = match record.texel_mm {
+            0.0 => None,
+            size => Some(origin.number(offset_of!(R, texel_mm), size, LENGTHS_MM)?),
+        };
+        Ok(Self { model, encoding, materials, grid, texel_mm })
     }
 }

@@ -7,12 +7,14 @@ pub mod bytes;
 mod crc;
 mod header;
 pub(crate) mod index;
+mod metadata;
 pub(crate) mod origin;
 pub(crate) mod record;
 pub(crate) mod sections;
 
 pub use crc::crc32;
 pub use header::{ENTRY_BYTES, Entry, FILE_HEADER_BYTES, MAGIC, MAJOR, MAX_SECTIONS, MINOR, file_header};
+pub use metadata::{MAX_KEY_BYTES, MAX_VALUE_BYTES, Metadata, entry_header};
 
 use crate::error::ReadError;
 use crate::section::Section;
@@ -84,7 +86,7 @@ impl<'a> Container<'a> {
         Ok(container)
     }
 
-    /// Sections lie inside the file, in order, without overlap; no kind twice.
+    /// Sections lie inside the file, in order, without overlap; no kind twice; none that must be understood and is not.
     fn check_table(&self, header_end: u64) -> Result<(), ReadError> {
         let mut earliest = header_end;
         for (number, entry) in self.entries().enumerate() {
@@ -101,6 +103,9 @@ impl<'a> Container<'a> {
             }
             if self.entries().take(number).any(|before| before.section == section) {
                 return Err(ReadError::Duplicate { section });
+            }
+            if matches!(section, Section::Other(_)) && section.is_critical() {
+                return Err(ReadError::NewerSection { section });
             }
             earliest = entry.end();
         }
@@ -122,6 +127,18 @@ impl<'a> Container<'a> {
     #[must_use]
     pub fn file(&self) -> &'a [u8] {
         self.file
+    }
+
+    /// Who made what, and from what: the section `meta`, which nothing else reads; empty where there is none.
+    ///
+    /// # Errors
+    /// [`ReadError::Checksum`].
+    pub fn metadata(&self) -> Result<Metadata<'a>, ReadError> {
+        match self.section(Section::Metadata, Crc::Check) {
+            Ok((_, bytes)) => Ok(Metadata::new(bytes)),
+            Err(ReadError::Missing { .. }) => Ok(Metadata::new(&[])),
+            Err(error) => Err(error),
+        }
     }
 
     /// Entry and bytes of one section.

@@ -48,6 +48,11 @@ impl<'a> SectionBytes<'a> {
         if self.bytes.len() as u64 == need_bytes { Ok(self) } else { Err(self.wrong_size(need_bytes)) }
     }
 
+    /// The section if it has `need_bytes` or more: headers grow at their end from one minor version to the next.
+    pub(crate) fn at_least(self, need_bytes: u64) -> Result<Self, ReadError> {
+        if self.bytes.len() as u64 >= need_bytes { Ok(self) } else { Err(self.wrong_size(need_bytes)) }
+    }
+
     /// Error of a section that must have another size.
     pub(crate) fn wrong_size(self, need_bytes: u64) -> ReadError {
         let have_bytes = self.bytes.len() as u64;

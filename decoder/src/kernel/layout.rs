@@ -88,7 +88,7 @@ impl KernelHeader {
     /// Reads and checks the section.
     pub(crate) fn parse(section: SectionBytes<'_>) -> Result<Self, ReadError> {
         use KernelRecord as R;
-        let record = R::from_bytes(section.sized(HEADER_BYTES as u64)?.bytes);
+        let record = R::from_bytes(section.at_least(HEADER_BYTES as u64)?.bytes);
         let origin = section.origin;
         let R { method, colour_space, terms, taps, tail_nodes, signs, .. } = record;
         let bad_method = origin.bad_field(offset_of!(R, method), method);

@@ -101,7 +101,7 @@ impl TransferHeader {
     /// Reads and checks the section.
     pub(crate) fn parse(section: SectionBytes<'_>) -> Result<Self, ReadError> {
         use TransferRecord as R;
-        let record = R::from_bytes(section.sized(HEADER_BYTES as u64)?.bytes);
+        let record = R::from_bytes(section.at_least(HEADER_BYTES as u64)?.bytes);
         let origin = section.origin;
         let R { colour_space, channels, lights, clusters, tail_nodes, vertices, bits, .. } = record;
         let rec709 = LINEAR_REC709.into();

@@ -85,3 +85,23 @@ pub(crate) fn example() -> Vec<u8> {
     seal(&mut file);
     file
 }
+
+/// The example with one more section behind the others; its CRC is 0.
+pub(crate) fn with_section(kind: &[u8; 4], section: &[u8]) -> Vec<u8> {
+    let mut file = example();
+    file[12] = 5;
+    let mut entry = kind.to_vec();
+    entry.extend([0; 4]);
+    entry.extend((216_u64 + 24).to_le_bytes());
+    entry.extend((section.len() as u64).to_le_bytes());
+    file.splice(120..120, entry);
+    for k in 0..4 {
+        file[24 + 24 * k + 8] += 24;
+    }
+    file.extend(section);
+    let bytes = file.len() as u64;
+    file[16..24].copy_from_slice(&bytes.to_le_bytes());
+    let crc = crc32(&file[..144]);
+    file[144..148].copy_from_slice(&crc.to_le_bytes());
+    file
+}
