@@ -10,6 +10,7 @@ mod encode;
 pub mod images;
 pub mod info;
 mod kernel;
+mod metadata;
 pub mod options;
 pub mod picture;
 pub mod program;

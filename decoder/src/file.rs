@@ -1,7 +1,7 @@
 //! The front door: any `.subsurf` file, checked once.
 
 use crate::bssrdf::Bssrdf;
-use crate::btf::{FactoredBtf, NestedBtf};
+use crate::btf::{Catalog, FactoredBtf, NestedBtf};
 use crate::container::sections::Sections;
 use crate::container::{Container, Crc};
 use crate::detect::family;
@@ -75,7 +75,17 @@ impl<'a> File<'a> {
     }
 }
 
-impl Content<'_> {
+impl<'a> Content<'a> {
+    /// Header and materials of a BTF of either model; `None` of other families.
+    #[must_use]
+    pub fn catalog(&self) -> Option<&Catalog<'a>> {
+        match self {
+            Self::NestedBtf(btf) => Some(btf.catalog()),
+            Self::FactoredBtf(btf) => Some(btf.catalog()),
+            _ => None,
+        }
+    }
+
     /// Family of the content.
     #[must_use]
     pub fn family(&self) -> Family {

@@ -61,5 +61,6 @@ pub mod synthetic;
 pub mod transfer;
 
 pub use error::{Error, Result};
+pub use file::metadata::{metadata_bytes, with_metadata};
 pub use file::output::{Unfinished, check_target, remove_unfinished, write_atomically, write_bytes};
 pub use progress::Progress;

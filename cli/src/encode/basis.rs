@@ -13,6 +13,7 @@ use subsurf_encoder::{check_target, write_bytes};
 use subsurf_viewer::{human, read};
 
 use crate::info::{basis_line, basis_to_json, parse};
+use crate::metadata::MetaArgs;
 use crate::outln;
 use crate::program::failure::bad_request;
 use crate::program::interrupt::Graceful;
@@ -83,13 +84,13 @@ impl BasisArgs {
 }
 
 /// Adds a basis to a file.
-pub(super) fn add(path: &Path, output: &Path, args: &BasisArgs, json: bool) -> anyhow::Result<()> {
+pub(super) fn add(path: &Path, output: &Path, args: &BasisArgs, meta: &MetaArgs, json: bool) -> anyhow::Result<()> {
     let options = args.options()?;
     check_target(output)?;
     let before = read(path)?;
     parse(path, &before)?;
     let graceful = Graceful::new();
-    let bytes = add_basis(&before, &options, &Bars::new())?;
+    let bytes = meta.added_to(add_basis(&before, &options, &Bars::new())?)?;
     write_bytes(output, &bytes)?;
     drop(graceful);
     let material = Bssrdf::parse(&bytes)?;

@@ -19,6 +19,7 @@ use subsurf_viewer::human;
 use super::basis::{self, BasisArgs};
 use super::curve;
 use super::report::Report;
+use crate::metadata::MetaArgs;
 use crate::options::{ByteCount, CaptureArgs};
 use crate::outln;
 use crate::program::failure::bad_request;
@@ -66,6 +67,8 @@ pub(super) struct FitArgs {
     seed: u64,
     #[command(flatten)]
     facts: CaptureArgs,
+    #[command(flatten)]
+    meta: MetaArgs,
     /// Threads to use, at most eight for each core; the file is the same for any number
     #[arg(long)]
     threads: Option<usize>,
@@ -145,7 +148,7 @@ impl FitArgs {
 pub(super) fn run(args: &FitArgs) -> anyhow::Result<()> {
     threads::set(args.threads)?;
     if let Some(path) = &args.basis.add_basis {
-        return basis::add(path, args.output.as_ref().unwrap_or(path), &args.basis, args.json);
+        return basis::add(path, args.output.as_ref().unwrap_or(path), &args.basis, &args.meta, args.json);
     }
     let Some(path) = &args.capture else {
         return Err(bad_request("what is to be encoded? Give a capture, or `btf` and its images"));
@@ -169,6 +172,7 @@ pub(super) fn run(args: &FitArgs) -> anyhow::Result<()> {
                 outln!("{}", curve::line(point));
             }
         };
+        let target = args.meta.leave_room(target)?;
         let (target, kept) = args.basis.leave_room(target, &capture, args.samples)?;
         let curve = search(&capture, args.samples, args.seed, target, &bars, &mut found).map_err(|error| {
             if kept == 0 || !error.is_callers() {
@@ -182,6 +186,7 @@ pub(super) fn run(args: &FitArgs) -> anyhow::Result<()> {
         (encode(&capture, args.samples, &options, &bars)?, options, None)
     };
     let encoded = args.basis.added_to(encoded, &bars)?;
+    let encoded = Encoded { bytes: args.meta.added_to(encoded.bytes)?, ..encoded };
     write_bytes(&output, &encoded.bytes)?;
     drop(graceful);
     let seconds = start.elapsed().as_secs_f64();

@@ -7,17 +7,13 @@ use serde_json::{Value, json};
 use subsurf_decoder::container::bits::index_bits;
 use subsurf_decoder::{Content, Family, File, NestedBtf, ReadError};
 
-use super::{Args, print_sections, read_error};
+use super::{Args, print_json, print_rest, printable, read_error};
 use crate::outln;
 use subsurf_viewer::human;
 
 pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>) -> anyhow::Result<()> {
     let content = file.content();
-    let catalog = match &content {
-        Content::NestedBtf(btf) => btf.catalog(),
-        Content::FactoredBtf(btf) => btf.catalog(),
-        other => return Err(not_a_btf(&args.file, other)),
-    };
+    let catalog = content.catalog().ok_or_else(|| not_a_btf(&args.file, &content))?;
     let parts = Parts::of_content(&args.file, &content)?;
     let (header, grid) = (catalog.header(), catalog.grid());
     let nodes = [grid.n_alpha, grid.n_beta, grid.n_theta, grid.n_phi];
@@ -28,14 +24,13 @@ pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>) -> anyhow::Result
             .collect();
         let value = json!({
             "model": parts.model(), "tone": format!("{:?}", header.encoding), "nodes": nodes, "materials": materials,
-            "parts": parts.to_json(), "bytes": bytes.len(),
+            "texel_mm": header.texel_mm, "parts": parts.to_json(), "bytes": bytes.len(),
         });
-        outln!("{value:#}");
-        return Ok(());
+        return print_json(args, value, file.container());
     }
     outln!("{}: BTF in {}, {}", args.file.display(), parts.model(), human(bytes.len() as u64));
     for of in catalog.materials() {
-        let name = if of.name().is_empty() { "unnamed" } else { of.name() };
+        let name = if of.name().is_empty() { "unnamed".to_owned() } else { printable(of.name()) };
         outln!("  {name}: {} × {} texels, mipmap levels: {}", of.width, of.height, of.levels);
     }
     outln!(
@@ -44,9 +39,11 @@ pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>) -> anyhow::Result
         grid.theta_max.to_degrees(),
     );
     outln!("  {:?}", header.encoding);
+    if let Some(texel_mm) = header.texel_mm {
+        outln!("  texels of {texel_mm} mm");
+    }
     parts.print();
-    print_sections(file.container());
-    Ok(())
+    print_rest(args, file.container())
 }
 
 fn not_a_btf(path: &Path, content: &Content<'_>) -> anyhow::Error {

@@ -8,7 +8,7 @@ mod transfer;
 use std::path::PathBuf;
 
 use anyhow::Context;
-use serde_json::json;
+use serde_json::{Map, Value, json};
 use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_decoder::bssrdf::{BssrdfModel, Coding, Profiles, SeparableBasis};
 use subsurf_decoder::container::Container;
@@ -40,14 +40,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let file = File::parse(&bytes).map_err(|error| read_error(&args.file, error)).context("not a usable material")?;
     let material = match file.content() {
         Content::Bssrdf(material) => material,
-        Content::Kernel(of) => {
-            kernel::info(args, &bytes, &file, &of);
-            return Ok(());
-        }
-        Content::Transfer(of) => {
-            transfer::info(args, &bytes, &file, &of);
-            return Ok(());
-        }
+        Content::Kernel(of) => return kernel::info(args, &bytes, &file, &of),
+        Content::Transfer(of) => return transfer::info(args, &bytes, &file, &of),
         _ => return btf::info(args, &bytes, &file),
     };
     let container = file.container();
@@ -75,8 +69,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "r_max_mm": header.r_max_mm, "eta": header.eta, "addressing": format!("{:?}", header.addressing).to_lowercase(),
             "basis": material.basis().map(basis_to_json), "bytes": bytes.len(), "sections": sections,
         });
-        outln!("{value:#}");
-        return Ok(());
+        return print_json(args, value, container);
     }
     outln!("{}: {model}, {}", args.file.display(), human(bytes.len() as u64));
     outln!(
@@ -98,15 +91,33 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Some(basis) => outln!("  {}", basis_line(basis)),
         None => outln!("  no separable basis: `subsurf encode --add-basis FILE` adds one"),
     }
-    print_sections(container);
-    Ok(())
+    print_rest(args, container)
 }
 
-/// Kinds, lengths and places of all sections.
-fn print_sections(container: &Container<'_>) {
+/// Metadata, and kinds, lengths and places of all sections.
+fn print_rest(args: &Args, container: &Container<'_>) -> anyhow::Result<()> {
+    for (key, value) in container.metadata().map_err(|error| read_error(&args.file, error))? {
+        outln!("  {}: {}", printable(key), printable(value));
+    }
     for entry in container.entries() {
         outln!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
     }
+    Ok(())
+}
+
+/// What is known of a file, with its metadata.
+fn print_json(args: &Args, mut value: Value, container: &Container<'_>) -> anyhow::Result<()> {
+    let metadata = container.metadata().map_err(|error| read_error(&args.file, error))?;
+    value["metadata"] = metadata.map(|(key, value)| (key.to_owned(), Value::from(value))).collect::<Map<_, _>>().into();
+    outln!("{value:#}");
+    Ok(())
+}
+
+/// Text of a file for a terminal, which would obey its control characters.
+fn printable(text: &str) -> String {
+    text.chars()
+        .map(|letter| if letter.is_control() { letter.escape_default().to_string() } else { letter.into() })
+        .collect()
 }
 
 /// A separable basis in a line.

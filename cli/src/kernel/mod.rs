@@ -10,6 +10,7 @@ use subsurf_encoder::kernel::{KernelMethod, MAX_TERMS, Options, TwoGaussians, co
 use subsurf_encoder::simulate::diffusion::medium::MEASURED;
 use subsurf_encoder::{check_target, write_bytes};
 
+use crate::metadata::MetaArgs;
 use crate::program::failure::bad_request;
 use crate::program::threads;
 
@@ -39,6 +40,8 @@ pub(crate) struct Args {
     /// The .subsurf file to write
     #[arg(long, short, required_unless_present = "compare")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    meta: MetaArgs,
     /// How the profile becomes separable; see below [default: pre-integrated, or two-gaussians with --near]
     #[arg(long, value_parser = PossibleValuesParser::new(KernelMethod::ALL.map(KernelMethod::name)))]
     method: Option<String>,
@@ -113,7 +116,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let options = Options { eta: args.eta.unwrap_or(eta), ..options };
     if let Some(output) = &args.output {
         let encoded = encode(&profile, &options)?;
-        let bytes = encoded.kernel.to_bytes()?;
+        let bytes = args.meta.added_to(encoded.kernel.to_bytes()?)?;
         write_bytes(output, &bytes)?;
         report::kernel(output, &encoded, bytes.len());
     }

@@ -20,6 +20,7 @@ pub(crate) use judge::compare;
 pub(crate) use report::{bytes_per_vertex, clusters};
 
 use crate::info::read_error;
+use crate::metadata::MetaArgs;
 use crate::options::MeshArgs;
 use crate::outln;
 use crate::program::failure::bad_request;
@@ -73,6 +74,8 @@ pub(crate) struct Args {
     /// Refractive index against air, 1 to 4 [default: that of the material, else 1.3]
     #[arg(long)]
     eta: Option<f32>,
+    #[command(flatten)]
+    meta: MetaArgs,
     /// Threads to use, at most eight for each core; the file is the same for any number
     #[arg(long)]
     threads: Option<usize>,
@@ -107,6 +110,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
     };
     drop(bars);
+    let bytes = args.meta.added_to(bytes)?;
     write_bytes(&args.output, &bytes)?;
     let file = Transfer::parse(&bytes).map_err(|error| read_error(&args.output, error))?;
     report::written(&args.output, &file, bytes.len(), began.elapsed());
@@ -127,7 +131,8 @@ impl Args {
         )]
         let bytes = |per_vertex: f64| (per_vertex * vertices as f64) as u64;
         let of_bytes = self.target_bytes_per_vertex.map(|per_vertex| Target::Bytes(bytes(per_vertex)));
-        Ok(self.target_error.map(|error| Target::Quality(-error)).or(of_bytes))
+        let target = self.target_error.map(|error| Target::Quality(-error)).or(of_bytes);
+        target.map(|target| self.meta.leave_room(target)).transpose()
     }
 }
 

@@ -1,6 +1,8 @@
 //! From images of materials to a file, with the presets that the command has.
 
-use subsurf_decoder::btf::Grid;
+use subsurf_decoder::bssrdf::layout::LENGTHS_MM;
+use subsurf_decoder::btf::{BtfHeader, Grid};
+use subsurf_decoder::{File, Section};
 
 use crate::baseline::havran2010;
 use crate::btf::memory::Fit;
@@ -9,6 +11,7 @@ use crate::btf::truncated_svd::TruncatedSvd;
 use crate::btf::{factored, nested, presets};
 use crate::capture::Images;
 use crate::error::{Error, Result};
+use crate::file::container;
 use crate::file::reread::reread;
 use crate::progress::Progress;
 use crate::rate;
@@ -38,11 +41,13 @@ pub struct Options {
     pub seed: u64,
     /// How large it is to be.
     pub goal: Goal,
+    /// Distance of neighbouring texels of the materials in mm, 10⁻⁶ to 10⁶, where it is known.
+    pub texel_mm: Option<f32>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { method: Method::Nested, nodes: None, has_mipmaps: false, seed: 1, goal: Goal::Usual }
+        Self { method: Method::Nested, nodes: None, has_mipmaps: false, seed: 1, goal: Goal::Usual, texel_mm: None }
     }
 }
 
@@ -70,6 +75,10 @@ pub fn encode(
     found: &mut dyn FnMut(&rate::btf::Point<Size>),
 ) -> Result<Encoded> {
     let setup = Setup::new(materials, names, options)?;
+    let [shortest, longest] = LENGTHS_MM;
+    if let Some(texel_mm) = options.texel_mm.filter(|texel_mm| !(shortest..=longest).contains(texel_mm)) {
+        return Err(Error::Request(format!("texels of {texel_mm} mm; a file holds {shortest} to {longest}")));
+    }
     let ranks = presets::ranks(materials.len());
     let fit = Fit::new(options.method, materials, &setup.grid, ranks, options.has_mipmaps);
     let wanted = Wanted::new(options, materials)?;
@@ -79,7 +88,7 @@ pub fn encode(
         let encode = |size: &Size| fit.expect_size(size).and_then(|()| encode(size));
         wanted.choose(materials, progress, encode, found)
     };
-    match options.method {
+    let encoded = match options.method {
         Method::Havran2010 => choose(&|size| match size {
             Size::Havran2010 { looseness } => setup.havran2010(materials, *looseness, progress),
             other => Err(mismatch(options.method, other)),
@@ -104,7 +113,19 @@ pub fn encode(
                 other => Err(mismatch(options.method, other)),
             })
         }
+    }?;
+    match options.texel_mm {
+        Some(texel_mm) => Ok(Encoded { bytes: with_texel_size(&encoded.bytes, texel_mm)?, ..encoded }),
+        None => Ok(encoded),
     }
+}
+
+/// The same file with the size of its texels in its header.
+fn with_texel_size(file: &[u8], texel_mm: f32) -> Result<Vec<u8>> {
+    let content = File::parse(file).map_err(|source| Error::OwnOutput { source })?.content();
+    let header = *content.catalog().expect("encoders of BTFs make BTFs").header();
+    let header = BtfHeader { texel_mm: Some(texel_mm), ..header };
+    container::with_section(file, Section::BtfHeader, &header.to_bytes())
 }
 
 fn mismatch(method: Method, size: &Size) -> Error {

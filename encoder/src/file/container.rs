@@ -1,7 +1,10 @@
 //! The container that all files share: header, section table, checksums (`FORMAT.md`, section 1).
 
 use subsurf_decoder::Section;
-use subsurf_decoder::container::{ENTRY_BYTES, Entry, FILE_HEADER_BYTES, crc32, file_header};
+use subsurf_decoder::container::{Container, Crc, ENTRY_BYTES, Entry, FILE_HEADER_BYTES, crc32, file_header};
+
+use crate::error::{Error, Result};
+use crate::file::reread::reread;
 
 /// A file of these sections, in this order, each at a multiple of four bytes.
 ///
@@ -26,6 +29,24 @@ pub(crate) fn write<'a>(sections: impl IntoIterator<Item = (Section, &'a [u8])>)
     out
 }
 
+/// The same file with a section in place of the one of its kind, or behind the others; all of these stay as they are.
+///
+/// # Errors
+/// [`Error::Request`] if the bytes are no file; [`Error::OwnOutput`] if the decoder refuses the result.
+pub(crate) fn with_section(file: &[u8], section: Section, bytes: &[u8]) -> Result<Vec<u8>> {
+    let refuse = |error: subsurf_decoder::ReadError| Error::Request(error.to_string());
+    let parsed = Container::parse(file).map_err(refuse)?;
+    let mut sections = Vec::new();
+    for entry in parsed.entries() {
+        sections.push((entry.section, parsed.section(entry.section, Crc::Check).map_err(refuse)?.1));
+    }
+    match sections.iter_mut().find(|(kind, _)| *kind == section) {
+        Some((_, old)) => *old = bytes,
+        None => sections.push((section, bytes)),
+    }
+    reread(write(sections))
+}
+
 /// Bytes of a file whose sections are this long.
 pub(crate) fn file_bytes(lengths: &[u64]) -> u64 {
     let start = (FILE_HEADER_BYTES + lengths.len() * ENTRY_BYTES + 4) as u64;
@@ -35,12 +56,11 @@ pub(crate) fn file_bytes(lengths: &[u64]) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use subsurf_decoder::container::{Container, Crc};
 
     #[test]
     fn sections_come_back() {
         let contents: [&[u8]; 4] = [b"12345", b"", b"1234567", b"1"];
-        let kinds = [*b"AAAA", *b"BBBB", *b"CCCC", *b"DDDD"].map(Section::from_kind);
+        let kinds = [*b"aaaa", *b"bbbb", *b"cccc", *b"dddd"].map(Section::from_kind);
         let file = write(kinds.into_iter().zip(contents));
         assert_eq!(file_bytes(&contents.map(|bytes| bytes.len() as u64)), file.len() as u64);
         let container = Container::parse(&file).unwrap();

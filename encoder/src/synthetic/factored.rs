@@ -12,7 +12,7 @@ use crate::file::container;
 pub fn factored() -> Vec<u8> {
     let grid = Grid { n_alpha: 3, n_beta: 4, n_theta: 2, n_phi: 3, ..Grid::PAPER };
     let encoding = ColourEncoding::Display { white: 1.0 };
-    let header = BtfHeader { model: BtfModel::Factored, encoding, materials: 1, grid };
+    let header = BtfHeader { model: BtfModel::Factored, encoding, materials: 1, grid, texel_mm: None };
     let mut material = Material { name: [0; 24], width: 3, height: 2, levels: 2 };
     material.name[..8].copy_from_slice(b"factored");
     let mut stages = [CodewordStage::default(); MAX_STAGES];

@@ -95,8 +95,13 @@ impl NestedShape {
             is_relative: self.is_relative,
         };
         let materials_count = u8::try_from(materials.len()).expect("at most 255 materials");
-        let header =
-            BtfHeader { model: BtfModel::Nested, encoding: self.tone, materials: materials_count, grid: self.grid };
+        let header = BtfHeader {
+            model: BtfModel::Nested,
+            encoding: self.tone,
+            materials: materials_count,
+            grid: self.grid,
+            texel_mm: None,
+        };
         Database { header, materials, stages, chroma }
     }
 

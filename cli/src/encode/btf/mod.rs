@@ -13,6 +13,7 @@ use subsurf_encoder::metrics::btf::judge;
 use subsurf_encoder::rate::Target;
 use subsurf_encoder::{Error, check_target, write_bytes};
 
+use crate::metadata::MetaArgs;
 use crate::options::ByteCount;
 use crate::outln;
 use crate::program::failure::bad_request;
@@ -82,6 +83,11 @@ pub(crate) struct Args {
     /// Make mipmaps: a third more of what is stored for texels
     #[arg(long)]
     mipmaps: bool,
+    /// Distance of neighbouring texels in mm, for who draws the file in its true size
+    #[arg(long, value_name = "MM")]
+    texel_mm: Option<f32>,
+    #[command(flatten)]
+    meta: MetaArgs,
     /// Seed of the first codewords
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -104,12 +110,13 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
         args.inputs.iter().map(|path| load_btf(path, &bars)).collect::<subsurf_encoder::Result<_>>()?;
     let options = args.options()?;
     let graceful = Graceful::new();
-    let encoded = encode(&materials, &args.names(), &options, &bars, &mut |point| {
+    let mut encoded = encode(&materials, &args.names(), &options, &bars, &mut |point| {
         if !args.json {
             outln!("{}", line(point));
         }
     })?;
     drop(graceful);
+    encoded.bytes = args.meta.added_to(encoded.bytes)?;
     write_bytes(&output, &encoded.bytes)?;
     let seconds = start.elapsed().as_secs_f64();
     let error = match &encoded.curve {
@@ -137,16 +144,17 @@ impl Args {
             }
             None => None,
         };
-        let goal = match (self.target(), method) {
+        let goal = match (self.target()?, method) {
             (Some(target), _) => Goal::Target(target),
             (None, Method::Nested) => Goal::Size(Size::Nested(Extent { p4: self.p4.max(1), stages: self.stages })),
             (None, _) => Goal::Usual,
         };
-        Ok(Options { method, nodes, has_mipmaps: self.mipmaps, seed: self.seed, goal })
+        Ok(Options { method, nodes, has_mipmaps: self.mipmaps, seed: self.seed, goal, texel_mm: self.texel_mm })
     }
 
-    fn target(&self) -> Option<Target> {
-        self.target_ssim.map(Target::Quality).or(self.target_bytes.map(|size| Target::Bytes(size.0)))
+    fn target(&self) -> anyhow::Result<Option<Target>> {
+        let target = self.target_ssim.map(Target::Quality).or(self.target_bytes.map(|size| Target::Bytes(size.0)));
+        target.map(|target| self.meta.leave_room(target)).transpose()
     }
 
     /// Names of the materials: those of their folders or files.

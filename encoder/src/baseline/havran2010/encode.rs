@@ -109,7 +109,13 @@ pub fn encode(materials: &[Images], options: &Options, progress: &dyn Progress) 
     }
     (chain.scales[0], chain.texels) = quantised(&texels, 8);
     Ok(Database {
-        header: BtfHeader { model: BtfModel::Nested, encoding: tone, materials: count, grid: options.grid },
+        header: BtfHeader {
+            model: BtfModel::Nested,
+            encoding: tone,
+            materials: count,
+            grid: options.grid,
+            texel_mm: None,
+        },
         materials: named,
         stages: vec![chain],
         chroma,

@@ -1,7 +1,7 @@
 //! A basis in a file that is there.
 
 use subsurf_decoder::bssrdf::basis::BasisSize;
-use subsurf_decoder::container::{Container, Crc, ENTRY_BYTES};
+use subsurf_decoder::container::ENTRY_BYTES;
 use subsurf_decoder::{Bssrdf, Section};
 
 use super::choose::{BasisOptions, LARGEST, fit_basis};
@@ -10,7 +10,6 @@ use crate::bssrdf::options;
 use crate::capture::Capture;
 use crate::error::{Error, Result};
 use crate::file::container;
-use crate::file::reread::reread;
 use crate::progress::Progress;
 
 /// The same file with a separable basis, in place of one that it may have; all other sections stay as they are.
@@ -27,15 +26,7 @@ pub fn add_basis(file: &[u8], options: &BasisOptions, progress: &dyn Progress) -
 /// # Errors
 /// [`Error::Request`] if the bytes are no file; [`Error::OwnOutput`] if the decoder refuses the result.
 pub fn with_basis(file: &[u8], basis: &FittedBasis) -> Result<Vec<u8>> {
-    let refuse = |error: subsurf_decoder::ReadError| Error::Request(error.to_string());
-    let parsed = Container::parse(file).map_err(refuse)?;
-    let section = basis.to_bytes();
-    let mut sections = Vec::new();
-    for entry in parsed.entries().filter(|entry| entry.section != Section::SeparableBasis) {
-        sections.push((entry.section, parsed.section(entry.section, Crc::Check).map_err(refuse)?.1));
-    }
-    sections.push((Section::SeparableBasis, &section[..]));
-    reread(container::write(sections))
+    container::with_section(file, Section::SeparableBasis, &basis.to_bytes())
 }
 
 /// Bytes that a basis adds to a file of a capture, at most.

@@ -113,7 +113,13 @@ impl<'a> Prepared<'a> {
         let factors: Vec<f32> =
             tucker.steps.iter().enumerate().map(|(column, step)| step * coefficient_step(column)).collect();
         Ok(Contents {
-            header: BtfHeader { model: BtfModel::Factored, encoding: svd.tone, materials: count, grid: *grid },
+            header: BtfHeader {
+                model: BtfModel::Factored,
+                encoding: svd.tone,
+                materials: count,
+                grid: *grid,
+                texel_mm: None,
+            },
             materials: &materials,
             components: [of_luma, of_chroma],
             tucker: &tucker,

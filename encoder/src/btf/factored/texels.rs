@@ -86,6 +86,16 @@ pub(super) fn quantise(columns: &DMatrix<f32>, sizes: &[StageSize], seed: u64, p
             progress.advance(1);
         }
     }
+    let (words, chosen) = carrying(words, chosen);
     let texels = 0..columns.ncols();
     Quantised { words, indices: texels.flat_map(|texel| chosen.iter().map(move |stage| stage[texel].0)).collect() }
+}
+
+/// Stages that add something to a texel, one at least: others would cost a byte of each texel.
+fn carrying(words: Vec<DMatrix<f32>>, chosen: Vec<Vec<Choice>>) -> (Vec<DMatrix<f32>>, Vec<Vec<Choice>>) {
+    let adds = |words: &DMatrix<f32>, chosen: &[Choice]| {
+        chosen.iter().any(|choice| words.column(usize::from(choice.0)).iter().any(|value| *value != 0.0))
+    };
+    let stages = words.into_iter().zip(chosen).enumerate();
+    stages.filter(|(number, (words, chosen))| *number == 0 || adds(words, chosen)).map(|(_, stage)| stage).unzip()
 }

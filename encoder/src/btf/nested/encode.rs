@@ -97,7 +97,13 @@ impl<'a> Prepared<'a> {
         };
         let chroma = hues.build(&mut built[0], options.chroma);
         Ok(Database {
-            header: BtfHeader { model: BtfModel::Nested, encoding: svd.tone, materials: count, grid: options.grid },
+            header: BtfHeader {
+                model: BtfModel::Nested,
+                encoding: svd.tone,
+                materials: count,
+                grid: options.grid,
+                texel_mm: None,
+            },
             materials,
             stages: built.into_iter().map(|stage| stage.chain).collect(),
             chroma,

@@ -54,7 +54,7 @@ fn random() -> (Tucker, Quantised) {
 fn file(tone: ColourEncoding) -> Vec<u8> {
     let (tucker, texels) = random();
     Contents {
-        header: BtfHeader { model: BtfModel::Factored, encoding: tone, materials: 1, grid: GRID },
+        header: BtfHeader { model: BtfModel::Factored, encoding: tone, materials: 1, grid: GRID, texel_mm: None },
         materials: &[Material { name: [b'x'; NAME_BYTES], width: 4, height: 3, levels: 1 }],
         components: [LUMA, CHROMA],
         tucker: &tucker,
