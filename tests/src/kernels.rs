@@ -1,6 +1,5 @@
 //! Kernels of known profiles, and the example of `decoder/FORMAT.md`, section 6.3.
 
-use subsurf_decoder::Kernel;
 use subsurf_encoder::kernel::{Kernel as KernelModel, KernelMethod, Term, TwoGaussians};
 
 /// The example of the specification.
@@ -107,27 +106,4 @@ pub fn difference(taps: u16) -> KernelModel {
     let tail = first.tail.iter().map(scale).collect();
     let terms = vec![first.terms[0].clone(), second];
     KernelModel { method: KernelMethod::Svd, reflectance, terms, tail, two_gaussians: None, ..first }
-}
-
-/// What reading a kernel gives: header, taps, signs, tail and profile at some distances, as little-endian bytes.
-#[must_use]
-pub fn values(kernel: &Kernel<'_>) -> Vec<u8> {
-    let header = kernel.header();
-    let mut found = header.to_bytes().to_vec();
-    let mut add = |rgb: [f32; 3]| found.extend(rgb.iter().flat_map(|value| value.to_le_bytes()));
-    kernel.offsets().iter().for_each(|offset| add([offset; 3]));
-    for term in 0..header.terms.into() {
-        add(kernel.sign(term));
-        (0..header.side()).for_each(|tap| add(kernel.weight(term, tap)));
-    }
-    add(kernel.energy());
-    for step in 0..=20_u8 {
-        let d = header.radius_mm * f32::from(step) / 18.0;
-        add(kernel.tail_at(d));
-        add(kernel.rd(d));
-    }
-    if let Some(two) = kernel.two_gaussians() {
-        [two.weight, two.tau_near, two.tau_far].into_iter().for_each(add);
-    }
-    found
 }

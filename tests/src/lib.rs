@@ -8,14 +8,14 @@ pub mod mutate;
 pub mod nested;
 pub mod program;
 pub mod transfer;
+pub mod vectors;
 
 use std::path::{Path, PathBuf};
 
+use subsurf_decoder::Section;
 use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
 use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, Coding};
-use subsurf_decoder::container::crc32;
-use subsurf_decoder::{Content, File, Section};
 use subsurf_encoder::bssrdf::basis::{BasisChoice, BasisOptions, FittedBasis, add_basis};
 use subsurf_encoder::bssrdf::write_file;
 use subsurf_encoder::capture::{Capture, CaptureWriter, Overrides, Scalar, Sidecar};
@@ -147,40 +147,4 @@ pub fn format_basis() -> FittedBasis {
         projection: vec![[1.0, 2.0, 3.0], [0.5, 0.0, -0.5], [-1.0, 1.0, 0.0], [2.0, 4.0, 8.0]],
         psnr_db: 0.0,
     }
-}
-
-/// CRC-32 of what reading a file gives: its header, the albedo of every pixel, Rd between pixels in and around the
-/// patch, and of a separable basis coefficients, weights and taps, as little-endian bytes; of a kernel those of
-/// [`kernels::values`], of a transfer those of [`transfer::values`]. `None` if it is refused.
-#[must_use]
-pub fn fingerprint(bytes: &[u8]) -> Option<u32> {
-    let material = match File::parse(bytes).ok()?.content() {
-        Content::Bssrdf(material) => material,
-        Content::Transfer(file) => return Some(crc32(&transfer::values(&file))),
-        Content::Kernel(kernel) => return Some(crc32(&kernels::values(&kernel))),
-        _ => return None,
-    };
-    let mut found = material.header().to_bytes().to_vec();
-    let [width, height] = [material.header().width, material.header().height].map(u32::cast_signed);
-    let mut add = |rgb: [f32; 3]| found.extend(rgb.iter().flat_map(|value| value.to_le_bytes()));
-    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-        add(material.albedo([x, y]));
-        for step in [[0, 0], [1, 0], [0, -1], [-2, 1], [3, 3], [-9, 4]] {
-            add(material.rd([x + step[0], y + step[1]], [x, y]));
-        }
-    }
-    if let Some(basis) = material.basis() {
-        let BasisSize { terms, gaussians } = basis.size();
-        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-            (0..terms).for_each(|l| add(basis.coefficient(l, &material.profile([x, y]))));
-        }
-        for (l, m) in (0..terms).flat_map(|l| (0..terms).map(move |m| (l, m))) {
-            (0..gaussians).for_each(|a| add(basis.weight(l, m, a)));
-        }
-        for (stage, sigma) in basis.cascade().stages().iter().zip(basis.sigmas()) {
-            #[allow(clippy::cast_precision_loss, reason = "a few pixels")]
-            add([sigma, stage.stride as f32, stage.taps as f32]);
-        }
-    }
-    Some(crc32(&found))
 }

@@ -1,9 +1,8 @@
-//! The example of `decoder/FORMAT.md`, section 7.3, and what reading a transfer gives.
+//! The example of `decoder/FORMAT.md`, section 7.3.
 
+use subsurf_decoder::Section;
 use subsurf_decoder::container::{ENTRY_BYTES, Entry, FILE_HEADER_BYTES, crc32, file_header};
 use subsurf_decoder::transfer::TransferHeader;
-use subsurf_decoder::{Section, Transfer};
-use subsurf_encoder::metrics::transfer::decode;
 
 /// The example of the specification.
 ///
@@ -52,24 +51,4 @@ pub fn format_transfer() -> Vec<u8> {
     file.extend(crc32(&file).to_le_bytes());
     file.extend(body);
     file
-}
-
-/// What reading a transfer gives: header, lights, tail, and exitance of all vertices under each light, as little-endian bytes.
-///
-/// Not what lies between the lights: that depends on the last digits of logarithms.
-///
-/// # Panics
-/// Never.
-#[must_use]
-pub fn values(file: &Transfer<'_>) -> Vec<u8> {
-    let lights = usize::from(file.header().lights);
-    let mut found = file.header().to_bytes().to_vec();
-    let mut add = |values: &[f32]| found.extend(values.iter().flat_map(|value| value.to_le_bytes()));
-    add(&file.lights().iter().chain(file.tail().iter()).collect::<Vec<f32>>());
-    for light in 0..lights {
-        let mut weights = vec![0.0; lights];
-        weights[light] = 1.0;
-        add(&decode(file, &weights));
-    }
-    found
 }

@@ -1,99 +1,59 @@
-//! The files of `vectors/` read as `results.txt` says, and as whatever breaks them should.
+//! The files of `vectors/` hold what the tables beside them say, and broken ones are refused for what `refused.csv` says.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use subsurf_decoder::container::Crc;
-use subsurf_decoder::{Bssrdf, File, Kernel, ReadError, Section, Transfer};
+use subsurf_decoder::{Bssrdf, File};
+use subsurf_tests::format_example;
 use subsurf_tests::kernels::format_kernel;
 use subsurf_tests::transfer::format_transfer;
-use subsurf_tests::{fingerprint, format_example};
+use subsurf_tests::vectors::{HEADER, Line, answer, table};
 
 fn folder() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/vectors"))
 }
 
+/// Names and contents of all files.
+fn files() -> BTreeMap<String, Vec<u8>> {
+    let paths = std::fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().path());
+    let files = paths.filter(|path| path.extension().is_some_and(|extension| extension == "subsurf"));
+    files.map(|path| (path.file_stem().unwrap().to_str().unwrap().to_owned(), std::fs::read(path).unwrap())).collect()
+}
+
 #[test]
-fn every_file_reads_as_recorded() {
-    let text = std::fs::read_to_string(folder().join("results.txt")).unwrap();
-    let recorded: BTreeMap<&str, &str> = text.lines().map(|line| line.split_once(": ").unwrap()).collect();
-    let mut seen = 0;
-    for entry in std::fs::read_dir(folder()).unwrap() {
-        let name = entry.unwrap().file_name().into_string().unwrap();
-        if name == "results.txt" {
-            continue;
+fn good_files_hold_what_their_tables_say() {
+    let good = files().into_iter().filter(|(name, _)| !name.starts_with('x'));
+    for (name, bytes) in good {
+        let content = File::parse(&bytes).unwrap_or_else(|error| panic!("{name}: {error}")).content();
+        let text = std::fs::read_to_string(folder().join(format!("{name}.csv"))).unwrap();
+        let mut lines = text.lines();
+        assert_eq!(lines.next(), Some(HEADER), "{name}");
+        let lines: Vec<Line> = lines.map(Line::read).collect();
+        assert!(lines.len() > 1, "{name}: a table");
+        for Line { query, values, tolerance } in &lines {
+            let found = answer(&content, query);
+            let is_close = |(found, value): (&f32, &f32)| (found - value).abs() <= *tolerance;
+            assert_eq!(found.len(), values.len(), "{name}: {query:?}");
+            assert!(found.iter().zip(values).all(is_close), "{name}: {query:?}: {found:?}, not {values:?}");
         }
-        let bytes = std::fs::read(folder().join(&name)).unwrap();
-        let found = fingerprint(&bytes).map_or("refused".to_owned(), |crc| format!("{crc:08x}"));
-        assert_eq!(recorded.get(&name[..]).copied(), Some(&found[..]), "{name}");
-        assert_eq!(found == "refused", name.starts_with('x'), "{name}: {:?}", File::parse(&bytes).err());
-        seen += 1;
+        let asked = |table: &str| table.lines().skip(1).map(|line| Line::read(line).query).collect::<Vec<_>>();
+        assert_eq!(asked(&text), asked(&table(&bytes).unwrap()), "{name}: written by write-vectors as it is now");
     }
-    assert_eq!(seen, recorded.len(), "all of results.txt is there");
 }
 
 #[test]
 fn broken_files_are_refused_for_what_is_broken() {
-    let error = |name: &str| {
-        let bytes = std::fs::read(folder().join(name)).unwrap();
-        Bssrdf::parse(&bytes).unwrap_err()
-    };
-    assert!(matches!(error("x_magic.subsurf"), ReadError::NotSubsurf), "magic");
-    assert!(matches!(error("x_newer_major.subsurf"), ReadError::NewerVersion { major: 2, .. }), "version");
-    assert!(matches!(error("x_header_crc.subsurf"), ReadError::Checksum { .. }), "header CRC");
-    assert!(matches!(error("x_profile_crc.subsurf"), ReadError::Checksum { .. }), "profile CRC");
-    assert!(matches!(error("x_cut.subsurf"), ReadError::Truncated { .. }), "cut");
-    assert!(matches!(error("x_model.subsurf"), ReadError::BadField { value: 9, .. }), "model");
-    assert!(matches!(error("x_index.subsurf"), ReadError::IndexOutOfRange { index: 2, len: 2, .. }), "index");
-    assert!(matches!(error("x_ratio.subsurf"), ReadError::BadNumber { .. }), "ratio");
-    assert!(matches!(error("x_profile_infinite.subsurf"), ReadError::BadNumber { .. }), "profile");
-    assert!(matches!(error("x_overlap.subsurf"), ReadError::Overlap { .. }), "overlap");
-    for name in ["x_basis_width", "x_basis_widths_fall", "x_basis_nan", "x_basis_huge"] {
-        let found = error(&format!("{name}.subsurf"));
-        assert!(matches!(found, ReadError::BadNumber { section: Section::SeparableBasis, .. }), "{name}: {found}");
+    let text = std::fs::read_to_string(folder().join("refused.csv")).unwrap();
+    let due: BTreeMap<&str, &str> = text.lines().skip(1).map(|line| line.split_once(',').unwrap()).collect();
+    let files = files();
+    let broken: Vec<_> = files.iter().filter(|(name, _)| name.starts_with('x')).collect();
+    for (name, bytes) in &broken {
+        let name = format!("{name}.subsurf");
+        let error = File::parse(bytes).err().unwrap_or_else(|| panic!("{name}: not refused")).to_string();
+        assert_eq!(due.get(&name[..]).copied(), Some(&error[..]), "{name}");
     }
-    assert!(matches!(error("x_basis_terms.subsurf"), ReadError::BadField { value: 3, .. }), "terms");
-}
-
-#[test]
-fn broken_kernels_are_refused_for_what_is_broken() {
-    let error = |name: &str| {
-        let bytes = std::fs::read(folder().join(format!("x_kernel_{name}.subsurf"))).unwrap();
-        Kernel::parse(&bytes).unwrap_err()
-    };
-    for (name, value) in [("method", 6), ("taps_even", 4), ("signs", 8)] {
-        assert!(matches!(error(name), ReadError::BadField { value: found, .. } if found == value), "{name}");
-    }
-    let numbers = [
-        ("offset_first", Section::KernelOffsets),
-        ("offsets_fall", Section::KernelOffsets),
-        ("offset_radius", Section::KernelOffsets),
-        ("weight_nan", Section::KernelWeights),
-        ("energy", Section::KernelWeights),
-        ("tail_rises", Section::KernelTail),
-        ("tail_end", Section::KernelTail),
-    ];
-    for (name, expected) in numbers {
-        let found = error(name);
-        assert!(matches!(found, ReadError::BadNumber { section, .. } if section == expected), "{name}: {found}");
-    }
-}
-
-#[test]
-fn broken_transfers_are_refused_for_what_is_broken() {
-    let error = |name: &str| {
-        let bytes = std::fs::read(folder().join(format!("x_transfer_{name}.subsurf"))).unwrap();
-        Transfer::parse(&bytes).unwrap_err()
-    };
-    for (name, value) in [("channels", 2), ("bits", 1), ("record", 12)] {
-        assert!(matches!(error(name), ReadError::BadField { value: found, .. } if found == value), "{name}");
-    }
-    let numbers = [("light", Section::Lights), ("step", Section::ClusterRanges), ("tail", Section::KernelTail)];
-    for (name, expected) in numbers {
-        let found = error(name);
-        assert!(matches!(found, ReadError::BadNumber { section, .. } if section == expected), "{name}: {found}");
-    }
-    assert!(matches!(error("cluster"), ReadError::IndexOutOfRange { index: 2, len: 2, .. }), "cluster");
+    assert_eq!(broken.len(), due.len(), "all of refused.csv are there");
 }
 
 #[test]

@@ -30,7 +30,7 @@ pub(crate) fn bssrdf() -> PathBuf {
 /// Nested and factored BTF, written into a folder.
 pub(crate) fn btfs(folder: &Path) -> [PathBuf; 2] {
     let nested = NestedShape { materials: vec![(3, 2, 2), (2, 2, 1)], ..NestedShape::small() }.database(3).to_bytes();
-    [("nested.subsurf", nested), ("factored.subsurf", factored())].map(|(name, bytes)| {
+    [("nested.subsurf", nested), ("factored.subsurf", factored(1))].map(|(name, bytes)| {
         let path = folder.join(name);
         std::fs::write(&path, bytes).expect("a temporary folder can be written to");
         path

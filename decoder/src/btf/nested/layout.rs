@@ -174,15 +174,13 @@ impl CodebookSize {
         use CodebookRecord as R;
         let R { entries, bits, step, offset } = record;
         let entries = origin.integer(offset_of!(R, entries), entries, 1..=MAX_ENTRIES)?;
-        let bad_scales = origin.bad_field(offset_of!(R, bits), bits);
-        if bits > MAX_SCALE_BITS || step > MAX_SCALE_STEP {
-            return Err(bad_scales);
-        }
+        origin.integer(offset_of!(R, bits), bits, 0..=MAX_SCALE_BITS.into())?;
+        origin.integer(offset_of!(R, step), step, 0..=MAX_SCALE_STEP.into())?;
         let scales = Scales { bits, step, offset };
         // Sums of four exponents stay finite.
         let limit = MAX_OCTAVES.saturating_mul(STEPS_PER_OCTAVE);
         if i32::from(offset) < limit.saturating_neg() || scales.largest() > limit {
-            return Err(bad_scales);
+            return Err(origin.bad_field(offset_of!(R, bits), bits));
         }
         Ok(Self { entries, scales })
     }

@@ -16,6 +16,7 @@ mod write;
 pub use angles::CoreSize;
 pub use encode::{Options, Prepared};
 pub use sizes::Sizes;
+pub(crate) use streams::{codewords, core};
 pub use texels::StageSize;
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use subsurf_decoder::btf::factored::model::{IntegerModel, code_core, code_words}
 use super::coder::Encoder;
 
 /// Section `CORE` of columns `[view axis][light axis]`.
-pub(super) fn core(columns: &[Vec<i32>], light_axes: usize) -> Vec<u8> {
+pub(crate) fn core(columns: &[Vec<i32>], light_axes: usize) -> Vec<u8> {
     let (mut coder, mut numbers) = (Encoder::new(), IntegerModel::default());
     let mut usual = vec![0.0; columns.first().map_or(0, Vec::len)];
     for column in columns {
@@ -17,7 +17,7 @@ pub(super) fn core(columns: &[Vec<i32>], light_axes: usize) -> Vec<u8> {
 }
 
 /// Section of the codewords of all stages, `[coefficient × codeword]`.
-pub(super) fn codewords(stages: &[DMatrix<f32>]) -> Vec<u8> {
+pub(crate) fn codewords(stages: &[DMatrix<f32>]) -> Vec<u8> {
     let mut coder = Encoder::new();
     for words in stages {
         #[allow(clippy::cast_possible_truncation, reason = "whole, at most 32,767")]
