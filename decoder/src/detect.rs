@@ -16,6 +16,7 @@ const HEADERS: &[Section] = &[
 ];
 
 /// Family of a file by its header section.
+#[inline(never)]
 pub(crate) fn family(sections: &Sections<'_>) -> Result<Family, ReadError> {
     let mut found = HEADERS.iter().copied().filter(|section| sections.has(*section));
     let header = found.next().ok_or(ReadError::UnknownContent)?;
@@ -32,6 +33,7 @@ pub(crate) fn family(sections: &Sections<'_>) -> Result<Family, ReadError> {
 }
 
 /// Header section of the family that is expected. A file that has the header of another family is refused as such.
+#[inline(never)]
 pub(crate) fn header<'a>(
     sections: &Sections<'a>,
     section: Section,

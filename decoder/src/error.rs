@@ -134,13 +134,8 @@ impl fmt::Display for ReadError {
             Self::NewerVersion { major, minor } => {
                 write!(f, "format version {major}.{minor}; this reader knows version 1")
             }
-            Self::NewerSection { section } => write!(
-                f,
-                "{section}: a section that must not be skipped; made by a newer version of the format, or of a family that this reader was built without"
-            ),
-            Self::TwoFamilies { headers: [first, second] } => {
-                write!(f, "{first}, {second}: headers of two families; a file has one")
-            }
+            Self::NewerSection { section } => write!(f, "{section}: is not known and must be: made by a newer version"),
+            Self::TwoFamilies { headers: [first, second] } => write!(f, "{first} and {second} in one file"),
             Self::OtherFamily { found, expected } => write!(f, "a {found}, not a {expected}"),
             Self::UnknownContent => f.write_str("a .subsurf file whose content this version does not know"),
             Self::Truncated { section, need_bytes, have_bytes } => {

@@ -157,5 +157,5 @@ fn everything_else_in_the_file_stays() {
     let error = add_basis(b"no file", &options, &()).unwrap_err();
     assert!(error.is_callers(), "{error}");
     let error = with_basis(&once, &format_basis()).unwrap_err();
-    assert!(error.to_string().contains("SEPB"), "another S: {error}");
+    assert!(error.to_string().contains("sepb"), "another S: {error}");
 }

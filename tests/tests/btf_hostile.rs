@@ -237,7 +237,7 @@ fn sections_that_are_needed_are_missed() {
     for entry in (0..count).map(|k| FILE_HEADER_BYTES + k * ENTRY_BYTES) {
         let mut bad = file.clone();
         let section = Section::from_kind(bad[entry..entry + 4].try_into().unwrap());
-        bad[entry..entry + 4].copy_from_slice(b"XXXX");
+        bad[entry..entry + 4].copy_from_slice(b"xxxx");
         seal(&mut bad);
         assert_eq!(NestedBtf::parse(&bad).unwrap_err(), ReadError::Missing { section });
     }

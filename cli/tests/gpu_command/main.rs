@@ -9,6 +9,7 @@ mod inputs_captures;
 mod inputs_materials;
 mod inputs_meshes;
 mod interrupt;
+mod metadata;
 mod render;
 mod transfer;
 #[cfg(target_os = "linux")]

@@ -46,13 +46,13 @@ impl<'a> NestedCodebooks<'a> {
         let (p2_bits, i2_bits) = (index_bits(p2.entries), index_bits(chroma.i2));
         let merged = Shape { rows: chroma.merged, nodes: 1, width: p2_bits.saturating_add(i2_bits) };
         let indices = |section, rows, nodes, len| {
-            items(sections, section, Shape { rows, nodes, width: index_bits(len) }, [(0, len)])
+            items(sections, section, Shape { rows, nodes, width: index_bits(len) }, &[(0, len)])
         };
         let pairs = |section, entries: u32| sections.sized(section, u64::from(entries).saturating_mul(2));
         Ok(Self {
             sizes,
             stages,
-            merged: items(sections, Section::Merged, merged, [(0, p2.entries), (p2_bits, chroma.i2)])?,
+            merged: items(sections, Section::Merged, merged, &[(0, p2.entries), (p2_bits, chroma.i2)])?,
             p2_bits,
             p2_mask: mask(p2_bits),
             i2_mask: mask(i2_bits),

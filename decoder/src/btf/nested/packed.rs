@@ -31,16 +31,13 @@ impl Shape {
     }
 
     /// Items at the start of `section`, with their indices checked.
-    pub(super) fn checked<'a>(
-        self,
-        section: SectionBytes<'a>,
-        indices: impl IntoIterator<Item = Index>,
-    ) -> Result<Items<'a>, ReadError> {
+    pub(super) fn checked<'a>(self, section: SectionBytes<'a>, indices: &[Index]) -> Result<Items<'a>, ReadError> {
         let items = Items::new(section.bytes, self.width, self.nodes);
-        indices.into_iter().try_for_each(|index| self.check(section, items, index))?;
+        indices.iter().try_for_each(|index| self.check(section, items, *index))?;
         Ok(items)
     }
 
+    #[inline(never)]
     fn check(self, section: SectionBytes<'_>, items: Items<'_>, (at, len): Index) -> Result<(), ReadError> {
         let bits = index_bits(len);
         if len == 1_u32.wrapping_shl(bits) {
@@ -64,11 +61,12 @@ impl Shape {
 }
 
 /// A section that consists of items alone, with their indices checked.
+#[inline(never)]
 pub(super) fn items<'a>(
     sections: &Sections<'a>,
     section: Section,
     shape: Shape,
-    indices: impl IntoIterator<Item = Index>,
+    indices: &[Index],
 ) -> Result<Items<'a>, ReadError> {
     shape.checked(sections.sized(section, shape.bytes())?, indices)
 }

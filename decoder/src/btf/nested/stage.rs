@@ -54,19 +54,20 @@ impl<'a> Stage<'a> {
         let [width_6, width_4, width_3, width_2] = sizes.widths(is_first, chroma);
 
         let tint_at = bits_of_p4.saturating_add(p6.scales.bits.into());
-        let tint = (is_first && chroma.tints > 0).then_some((tint_at, chroma.tints));
+        // One of one where there are none, which has no bits.
+        let tint = (tint_at, if is_first { chroma.tints.max(1) } else { 1 });
         let shape_6 = Shape { rows: p6.entries, nodes: 1, width: width_6 };
         let shape_4 = Shape { rows: p4.entries, nodes: grid.n_phi, width: width_4 };
         let shape_3 = Shape { rows: p3.entries, nodes: grid.n_theta, width: width_3 };
-        let texels = items(sections, section(6), shape_6, [(0, of_p4)].into_iter().chain(tint))?;
-        let p4_items = items(sections, section(4), shape_4, [(0, of_p3)])?;
-        let p3_items = items(sections, section(3), shape_3, [(0, below_p3)])?;
+        let texels = items(sections, section(6), shape_6, &[(0, of_p4), tint])?;
+        let p4_items = items(sections, section(4), shape_4, &[(0, of_p3)])?;
+        let p3_items = items(sections, section(3), shape_3, &[(0, below_p3)])?;
 
         // Codes of scales, then indices.
         let shape_2 = Shape { rows: p2.entries, nodes: grid.n_alpha, width: width_2 };
         let codes = shape_2.items();
         let of_p2 = sections.sized(section(2), codes.saturating_add(shape_2.bytes()))?;
-        let p2_items = shape_2.checked(of_p2.from(usize::try_from(codes).unwrap_or(usize::MAX)), [(0, of_p1)])?;
+        let p2_items = shape_2.checked(of_p2.from(usize::try_from(codes).unwrap_or(usize::MAX)), &[(0, of_p1)])?;
 
         // n_β values and an exponent for each slice.
         let [slices, n_beta] = [u64::from(sizes.slices), grid.n_beta.into()].map(Saturating);
