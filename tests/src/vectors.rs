@@ -15,7 +15,7 @@ pub const HEADER: &str = "query,arguments,values,tolerance";
 /// What is asked: a word, and numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Query {
-    /// `rd`, `albedo`, `profile`, `coefficient`, `weight`, `eval`, `tail`, `energy`, `exitance` or `meta`.
+    /// `rd`, `albedo`, `profile`, `coefficient`, `weight`, `eval`, `tail`, `energy`, `gaussians` or `exitance`.
     pub word: String,
     /// Its arguments.
     pub arguments: Vec<f32>,
@@ -176,6 +176,9 @@ fn of_kernel(kernel: &Kernel<'_>) -> Vec<Query> {
     for term in 0..i32::from(header.terms) {
         all.extend([0, 1, i32::from(header.taps) / 2].map(|tap| query("weight", [term, tap])));
     }
+    if kernel.two_gaussians().is_some() {
+        all.extend((0..3).map(|channel| query("gaussians", [channel])));
+    }
     for step in 0..9_u8 {
         // In the middle between two nodes, and one beyond the radius: profiles have steps at the nodes.
         let intervals = f32::from(header.tail_nodes - 1);
@@ -224,6 +227,10 @@ pub fn answer(content: &Content<'_>, query: &Query) -> Vec<f32> {
         }
         (Content::Kernel(kernel), "energy", []) => kernel.energy().to_vec(),
         (Content::Kernel(kernel), "weight", &[term, tap]) => kernel.weight(whole(term), whole(tap)).to_vec(),
+        (Content::Kernel(kernel), "gaussians", &[channel]) => {
+            let two = kernel.two_gaussians().expect("two Gaussians");
+            [two.weight, two.tau_near, two.tau_far].map(|rgb| rgb[whole(channel)]).to_vec()
+        }
         (Content::Kernel(kernel), "tail", &[d]) => kernel.tail_at(d).to_vec(),
         (Content::Kernel(kernel), "rd", &[r]) => kernel.rd(r).to_vec(),
         (Content::Transfer(file), "exitance", &[light, vertex]) => {
