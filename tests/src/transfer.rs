@@ -37,15 +37,66 @@ pub fn format_transfer() -> Vec<u8> {
         (Section::VertexCodes, vec![0x00, 0x1C, 0x00, 0x00, 0x01, 0x00]),
         (Section::KernelTail, floats(&[49.0 / 64.0, 25.0 / 64.0, 0.25, 0.0, 0.0, 0.0])),
     ];
+    write(&sections)
+}
+
+/// Three channels, seven lights, three clusters of five components in 33 bits, eleven vertices: numbers from formulas.
+///
+/// # Panics
+/// Never.
+#[must_use]
+pub fn rgb_transfer() -> Vec<u8> {
+    let floats = |values: &[f32]| values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>();
+    let number = |k: usize, most: usize| u8::try_from(k * 37 % 251 % most).expect("a byte");
+    let real = |k: usize| f32::from(number(k, 200)) / 100.0 - 1.0;
+    let mut bits = [0; 16];
+    bits[..5].copy_from_slice(&[12, 9, 6, 4, 2]);
+    let header = TransferHeader {
+        channels: 3,
+        lights: 7,
+        clusters: 3,
+        tail_nodes: 3,
+        vertices: 11,
+        positions_crc: 1,
+        triangles_crc: 2,
+        radius_mm: 4.0,
+        eta: 1.3,
+        scale: [0.5, 0.25, 2.0],
+        bits,
+    };
+    let directions = (0..7).flat_map(|k| {
+        let direction = [real(3 * k), real(3 * k + 1), real(3 * k + 2)];
+        let length = direction.iter().map(|x| x * x).sum::<f32>().sqrt();
+        direction.map(|x| x / length)
+    });
+    // Offset and step of the mean, then of each component; steps fall as bits rise.
+    let steps = [1.0 / 65_536.0, 1e-4, 1e-3, 5e-3, 2e-2, 0.1];
+    let ranges = (0..18).flat_map(|k| [0.1 * real(k), steps[k % 6]]);
+    let codes = (0..11).flat_map(|vertex| {
+        (0..6).map(move |at| if at == 0 { number(vertex, 3) } else { number(7 * vertex + at, 256) })
+    });
+    write(&[
+        (Section::TransferHeader, header.to_bytes().to_vec()),
+        (Section::Lights, floats(&directions.collect::<Vec<f32>>())),
+        (Section::ClusterRanges, floats(&ranges.collect::<Vec<f32>>())),
+        (Section::ClusterMeans, (0..2 * 3 * 3 * 7).map(|k| number(k, 256)).collect()),
+        (Section::ClusterBases, (0..3 * 5 * 3 * 7).map(|k| number(k, 256)).collect()),
+        (Section::VertexCodes, codes.collect()),
+        (Section::KernelTail, floats(&[0.75, 0.5, 0.25, 0.5, 0.125, 0.25, 0.0, 0.0, 0.0])),
+    ])
+}
+
+/// File of sections, by the decoder's own layout alone.
+fn write(sections: &[(Section, Vec<u8>)]) -> Vec<u8> {
     let start = FILE_HEADER_BYTES + sections.len() * ENTRY_BYTES + 4;
     let (mut table, mut body) = (Vec::new(), Vec::new());
-    for (section, bytes) in &sections {
+    for (section, bytes) in sections {
         body.resize((start + body.len()).next_multiple_of(4) - start, 0);
         let (offset, length) = ((start + body.len()) as u64, bytes.len() as u64);
         table.extend(Entry { section: *section, crc: crc32(bytes), offset, length }.to_bytes());
         body.extend(bytes);
     }
-    let count = u32::try_from(sections.len()).expect("seven");
+    let count = u32::try_from(sections.len()).expect("a few");
     let mut file = file_header(count, (start + body.len()) as u64).to_vec();
     file.extend(table);
     file.extend(crc32(&file).to_le_bytes());

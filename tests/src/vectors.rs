@@ -15,7 +15,7 @@ pub const HEADER: &str = "query,arguments,values,tolerance";
 /// What is asked: a word, and numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Query {
-    /// `rd`, `albedo`, `profile`, `coefficient`, `weight`, `eval`, `tail`, `energy`, `gaussians` or `exitance`.
+    /// `rd`, `albedo`, `profile`, `coefficient`, `weight`, `blurred`, `eval`, `tail`, `energy`, `gaussians` or `exitance`.
     pub word: String,
     /// Its arguments.
     pub arguments: Vec<f32>,
@@ -76,7 +76,7 @@ pub fn table(file: &[u8]) -> Result<String, ReadError> {
 fn tolerance(content: &Content<'_>, query: &Query, largest: f32) -> f32 {
     match (content, &query.word[..]) {
         // Sums of numbers of both signs, and a quadrature of another kind.
-        (Content::Bssrdf(_), "coefficient") => 1e-5 * largest.max(1.0),
+        (Content::Bssrdf(_), "coefficient" | "blurred") => 1e-5 * largest.max(1.0),
         (Content::Transfer(file), _) => 1e-5 * largest.max(file.header().scale[0]),
         (Content::NestedBtf(_) | Content::FactoredBtf(_), "albedo") => 0.01 * largest,
         (Content::NestedBtf(_) | Content::FactoredBtf(_), _) => 1e-4 * largest,
@@ -116,6 +116,9 @@ fn of_bssrdf(material: &Bssrdf<'_>) -> Vec<Query> {
         let steps =
             [[0, 0], [1, 0], [0, -1], [-2, 1], [radius, 0], [radius, radius], [-radius, 1], [radius + 1, 0], [-9, 4]];
         all.extend(steps.map(|[dx, dy]| query("rd", [x + dx, y + dy, x, y])));
+        if material.basis().is_some() {
+            all.push(query("blurred", [x, y]));
+        }
         all.push(query("profile", [x, y, 0]));
         all.push(query("profile", [x, y, i32::from(header.samples) - 1]));
         let terms = material.basis().map_or(0, |basis| basis.size().terms);
@@ -211,6 +214,7 @@ pub fn answer(content: &Content<'_>, query: &Query) -> Vec<f32> {
             let basis = material.basis().expect("a basis");
             basis.coefficient(whole(l), &material.profile(pixel(x, y))).to_vec()
         }
+        (Content::Bssrdf(material), "blurred", &[x, y]) => blurred(material, pixel(x, y)).to_vec(),
         (Content::Bssrdf(material), "weight", &[l, m, a]) => {
             material.basis().expect("a basis").weight(whole(l), whole(m), whole(a)).to_vec()
         }
@@ -241,6 +245,31 @@ pub fn answer(content: &Content<'_>, query: &Query) -> Vec<f32> {
         }
         _ => panic!("no query of a {}: {query:?}", content.family()),
     }
+}
+
+/// Exitance of a pixel under even light by the separable basis.
+fn blurred(material: &Bssrdf<'_>, [x, y]: [i32; 2]) -> [f32; 3] {
+    let (header, basis) = (material.header(), material.basis().expect("a basis"));
+    let size = [header.width, header.height];
+    let [width, height] = size.map(u32::cast_signed);
+    let pixels = || (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
+    let at = pixels().position(|other| other == [x, y]).expect("within the patch");
+    let maps: Vec<Vec<[f32; 3]>> = (0..basis.size().terms)
+        .map(|l| pixels().map(|pixel| basis.coefficient(l, &material.profile(pixel))).collect())
+        .collect();
+    [0, 1, 2].map(|c| {
+        let mut sum = 0.0;
+        for (l, map) in maps.iter().enumerate() {
+            let mut plane: Vec<f32> = map.iter().map(|rgb| rgb[c]).collect();
+            let mut between = plane.clone();
+            for (a, stage) in basis.cascade().stages().iter().enumerate() {
+                stage.blur(&mut plane, &mut between, size, header.addressing);
+                sum += maps.iter().enumerate().map(|(m, map)| map[at][c] * basis.weight(l, m, a)[c]).sum::<f32>()
+                    * plane[at];
+            }
+        }
+        sum
+    })
 }
 
 fn eval(btf: &impl Evaluate, numbers: &[f32]) -> Vec<f32> {

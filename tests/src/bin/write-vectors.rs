@@ -11,7 +11,7 @@ use subsurf_encoder::synthetic::{NestedShape, Shape, factored};
 use subsurf_encoder::with_metadata;
 use subsurf_tests::kernels::{difference, format_kernel, skin};
 use subsurf_tests::nested::ODD_GRID;
-use subsurf_tests::transfer::format_transfer;
+use subsurf_tests::transfer::{format_transfer, rgb_transfer};
 use subsurf_tests::vectors::table;
 use subsurf_tests::{format_basis, format_example, shape};
 
@@ -57,12 +57,14 @@ fn main() -> std::io::Result<()> {
 
     let transfer = format_transfer();
     write("transfer_example", &transfer)?;
+    write("transfer_rgb", &rgb_transfer())?;
 
     // Both encodings, with all that nested codebooks may have; several materials with mipmaps.
     let relative = NestedShape { is_relative: true, ..NestedShape::small() };
     let nested = relative.database(1).to_bytes();
     write("nested_display", &nested)?;
-    let tinted = NestedShape { tints: 5, scale_bits: 10, ..NestedShape::small() };
+    let tone = ColourEncoding::Display { white: 2.5 };
+    let tinted = NestedShape { tone, tints: 5, scale_bits: 10, ..NestedShape::small() };
     write("nested_tints", &tinted.database(2).to_bytes())?;
     let tone = ColourEncoding::LogLuv { toe: 0.01, peak: 50.0 };
     let staged = NestedShape { tone, stages: 3, grid: ODD_GRID, ..NestedShape::small() };
@@ -83,6 +85,7 @@ fn main() -> std::io::Result<()> {
     };
     write("newer_minor", &minor(example.clone()))?;
     write("skipped_section", &minor(with_section(&example, b"xtra", b"not known")))?;
+    write("other_order", &other_order(&example))?;
     write("trailing_bytes", &[&example[..], &[0xFF; 37]].concat())?;
     write("longer_header", &minor(longer_header(&example)))?;
     let entries = [("name", "example"), ("author", "Dëmo"), ("licence", "CC0-1.0")];
@@ -233,4 +236,19 @@ fn longer_header(example: &[u8]) -> Vec<u8> {
         file[24 + 24 * entry + 8] += 4;
     }
     reseal(file)
+}
+
+/// The sections of a file in the other order.
+fn other_order(file: &[u8]) -> Vec<u8> {
+    let sections = usize::from(file[12]);
+    let (mut table, mut body) = (Vec::new(), Vec::new());
+    let start = 24 + 24 * sections + 4;
+    for entry in (0..sections).rev().map(|k| &file[24 + 24 * k..][..24]) {
+        let [offset, length] = [8, 16].map(|at| usize::from(u16::from_le_bytes([entry[at], entry[at + 1]])));
+        table.extend(&entry[..8]);
+        table.extend(((start + body.len()) as u64).to_le_bytes());
+        table.extend(&entry[16..]);
+        body.extend(&file[offset..offset + length]);
+    }
+    reseal([&file[..24], &table, &[0; 4], &body].concat())
 }
