@@ -12,6 +12,9 @@ fn density(node: u32) -> f32 {
 // Share of all samples of uniform density, so that it is nowhere 0.
 const UNIFORM_SHARE: f32 = 0.03125;
 
+// Integral above which its reciprocal is finite and its shares are normal numbers: 2^-103.
+const LEAST_INTEGRAL: f32 = 9.8607613e-32;
+
 // Piecewise linear density over `last` + 1 nodes, constant beyond them.
 struct PiecewiseLinear {
     // Index of the first node in `densities`.
@@ -63,8 +66,8 @@ fn piecewise_linear(base: u32, count: u32, reach: f32, half: f32) -> PiecewiseLi
     let ends = density(base) + density(base + last);
     let integral = step * (sum - 0.5 * ends) + end * ends;
     let even = 0.5 / half;
-    // Nothing but zeros: uniform.
-    if integral > 0.0 {
+    // Nothing but zeros, or next to them: uniform.
+    if integral > LEAST_INTEGRAL {
         let all = integral / (1.0 - UNIFORM_SHARE);
         return PiecewiseLinear(base, last, step, end, all * UNIFORM_SHARE * even, all);
     }
