@@ -2,6 +2,7 @@
 
 use crate::btf::layout::BtfHeader;
 use crate::container::sections::{SectionBytes, Sections};
+use crate::container::table::Table;
 use crate::error::ReadError;
 use crate::family::Family;
 use crate::section::Section;
@@ -15,16 +16,21 @@ const HEADERS: &[Section] = &[
     Section::TransferHeader,
 ];
 
+/// Header section of a file: what says which family it is of.
+pub(crate) fn header_section(table: Table<'_>) -> Result<Section, ReadError> {
+    let mut found = HEADERS.iter().copied().filter(|section| table.has(*section));
+    let header = found.next().ok_or(ReadError::UnknownContent)?;
+    match found.next() {
+        Some(second) => Err(ReadError::TwoFamilies { headers: [header, second] }),
+        None => Ok(header),
+    }
+}
+
 /// Family of a file by its header section.
 #[inline(never)]
 pub(crate) fn family(sections: &Sections<'_>) -> Result<Family, ReadError> {
-    let mut found = HEADERS.iter().copied().filter(|section| sections.has(*section));
-    let header = found.next().ok_or(ReadError::UnknownContent)?;
-    if let Some(second) = found.next() {
-        return Err(ReadError::TwoFamilies { headers: [header, second] });
-    }
-    Ok(match header {
-        Section::BtfHeader => BtfHeader::parse(sections.any(header)?)?.model.family(),
+    Ok(match header_section(sections.container.table)? {
+        Section::BtfHeader => BtfHeader::parse(sections.any(Section::BtfHeader)?)?.model.family(),
         Section::KernelHeader => Family::Kernel,
         #[cfg(feature = "transfer")]
         Section::TransferHeader => Family::Transfer,

@@ -123,6 +123,22 @@ pub enum ReadError {
         /// Number of base materials, or of pairs.
         len: u32,
     },
+    /// A section stands before the one that says what its rows are, which [`PushReader`](crate::push::PushReader) must know by then.
+    OutOfOrder {
+        /// The section.
+        section: Section,
+        /// What must stand before it.
+        needs: Section,
+    },
+    /// The buffer of a [`PushReader`](crate::push::PushReader) is too small for a row of the file, or for its section table.
+    BufferTooSmall {
+        /// The section that the row belongs to.
+        section: Section,
+        /// Bytes that the buffer must hold for it.
+        need_bytes: u64,
+        /// Bytes that it holds.
+        have_bytes: u64,
+    },
 }
 
 impl core::error::Error for ReadError {}
@@ -164,6 +180,10 @@ impl fmt::Display for ReadError {
             }
             Self::IndexOutOfRange { section, offset, index, len } => {
                 write!(f, "{section}: byte {offset}: index {index}, but the table has {len} entries")
+            }
+            Self::OutOfOrder { section, needs } => write!(f, "{section}: stands before {needs}, which is needed first"),
+            Self::BufferTooSmall { section, need_bytes, have_bytes } => {
+                write!(f, "{section}: a row takes a buffer of {need_bytes} bytes, there are {have_bytes}")
             }
         }
     }

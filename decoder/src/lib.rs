@@ -56,6 +56,7 @@ mod error;
 mod family;
 mod file;
 pub mod kernel;
+pub mod push;
 mod section;
 #[cfg(feature = "transfer")]
 pub mod transfer;
@@ -66,6 +67,7 @@ pub use error::ReadError;
 pub use family::Family;
 pub use file::{Content, File};
 pub use kernel::Kernel;
+pub use push::PushReader;
 pub use section::Section;
 #[cfg(feature = "transfer")]
 pub use transfer::Transfer;

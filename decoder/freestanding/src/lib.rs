@@ -1,13 +1,14 @@
 //! The decoder as firmware would link it: no std, no allocator, its own panic handler.
 //!
 //! If anything pulls in std, the panic handler is there twice; if anything pulls in alloc, a global allocator is
-//! missing: either way this does not build. `check` then proves that no panic is reachable.
+//! missing: either way this does not build. `check` then proves that no panic is reachable from either entry point.
 #![no_std]
 
 use core::panic::PanicInfo;
 use subsurf_decoder::bssrdf::BssrdfModel;
 use subsurf_decoder::btf::factored::ExpansionBuffers;
 use subsurf_decoder::container::Crc;
+use subsurf_decoder::push::{Piece, PushReader};
 use subsurf_decoder::transfer::LightWeights;
 use subsurf_decoder::{Bssrdf, Content, Evaluate, FactoredBtf, File, Kernel, NestedBtf, ReadError, Transfer};
 
@@ -81,6 +82,29 @@ fn decode(file: &[u8], probe: &mut Probe) -> Result<(), ReadError> {
         _ => {}
     }
     Ok(())
+}
+
+/// Reads a file in chunks of 64 bytes, and adds up what its rows begin with; false if it was refused.
+///
+/// # Safety
+/// `file` must point to `len` readable bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn subsurf_push_probe(file: *const u8, len: usize, probe: &mut Probe) -> bool {
+    // SAFETY: the caller promises `len` readable bytes at `file`.
+    let file = unsafe { core::slice::from_raw_parts(file, len) };
+    push(file, probe).is_ok()
+}
+
+fn push(file: &[u8], probe: &mut Probe) -> Result<(), ReadError> {
+    let mut reader = PushReader::<2048>::with_crc(if probe.check_crc { Crc::Check } else { Crc::Skip });
+    for chunk in file.chunks(64) {
+        reader.push(chunk, |piece| match piece {
+            Piece::Row(row) => probe.sum += row.bytes.first().map_or(0.0, |byte| f32::from(*byte)),
+            Piece::Material(material) => probe.sum += material.name().len() as f32,
+            _ => {}
+        })?;
+    }
+    reader.finish()
 }
 
 /// Every accessor of a BSSRDF.

@@ -71,6 +71,16 @@ impl Coding {
     }
 }
 
+/// Pairs of a palette whose section has a number of bytes.
+pub(super) fn pairs_in(bytes: u64) -> Result<u16, ReadError> {
+    const PAIR_BYTES: u64 = 2;
+    let most = u64::from(MAX_PAIRS).saturating_mul(PAIR_BYTES);
+    match u16::try_from(bytes / PAIR_BYTES) {
+        Ok(pairs @ 1..=MAX_PAIRS) if bytes.is_multiple_of(PAIR_BYTES) => Ok(pairs),
+        _ => Err(ReadError::WrongSize { section: Section::Pairs, need_bytes: most, have_bytes: bytes }),
+    }
+}
+
 record! {
     /// The `BSSR` section (`FORMAT.md`, section 2.1).
     HeaderRecord {

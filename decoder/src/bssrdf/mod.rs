@@ -6,6 +6,7 @@ mod evaluate;
 pub mod layout;
 mod planes;
 mod reader;
+mod rows;
 mod values;
 
 pub use addressing::Addressing;
@@ -14,3 +15,4 @@ pub use evaluate::{Knot, LocalProfile};
 pub use layout::{BssrdfHeader, Coding};
 pub use planes::{BaseMaterials, BssrdfModel, Mixture, Mixtures, PerPixelProfiles, Profiles};
 pub use reader::Bssrdf;
+pub(crate) use rows::BssrdfRows;

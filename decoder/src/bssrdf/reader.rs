@@ -1,7 +1,7 @@
 //! Reads and checks a BSSRDF file once; afterwards its planes are borrowed and nothing can fail.
 
 use super::basis::SeparableBasis;
-use super::layout::{BssrdfHeader, Coding, MAX_PAIRS, MODEL_2BMPP, MODEL_PER_PIXEL};
+use super::layout::{BssrdfHeader, Coding, MODEL_2BMPP, MODEL_PER_PIXEL, pairs_in};
 use super::planes::{BaseMaterials, BssrdfModel, Mixtures, PerPixelProfiles, Profiles};
 use super::values;
 use crate::container::Crc;
@@ -126,13 +126,8 @@ impl<'a> Planes<'a, '_> {
 
     /// The palette, whose length its section's size tells.
     fn pairs(&self) -> Result<&'a [[u8; 2]], ReadError> {
-        const PAIR_BYTES: usize = 2;
         let section = self.sections.any(Section::Pairs)?;
-        let most = usize::from(MAX_PAIRS).saturating_mul(PAIR_BYTES);
-        let length = section.bytes.len();
-        if length == 0 || length > most || !length.is_multiple_of(PAIR_BYTES) {
-            return Err(section.wrong_size(most as u64));
-        }
+        pairs_in(section.bytes.len() as u64)?;
         Ok(values::indices(section, self.header.base_materials)?.as_chunks().0)
     }
 }

@@ -39,8 +39,7 @@ impl<'a> Catalog<'a> {
     /// Checks header and materials of a file of the expected family.
     pub(super) fn read(sections: &Sections<'a>, expected: Family) -> Result<Self, ReadError> {
         let header = BtfHeader::parse(detect::header(sections, Section::BtfHeader, expected)?)?;
-        let need_bytes = usize::from(header.materials).wrapping_mul(MATERIAL_BYTES) as u64;
-        let section = sections.sized(Section::Materials, need_bytes)?;
+        let section = sections.sized(Section::Materials, header.materials_bytes())?;
         let (materials, _) = section.bytes.as_chunks();
         for (number, material) in materials.iter().enumerate() {
             Material::from_bytes(material).check(section.origin.at_item(number, MATERIAL_BYTES))?;

@@ -2,6 +2,7 @@
 
 use super::colour::ColourEncoding;
 use super::grid::{Grid, MAX_NODES};
+use super::material::MATERIAL_BYTES;
 use crate::bssrdf::layout::LENGTHS_MM;
 use crate::container::record::{Field, record};
 use crate::container::sections::SectionBytes;
@@ -119,6 +120,11 @@ impl BtfHeader {
             texel_mm: self.texel_mm.unwrap_or(0.0),
         }
         .to_bytes()
+    }
+
+    /// Bytes of `MATS`.
+    pub(super) fn materials_bytes(&self) -> u64 {
+        u64::from(self.materials).saturating_mul(MATERIAL_BYTES as u64)
     }
 
     /// Reads and checks the section.

@@ -11,6 +11,7 @@ mod grid;
 pub mod layout;
 mod material;
 pub mod nested;
+mod rows;
 
 pub use catalog::{Catalog, Texel};
 pub use colour::{CHROMA, ColourEncoding, LUMA};

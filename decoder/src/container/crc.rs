@@ -39,24 +39,48 @@ static TABLES: Tables = tables();
 /// CRC-32 of `bytes`.
 #[must_use]
 pub fn crc32(bytes: &[u8]) -> u32 {
-    let [t0, t1, t2, t3, t4, t5, t6, t7] = &TABLES;
-    let look_up = |table: &[u32; 256], byte: u8| table.get(usize::from(byte)).copied().unwrap_or(0);
-    let (blocks, rest) = bytes.as_chunks::<SLICES>();
-    let mut crc = u32::MAX;
-    for &[a, b, c, d, e, f, g, h] in blocks {
-        let [a, b, c, d] = (crc ^ u32::from_le_bytes([a, b, c, d])).to_le_bytes();
-        crc = look_up(t7, a)
-            ^ look_up(t6, b)
-            ^ look_up(t5, c)
-            ^ look_up(t4, d)
-            ^ look_up(t3, e)
-            ^ look_up(t2, f)
-            ^ look_up(t1, g)
-            ^ look_up(t0, h);
+    let mut crc = Crc32::default();
+    crc.update(bytes);
+    crc.value()
+}
+
+/// CRC-32 of bytes that come one run after the other.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Crc32(u32);
+
+impl Default for Crc32 {
+    fn default() -> Self {
+        Self(u32::MAX)
     }
-    for &byte in rest {
-        let [low, ..] = crc.to_le_bytes();
-        crc = (crc >> 8) ^ look_up(t0, low ^ byte);
+}
+
+impl Crc32 {
+    /// Takes in the next bytes.
+    pub(crate) fn update(&mut self, bytes: &[u8]) {
+        let [t0, t1, t2, t3, t4, t5, t6, t7] = &TABLES;
+        let look_up = |table: &[u32; 256], byte: u8| table.get(usize::from(byte)).copied().unwrap_or(0);
+        let (blocks, rest) = bytes.as_chunks::<SLICES>();
+        let Self(mut crc) = *self;
+        for &[a, b, c, d, e, f, g, h] in blocks {
+            let [a, b, c, d] = (crc ^ u32::from_le_bytes([a, b, c, d])).to_le_bytes();
+            crc = look_up(t7, a)
+                ^ look_up(t6, b)
+                ^ look_up(t5, c)
+                ^ look_up(t4, d)
+                ^ look_up(t3, e)
+                ^ look_up(t2, f)
+                ^ look_up(t1, g)
+                ^ look_up(t0, h);
+        }
+        for &byte in rest {
+            let [low, ..] = crc.to_le_bytes();
+            crc = (crc >> 8) ^ look_up(t0, low ^ byte);
+        }
+        *self = Self(crc);
     }
-    !crc
+
+    /// CRC-32 of all bytes so far.
+    pub(crate) fn value(self) -> u32 {
+        !self.0
+    }
 }

@@ -27,7 +27,7 @@ impl<'a> Sections<'a> {
 
     /// Whether there is such a section.
     pub(crate) fn has(&self, section: Section) -> bool {
-        self.container.entries().any(|entry| entry.section == section)
+        self.container.table.has(section)
     }
 
     /// A section of any size.

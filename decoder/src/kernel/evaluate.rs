@@ -7,14 +7,7 @@ impl Kernel<'_> {
     /// Sign s_t of a term for each channel, −1 or 1; zeros out of range.
     #[must_use]
     pub fn sign(&self, term: usize) -> [f32; 3] {
-        if term >= self.header().terms.into() {
-            return [0.0; 3];
-        }
-        let first = row_major(term, RGB, 0);
-        [0, 1, 2].map(|channel: usize| {
-            let bit = u32::try_from(first.wrapping_add(channel)).unwrap_or(0);
-            if self.header().signs.wrapping_shr(bit) & 1 == 0 { 1.0 } else { -1.0 }
-        })
+        self.header().sign(term)
     }
 
     /// Weights w_ti of tap `tap`, counted from the centre to one side, for each channel; zeros out of range.
@@ -38,16 +31,8 @@ impl Kernel<'_> {
     pub fn energy(&self) -> [f32; 3] {
         let mut energy = [0.0; 3];
         for term in 0..self.header().terms.into() {
-            let mut sums = [0.0; 3];
-            for tap in 0..self.header().side() {
-                let times = if tap == 0 { 1.0 } else { 2.0 };
-                for (sum, w) in sums.iter_mut().zip(self.weight(term, tap)) {
-                    *sum += times * w;
-                }
-            }
-            for ((energy, sum), sign) in energy.iter_mut().zip(sums).zip(self.sign(term)) {
-                *energy += sign * sum * sum;
-            }
+            let taps = (0..self.header().side()).map(|tap| self.weight(term, tap));
+            add_term(&mut energy, self.sign(term), taps);
         }
         energy
     }
@@ -94,6 +79,20 @@ impl Kernel<'_> {
             *rd = if area > 0.0 { (*rd - high) / area } else { 0.0 };
         }
         rd
+    }
+}
+
+/// Adds s (w_0 + 2 Σ_i w_i)² of a term, for each channel, from its weights from the centre on.
+pub(super) fn add_term(energy: &mut [f32; 3], sign: [f32; 3], taps: impl Iterator<Item = [f32; 3]>) {
+    let mut sums = [0.0; 3];
+    for (tap, weights) in taps.enumerate() {
+        let times = if tap == 0 { 1.0 } else { 2.0 };
+        for (sum, w) in sums.iter_mut().zip(weights) {
+            *sum += times * w;
+        }
+    }
+    for ((energy, sum), sign) in energy.iter_mut().zip(sums).zip(sign) {
+        *energy += sign * sum * sum;
     }
 }
 

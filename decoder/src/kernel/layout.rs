@@ -1,6 +1,7 @@
 //! The `KERN` header and the sizes of the sections that follow from it.
 
 use super::method::KernelMethod;
+use crate::container::index::row_major;
 use crate::container::record::{Field, record};
 use crate::container::sections::SectionBytes;
 use crate::error::ReadError;
@@ -122,6 +123,19 @@ impl KernelHeader {
     #[must_use]
     pub fn side(&self) -> usize {
         usize::from(self.taps).wrapping_add(1) >> 1
+    }
+
+    /// Sign s_t of a term for each channel, −1 or 1; zeros out of range.
+    #[must_use]
+    pub fn sign(&self, term: usize) -> [f32; 3] {
+        if term >= self.terms.into() {
+            return [0.0; 3];
+        }
+        let first = row_major(term, 3, 0);
+        [0, 1, 2].map(|channel: usize| {
+            let bit = u32::try_from(first.wrapping_add(channel)).unwrap_or(0);
+            if self.signs.wrapping_shr(bit) & 1 == 0 { 1.0 } else { -1.0 }
+        })
     }
 
     /// Bytes that a section must have, as `FORMAT.md` says.

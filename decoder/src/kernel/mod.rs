@@ -4,7 +4,9 @@ mod evaluate;
 pub mod layout;
 mod method;
 pub(crate) mod reader;
+mod rows;
 
 pub use layout::KernelHeader;
 pub use method::KernelMethod;
 pub use reader::{Kernel, TwoGaussians};
+pub(crate) use rows::KernelRows;

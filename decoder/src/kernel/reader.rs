@@ -3,6 +3,7 @@
 use super::layout::{ENERGY_TOLERANCE, KernelHeader, MAX_WEIGHT, VARIANCES};
 use crate::container::Crc;
 use crate::container::bytes::F32Le;
+use crate::container::origin::Origin;
 use crate::container::sections::{SectionBytes, Sections};
 use crate::detect;
 use crate::error::ReadError;
@@ -66,7 +67,7 @@ impl<'a> Kernel<'a> {
         let kernel = Self {
             header,
             offsets: offsets(sized(Section::KernelOffsets)?, header.radius_mm)?,
-            weights: checked(weights, &mut |_, _| [-MAX_WEIGHT, MAX_WEIGHT])?,
+            weights: checked_weights(weights)?,
             tail: tail(sized(Section::KernelTail)?)?,
             two_gaussians: if sections.has(Section::TwoGaussians) {
                 Some(TwoGaussians::parse(sized(Section::TwoGaussians)?)?)
@@ -74,11 +75,7 @@ impl<'a> Kernel<'a> {
                 None
             },
         };
-        // ||A_c||_1 = ||R_d||_1: the kernel neither makes light nor loses it.
-        for (reflectance, energy) in kernel.reflectance().into_iter().zip(kernel.energy()) {
-            let range = [reflectance - ENERGY_TOLERANCE, reflectance + ENERGY_TOLERANCE];
-            weights.origin.number(0, energy, range)?;
-        }
+        check_energy(weights.origin, kernel.energy(), kernel.reflectance())?;
         Ok(kernel)
     }
 
@@ -125,21 +122,45 @@ pub(crate) fn checked<'a>(
     Ok(values)
 }
 
+/// Weights, all within ±[`MAX_WEIGHT`].
+pub(super) fn checked_weights(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
+    checked(section, &mut |_, _| [-MAX_WEIGHT, MAX_WEIGHT])
+}
+
+/// ||A_c||_1 = ||R_d||_1: the kernel, whose weights are at `origin`, neither makes light nor loses it.
+pub(super) fn check_energy(origin: Origin, energy: [f32; 3], reflectance: [f32; 3]) -> Result<(), ReadError> {
+    for (reflectance, energy) in reflectance.into_iter().zip(energy) {
+        origin.number(0, energy, [reflectance - ENERGY_TOLERANCE, reflectance + ENERGY_TOLERANCE])?;
+    }
+    Ok(())
+}
+
 /// Offsets that begin with 0, rise and stay within the radius.
-fn offsets(section: SectionBytes<'_>, radius_mm: f32) -> Result<F32Le<'_>, ReadError> {
+pub(super) fn offsets(section: SectionBytes<'_>, radius_mm: f32) -> Result<F32Le<'_>, ReadError> {
     let mut next = [0.0, 0.0];
     checked(section, &mut |_, offset| core::mem::replace(&mut next, [offset.next_up(), radius_mm.next_down()]))
 }
 
 /// Rows of rgb that begin within 0 to 1, never rise and end with 0.
 pub(crate) fn tail(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
-    let last = F32Le::new(section.bytes).len().saturating_sub(RGB);
-    let mut before = [1.0; RGB];
-    checked(section, &mut |k, value| {
-        let [red, green, blue] = before;
-        before = [green, blue, value];
-        [0.0, if k < last { red } else { 0.0 }]
-    })
+    let mut node = TAIL_START;
+    let last = (section.bytes.len() / TAIL_NODE_BYTES).saturating_sub(1);
+    for (k, bytes) in section.bytes.chunks_exact(TAIL_NODE_BYTES).enumerate() {
+        let origin = section.origin.at_item(k, TAIL_NODE_BYTES);
+        node = tail_node(SectionBytes { origin, bytes }, node, k == last)?;
+    }
+    Ok(F32Le::new(section.bytes))
+}
+
+/// Bytes of a node of a tail.
+pub(crate) const TAIL_NODE_BYTES: usize = RGB * size_of::<f32>();
+/// What the first node of a tail may not exceed.
+pub(crate) const TAIL_START: [f32; 3] = [1.0; 3];
+
+/// Node of a tail, which does not exceed the one before it; the last is 0.
+pub(crate) fn tail_node(node: SectionBytes<'_>, before: [f32; 3], is_last: bool) -> Result<[f32; 3], ReadError> {
+    let most = if is_last { [0.0; 3] } else { before };
+    Ok(checked(node, &mut |k, _| [0.0, most.get(k).copied().unwrap_or(0.0)])?.rgb_at(0))
 }
 
 impl TwoGaussians {
@@ -149,7 +170,7 @@ impl TwoGaussians {
     }
 
     /// Reads and checks the section.
-    fn parse(section: SectionBytes<'_>) -> Result<Self, ReadError> {
+    pub(super) fn parse(section: SectionBytes<'_>) -> Result<Self, ReadError> {
         let [least, most] = VARIANCES;
         // Each far variance is at least the near one, three numbers before.
         let mut before = [least; RGB];

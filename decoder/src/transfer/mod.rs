@@ -3,8 +3,10 @@
 mod evaluate;
 pub mod layout;
 mod reader;
+mod rows;
 mod weights;
 
 pub use layout::TransferHeader;
 pub use reader::Transfer;
+pub(crate) use rows::TransferRows;
 pub use weights::LightWeights;

@@ -56,8 +56,7 @@ impl<'a> Transfer<'a> {
         Ok(Self {
             header,
             lights: unit_vectors(lights)?,
-            // Offsets of either sign, steps of none.
-            ranges: checked(ranges, &mut |k, _| [if k.is_multiple_of(2) { -MAX_RANGE } else { 0.0 }, MAX_RANGE])?,
+            ranges: checked_ranges(ranges)?,
             means: U16Le::new(sized(Section::ClusterMeans)?.bytes),
             bases: sized(Section::ClusterBases)?.bytes,
             codes: codes.bytes,
@@ -108,8 +107,13 @@ impl<'a> Transfer<'a> {
     }
 }
 
+/// Offsets of either sign and steps of none, one after the other.
+pub(super) fn checked_ranges(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
+    checked(section, &mut |k, _| [if k.is_multiple_of(2) { -MAX_RANGE } else { 0.0 }, MAX_RANGE])
+}
+
 /// Directions of length 1.
-fn unit_vectors(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
+pub(super) fn unit_vectors(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
     let most = 1.0 + UNIT_TOLERANCE;
     let values = checked(section, &mut |_, _| [-most, most])?;
     for k in (0..values.len()).step_by(3) {
@@ -125,7 +129,7 @@ fn unit_vectors(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
 }
 
 /// Every vertex names a cluster that there is.
-fn check_clusters(section: SectionBytes<'_>, header: &TransferHeader) -> Result<(), ReadError> {
+pub(super) fn check_clusters(section: SectionBytes<'_>, header: &TransferHeader) -> Result<(), ReadError> {
     let (record_bytes, clusters) = (header.record_bytes(), header.clusters);
     for (vertex, record) in section.bytes.chunks_exact(record_bytes).enumerate() {
         let cluster = record.first().copied().unwrap_or(0);

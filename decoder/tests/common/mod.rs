@@ -1,6 +1,8 @@
 //! The example of `FORMAT.md`, section 3, built from literals: nothing here uses the crate's own layout.
 #![allow(dead_code, reason = "every test file takes what it needs")]
 
+pub(crate) mod btf;
+
 /// Offsets in the example file, straight from the specification.
 pub(crate) const MODEL: usize = 124;
 pub(crate) const WIDTH: usize = 128;
@@ -103,5 +105,32 @@ pub(crate) fn with_section(kind: &[u8; 4], section: &[u8]) -> Vec<u8> {
     file[16..24].copy_from_slice(&bytes.to_le_bytes());
     let crc = crc32(&file[..144]);
     file[144..148].copy_from_slice(&crc.to_le_bytes());
+    file
+}
+
+/// File of sections with their bytes, each at a multiple of four bytes.
+pub(crate) fn container(sections: &[(&[u8; 4], Vec<u8>)]) -> Vec<u8> {
+    let mut file = vec![0x89, 0x53, 0x53, 0x46, 0x0D, 0x0A, 0x1A, 0x0A, 0x01, 0x00, 0x00, 0x00];
+    file.extend(u32::try_from(sections.len()).unwrap().to_le_bytes());
+    let mut end = 28 + 24 * sections.len();
+    let offsets: Vec<usize> = sections
+        .iter()
+        .map(|(_, bytes)| {
+            let offset = end.next_multiple_of(4);
+            end = offset + bytes.len();
+            offset
+        })
+        .collect();
+    file.extend((end as u64).to_le_bytes());
+    for ((kind, bytes), offset) in sections.iter().zip(&offsets) {
+        file.extend(*kind);
+        file.extend([0; 4]);
+        file.extend([*offset, bytes.len()].into_iter().flat_map(|number| (number as u64).to_le_bytes()));
+    }
+    for ((_, bytes), offset) in sections.iter().zip(&offsets) {
+        file.resize(*offset, 0);
+        file.extend(bytes);
+    }
+    seal_all(&mut file, sections.len());
     file
 }

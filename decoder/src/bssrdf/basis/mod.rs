@@ -4,7 +4,9 @@ mod blur;
 mod cascade;
 mod layout;
 mod reader;
+mod rows;
 
 pub use cascade::{Cascade, CascadeStage};
 pub use layout::{BasisSize, MAX_GAUSSIANS, MAX_PAIRS_OF_TERMS, MAX_PROJECTION, MAX_TERMS, MAX_WEIGHT, WIDTHS};
 pub use reader::SeparableBasis;
+pub(super) use rows::BasisRows;

@@ -48,19 +48,9 @@ impl<'a> SeparableBasis<'a> {
             weights: numbers(weights_at, projection_at.saturating_sub(weights_at)),
             projection: F32Le::new(from(projection_at).bytes),
         };
-        // Widths rise, by steps that keep the taps of a blur few.
-        let mut range = [WIDTHS[0], MAX_STEP];
-        for (a, sigma) in basis.sigmas.iter().enumerate() {
-            section.origin.number(row_major(a, size_of::<f32>(), 0), sigma, range)?;
-            range = [sigma, (MAX_STEP * sigma).min(WIDTHS[1])];
-        }
-        for (values, item, most) in
-            [(basis.weights, weights_at, MAX_WEIGHT), (basis.projection, projection_at, MAX_PROJECTION)]
-        {
-            for (k, value) in values.iter().enumerate() {
-                from(item).origin.number(row_major(k, size_of::<f32>(), 0), value, [-most, most])?;
-            }
-        }
+        check_widths(SectionBytes { bytes: basis.sigmas.as_bytes(), ..section })?;
+        check_magnitudes(SectionBytes { bytes: basis.weights.as_bytes(), ..from(weights_at) }, MAX_WEIGHT)?;
+        check_magnitudes(from(projection_at), MAX_PROJECTION)?;
         Ok(basis)
     }
 
@@ -111,4 +101,22 @@ impl<'a> SeparableBasis<'a> {
         }
         sum
     }
+}
+
+/// Refuses widths that do not rise, by steps that keep the taps of a blur few.
+pub(super) fn check_widths(section: SectionBytes<'_>) -> Result<(), ReadError> {
+    let mut range = [WIDTHS[0], MAX_STEP];
+    for (a, sigma) in F32Le::new(section.bytes).iter().enumerate() {
+        section.origin.at_item(a, size_of::<f32>()).number(0, sigma, range)?;
+        range = [sigma, (MAX_STEP * sigma).min(WIDTHS[1])];
+    }
+    Ok(())
+}
+
+/// Refuses numbers of larger magnitudes than `most`.
+pub(super) fn check_magnitudes(section: SectionBytes<'_>, most: f32) -> Result<(), ReadError> {
+    for (k, value) in F32Le::new(section.bytes).iter().enumerate() {
+        section.origin.at_item(k, size_of::<f32>()).number(0, value, [-most, most])?;
+    }
+    Ok(())
 }

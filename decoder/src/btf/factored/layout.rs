@@ -2,7 +2,6 @@
 
 use crate::btf::grid::Grid;
 use crate::container::bytes::F32Le;
-use crate::container::origin::Origin;
 use crate::container::record::{Field, record};
 use crate::container::sections::SectionBytes;
 use crate::error::ReadError;
@@ -45,6 +44,11 @@ record! {
         reserved: u8,
     }
 }
+
+/// Bytes of the section before its stages.
+pub(super) const FIXED_BYTES: usize = size_of::<FixedRecord>();
+/// Bytes of a stage in the section.
+pub(super) const STAGE_BYTES: usize = size_of::<StageRecord>();
 
 /// One stage of a residual vector quantiser: how many codewords, and which coefficients they add to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -104,6 +108,22 @@ impl TuckerShape {
         usize::from(self.view_axes).wrapping_mul(self.light_axes.into())
     }
 
+    /// Bytes of the axes of views, the first part of `AXES`.
+    pub(super) fn view_axes_len(&self, grid: &Grid) -> usize {
+        usize::from(self.view_axes).saturating_mul(grid.view_nodes())
+    }
+
+    /// Bytes of `AXES`.
+    pub(super) fn axes_bytes(&self, grid: &Grid) -> u64 {
+        let of_lights = usize::from(self.light_axes).saturating_mul(grid.light_nodes());
+        self.view_axes_len(grid).saturating_add(of_lights) as u64
+    }
+
+    /// Bytes of `INDX`.
+    pub(super) fn indices_bytes(&self, texels: u32) -> u64 {
+        u64::from(texels).saturating_mul(self.count.into())
+    }
+
     /// Stages that are used.
     #[must_use]
     pub fn stages(&self) -> &[CodewordStage] {
@@ -116,18 +136,32 @@ impl TuckerShape {
         let (reserved, reserved_too) = (0, [0; 2]);
         let fixed = FixedRecord { luma, chroma, stages, reserved, view_axes, light_axes, reserved_too };
         fixed
-            .to_bytes::<{ size_of::<FixedRecord>() }>()
+            .to_bytes::<FIXED_BYTES>()
             .into_iter()
-            .chain(self.stages().iter().flat_map(|stage| stage.record().to_bytes::<{ size_of::<StageRecord>() }>()))
+            .chain(self.stages().iter().flat_map(|stage| stage.record().to_bytes::<STAGE_BYTES>()))
     }
 
     /// Reads and checks the first bytes of the section.
     fn parse(section: SectionBytes<'_>, grid: &Grid) -> Result<Self, ReadError> {
+        if section.bytes.len() < FIXED_BYTES {
+            return Err(section.wrong_size(FIXED_BYTES as u64));
+        }
+        let mut shape = Self::parse_fixed(section, grid)?;
+        let mut rest = section.from(FIXED_BYTES);
+        for number in 0..usize::from(shape.count) {
+            if rest.bytes.len() < STAGE_BYTES {
+                return Err(section.wrong_size(stages_end(number.saturating_add(1)) as u64));
+            }
+            shape.parse_stage(number, rest)?;
+            rest = rest.from(STAGE_BYTES);
+        }
+        Ok(shape)
+    }
+
+    /// Reads and checks what stands before the stages, which are left out.
+    pub(super) fn parse_fixed(section: SectionBytes<'_>, grid: &Grid) -> Result<Self, ReadError> {
         use FixedRecord as R;
         let origin = section.origin;
-        if section.bytes.len() < size_of::<R>() {
-            return Err(section.wrong_size(size_of::<R>() as u64));
-        }
         let R { luma, chroma, stages: count, view_axes, light_axes, .. } = R::from_bytes(section.bytes);
         let limit = |nodes: usize| u8::try_from(nodes).unwrap_or(u8::MAX).into();
         origin.integer(offset_of!(R, luma), luma, 1..=MAX_LUMA.into())?;
@@ -135,25 +169,33 @@ impl TuckerShape {
         origin.integer(offset_of!(R, stages), count, 1..=MOST_STAGES.into())?;
         origin.integer(offset_of!(R, view_axes), view_axes, 1..=limit(grid.view_nodes()))?;
         origin.integer(offset_of!(R, light_axes), light_axes, 1..=limit(grid.light_nodes()))?;
+        Ok(Self { luma, chroma, view_axes, light_axes, stages: [CodewordStage::default(); MAX_STAGES], count })
+    }
 
-        let stages = [CodewordStage::default(); MAX_STAGES];
-        let mut shape = Self { luma, chroma, view_axes, light_axes, stages, count };
-        let coefficients = shape.coefficients();
-        let mut rest = section.from(size_of::<R>());
-        for (number, stage) in shape.stages.iter_mut().enumerate().take(count.into()) {
-            let Some(bytes) = rest.bytes.first_chunk::<{ size_of::<StageRecord>() }>() else {
-                return Err(section.wrong_size(stages_end(number.saturating_add(1)) as u64));
-            };
-            *stage = CodewordStage::parse(bytes, rest.origin, coefficients)?;
-            rest = rest.from(size_of::<StageRecord>());
+    /// Reads and checks stage `number`.
+    pub(super) fn parse_stage(&mut self, number: usize, section: SectionBytes<'_>) -> Result<(), ReadError> {
+        let coefficients = self.coefficients();
+        if let Some(stage) = self.stages.get_mut(number) {
+            *stage = CodewordStage::parse(section, coefficients)?;
         }
-        Ok(shape)
+        Ok(())
+    }
+
+    /// Numbers in the lists of steps and scales, in file order.
+    pub(super) fn lengths(&self) -> [usize; 5] {
+        [2, self.columns(), self.columns(), self.view_axes.into(), self.light_axes.into()]
+    }
+
+    /// Bytes of the section.
+    pub(super) fn section_bytes(&self) -> u64 {
+        let numbers = self.lengths().into_iter().fold(0, usize::saturating_add);
+        stages_end(self.count.into()).saturating_add(numbers.saturating_mul(size_of::<f32>())) as u64
     }
 }
 
 /// Bytes of the section up to the end of its first `stages` stages.
-fn stages_end(stages: usize) -> usize {
-    stages.saturating_mul(size_of::<StageRecord>()).saturating_add(size_of::<FixedRecord>())
+pub(super) fn stages_end(stages: usize) -> usize {
+    stages.saturating_mul(STAGE_BYTES).saturating_add(FIXED_BYTES)
 }
 
 impl CodewordStage {
@@ -163,11 +205,11 @@ impl CodewordStage {
         StageRecord { codewords_less_one, first, count, reserved: 0 }
     }
 
-    /// Reads and checks the record that stands at `origin`.
-    fn parse(bytes: &[u8; size_of::<StageRecord>()], origin: Origin, coefficients: usize) -> Result<Self, ReadError> {
-        let StageRecord { codewords_less_one, first, count, .. } = StageRecord::from_bytes(bytes);
+    /// Reads and checks the record that a section begins with.
+    fn parse(section: SectionBytes<'_>, coefficients: usize) -> Result<Self, ReadError> {
+        let StageRecord { codewords_less_one, first, count, .. } = StageRecord::from_bytes(section.bytes);
         if count == 0 || usize::from(first).wrapping_add(count.into()) > coefficients {
-            return Err(origin.bad_field(offset_of!(StageRecord, count), count));
+            return Err(section.origin.bad_field(offset_of!(StageRecord, count), count));
         }
         Ok(Self { words: u16::from(codewords_less_one).wrapping_add(1), first, count })
     }
@@ -193,21 +235,14 @@ pub struct TuckerHeader<'a> {
 impl<'a> TuckerHeader<'a> {
     /// Reads and checks the section.
     pub(super) fn parse(section: SectionBytes<'a>, grid: &Grid) -> Result<Self, ReadError> {
-        const F32_BYTES: usize = size_of::<f32>();
         let shape = TuckerShape::parse(section, grid)?;
-        let columns = shape.columns();
-        let lengths = [2, columns, columns, shape.view_axes.into(), shape.light_axes.into()];
-        let start = stages_end(shape.count.into());
-        let need = lengths.iter().fold(start, |end, length| end.saturating_add(length.saturating_mul(F32_BYTES)));
-        let mut rest = section.sized(need as u64)?.from(start);
+        let lengths = shape.lengths();
+        let mut rest = section.sized(shape.section_bytes())?.from(stages_end(shape.count.into()));
         let mut next = |length: usize| {
-            let bytes = length.saturating_mul(F32_BYTES);
-            let steps = F32Le::new(rest.bytes.get(..bytes).unwrap_or(&[]));
-            for (number, value) in steps.iter().enumerate() {
-                rest.origin.number(number.saturating_mul(F32_BYTES), value, STEPS)?;
-            }
+            let bytes = length.saturating_mul(size_of::<f32>());
+            let steps = SectionBytes { bytes: rest.bytes.get(..bytes).unwrap_or(&[]), ..rest };
             rest = rest.from(bytes);
-            Ok(steps)
+            checked_steps(steps)
         };
         let [of_ratios, of_columns, of_core, of_views, of_lights] = lengths;
         Ok(Self {
@@ -219,4 +254,13 @@ impl<'a> TuckerHeader<'a> {
             light_scales: next(of_lights)?,
         })
     }
+}
+
+/// Steps and scales, all within their range.
+pub(super) fn checked_steps(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
+    let steps = F32Le::new(section.bytes);
+    for (number, value) in steps.iter().enumerate() {
+        section.origin.at_item(number, size_of::<f32>()).number(0, value, STEPS)?;
+    }
+    Ok(steps)
 }

@@ -13,9 +13,11 @@ pub mod layout;
 mod memory;
 pub mod model;
 mod reader;
+mod rows;
 
 pub use evaluate::ExpandedBtf;
 pub use expand::ExpansionBuffers;
 #[cfg(feature = "alloc")]
 pub use memory::ExpansionMemory;
 pub use reader::FactoredBtf;
+pub(crate) use rows::FactoredRows;

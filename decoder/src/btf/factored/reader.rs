@@ -52,14 +52,11 @@ impl<'a> FactoredBtf<'a> {
         let grid = catalog.grid();
         let header = TuckerHeader::parse(sections.any(Section::TuckerHeader)?, grid)?;
         let shape = &header.shape;
-        let of_views = usize::from(shape.view_axes).saturating_mul(grid.view_nodes());
-        let of_lights = usize::from(shape.light_axes).saturating_mul(grid.light_nodes());
-        let axes = sections.sized(Section::Axes, of_views.saturating_add(of_lights) as u64)?.bytes;
-        let (view_axes, light_axes) = axes.split_at_checked(of_views).unwrap_or((&[], &[]));
+        let axes = sections.sized(Section::Axes, shape.axes_bytes(grid))?.bytes;
+        let (view_axes, light_axes) = axes.split_at_checked(shape.view_axes_len(grid)).unwrap_or((&[], &[]));
         let core = sections.any(Section::Core)?.bytes;
         let words = sections.any(Section::Codewords)?.bytes;
-        let need_bytes = u64::from(catalog.texels()).saturating_mul(shape.count.into());
-        let indices = sections.sized(Section::TexelIndices, need_bytes)?;
+        let indices = sections.sized(Section::TexelIndices, shape.indices_bytes(catalog.texels()))?;
         check_indices(indices, shape.stages())?;
         Ok(Self { catalog, header, view_axes, light_axes, core, words, indices: indices.bytes })
     }
@@ -99,7 +96,7 @@ impl<'a> FactoredBtf<'a> {
 }
 
 /// Every index, `[texel][stage]`, is below the number of its stage's codewords.
-fn check_indices(section: SectionBytes<'_>, stages: &[CodewordStage]) -> Result<(), ReadError> {
+pub(super) fn check_indices(section: SectionBytes<'_>, stages: &[CodewordStage]) -> Result<(), ReadError> {
     if stages.iter().all(|stage| stage.words == 256) {
         return Ok(());
     }

@@ -1,7 +1,7 @@
 //! Sections of nested codebooks, checked once.
 
-use super::layout::{CodebookSizes, MAX_STAGES};
-use super::packed::{Shape, items};
+use super::layout::{CodebookSizes, MAX_STAGES, StageSizes};
+use super::packed::CodebookSections;
 use super::piecewise_linear::Axis;
 use super::stage::Stage;
 use crate::btf::grid::Grid;
@@ -35,32 +35,27 @@ impl<'a> NestedCodebooks<'a> {
     /// Reads all codebooks of a file with `texels` texels in all materials and levels.
     pub(super) fn parse(sections: &Sections<'a>, grid: &Grid, texels: u32) -> Result<Self, ReadError> {
         let sizes = CodebookSizes::parse(sections.any(Section::CodebookSizes)?)?;
-        let [first, others @ ..] = &sizes.stages;
-        let chroma = &sizes.chroma;
-        let unused = Stage::read(sections, 0, first, chroma, grid, texels)?;
+        let of = CodebookSections { sections, sizes: &sizes, grid };
+        let unused = Stage::read(of, 0, texels)?;
         let mut stages = [unused; MAX_STAGES];
-        for ((number, stage), of_stage) in (0..).zip(&mut stages).take(sizes.count).skip(1).zip(others) {
-            *stage = Stage::read(sections, number, of_stage, chroma, grid, texels)?;
+        for (number, stage) in (0..).zip(&mut stages).take(sizes.count).skip(1) {
+            *stage = Stage::read(of, number, texels)?;
         }
-        let [.., p2] = first.codebooks;
-        let (p2_bits, i2_bits) = (index_bits(p2.entries), index_bits(chroma.i2));
-        let merged = Shape { rows: chroma.merged, nodes: 1, width: p2_bits.saturating_add(i2_bits) };
-        let indices = |section, rows, nodes, len| {
-            items(sections, section, Shape { rows, nodes, width: index_bits(len) }, &[(0, len)])
-        };
-        let pairs = |section, entries: u32| sections.sized(section, u64::from(entries).saturating_mul(2));
+        let [StageSizes { codebooks: [.., p2], .. }, ..] = sizes.stages;
+        let (p2_bits, i2_bits) = (index_bits(p2.entries), index_bits(sizes.chroma.i2));
+        let pairs = |section| Ok(of.sized(section)?.bytes.as_chunks().0);
         Ok(Self {
             sizes,
             stages,
-            merged: items(sections, Section::Merged, merged, &[(0, p2.entries), (p2_bits, chroma.i2)])?,
+            merged: of.items(Section::Merged)?,
             p2_bits,
             p2_mask: mask(p2_bits),
             i2_mask: mask(i2_bits),
-            i2: indices(Section::ChromaSlices2, chroma.i2, grid.n_alpha, chroma.i1)?,
-            i1: indices(Section::ChromaSlices1, chroma.i1, grid.n_beta, chroma.colours)?,
-            colours: pairs(Section::Colours, chroma.colours)?.bytes.as_chunks().0,
-            tints: if chroma.tints == 0 { &[] } else { pairs(Section::Tints, chroma.tints)?.bytes.as_chunks().0 },
-            tint_mask: mask(index_bits(chroma.tints)),
+            i2: of.items(Section::ChromaSlices2)?,
+            i1: of.items(Section::ChromaSlices1)?,
+            colours: pairs(Section::Colours)?,
+            tints: if sizes.chroma.tints == 0 { &[] } else { pairs(Section::Tints)? },
+            tint_mask: mask(index_bits(sizes.chroma.tints)),
             axes: [Axis::new(grid.n_alpha, grid.alpha_max, FRAC_PI_2), Axis::new(grid.n_beta, grid.sin_beta_max, 1.0)],
         })
     }

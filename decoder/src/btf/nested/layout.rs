@@ -247,6 +247,12 @@ impl StageSizes {
         [p4.entries, p3.entries, below_p3, self.slices]
     }
 
+    /// Bytes of P1: for every entry n_β values and an exponent.
+    #[must_use]
+    pub fn slices_bytes(&self, n_beta: u8) -> u64 {
+        u64::from(self.slices).saturating_mul(u64::from(n_beta).saturating_add(1))
+    }
+
     /// Bits of the indices in P6, P4, P3 and P2.
     #[must_use]
     pub fn index_bits(&self, is_first: bool, chroma: &ChromaSizes) -> [u32; 4] {
@@ -258,8 +264,8 @@ impl CodebookSizes {
     /// Reads and checks the section.
     pub(super) fn parse(section: SectionBytes<'_>) -> Result<Self, ReadError> {
         let (records, _) = section.bytes.as_chunks::<BOOK_BYTES>();
+        let need_bytes = need_bytes(section.bytes.len() as u64);
         let count = records.len().saturating_sub(1).clamp(1, MAX_STAGES);
-        let need_bytes = count.saturating_add(1).saturating_mul(BOOK_BYTES) as u64;
         let origin = section.sized(need_bytes)?.origin;
         let Some((chroma, records)) = records.split_first() else { return Err(section.wrong_size(need_bytes)) };
 
@@ -275,4 +281,11 @@ impl CodebookSizes {
         }
         Ok(Self { chroma, stages, count })
     }
+}
+
+/// Bytes that `BOOK` must have if it has `bytes`: those of as many whole stages as there can be.
+pub(super) fn need_bytes(bytes: u64) -> u64 {
+    const RECORD: u64 = BOOK_BYTES as u64;
+    let stages = (bytes / RECORD).saturating_sub(1).clamp(1, MAX_STAGES as u64);
+    stages.saturating_add(1).saturating_mul(RECORD)
 }

@@ -1,15 +1,11 @@
 //! One chain of codebooks: texel → P6 → P4 (φ_v) → P3 (θ_v) → P2 (α) → P1 (β).
 
-use super::layout::{ChromaSizes, SLICE_STEPS_PER_OCTAVE, STEPS_PER_OCTAVE, StageSizes};
-use super::packed::{Shape, items};
+use super::layout::{CodebookSize, CodebookSizes, SLICE_STEPS_PER_OCTAVE, STEPS_PER_OCTAVE};
+use super::packed::CodebookSections;
 use super::scale::{NEAR, Scale};
 use super::table::{SliceTable, Table};
-use crate::btf::grid::Grid;
-use crate::container::bits::PADDING_BYTES;
-use crate::container::sections::Sections;
 use crate::error::ReadError;
 use crate::section::Section;
-use core::num::Saturating;
 
 /// Step of the exponents of slices in 1/64 octaves.
 const SLICE_STEP: u32 = (STEPS_PER_OCTAVE / SLICE_STEPS_PER_OCTAVE).unsigned_abs();
@@ -34,50 +30,23 @@ pub(super) struct Stage<'a> {
 
 impl<'a> Stage<'a> {
     /// Reads the five codebooks of stage `number`; P6 has an entry for each of `texels`.
-    pub(super) fn read(
-        sections: &Sections<'a>,
-        number: u8,
-        sizes: &StageSizes,
-        chroma: &ChromaSizes,
-        grid: &Grid,
-        texels: u32,
-    ) -> Result<Self, ReadError> {
+    pub(super) fn read(of: CodebookSections<'a, '_>, number: u8, texels: u32) -> Result<Self, ReadError> {
         let section = |book: u8| Section::Codebook { book, stage: number };
+        let CodebookSizes { chroma, stages, .. } = of.sizes;
+        let sizes = stages.get(usize::from(number)).copied().unwrap_or_default();
         let [p6, p4, p3, p2] = sizes.codebooks;
-        if p6.entries != texels {
-            let (need_bytes, have_bytes) = (texels.into(), p6.entries.into());
-            return Err(ReadError::WrongSize { section: section(6), need_bytes, have_bytes });
-        }
-        let (is_first, is_signed) = (number == 0, sizes.is_signed);
-        let [of_p4, of_p3, below_p3, of_p1] = sizes.targets(is_first, chroma);
-        let [bits_of_p4, bits_of_p3, bits_below_p3, bits_of_p1] = sizes.index_bits(is_first, chroma);
-        let [width_6, width_4, width_3, width_2] = sizes.widths(is_first, chroma);
-
-        let tint_at = bits_of_p4.saturating_add(p6.scales.bits.into());
-        // One of one where there are none, which has no bits.
-        let tint = (tint_at, if is_first { chroma.tints.max(1) } else { 1 });
-        let shape_6 = Shape { rows: p6.entries, nodes: 1, width: width_6 };
-        let shape_4 = Shape { rows: p4.entries, nodes: grid.n_phi, width: width_4 };
-        let shape_3 = Shape { rows: p3.entries, nodes: grid.n_theta, width: width_3 };
-        let texels = items(sections, section(6), shape_6, &[(0, of_p4), tint])?;
-        let p4_items = items(sections, section(4), shape_4, &[(0, of_p3)])?;
-        let p3_items = items(sections, section(3), shape_3, &[(0, below_p3)])?;
-
+        check_texels(section(6), p6, texels)?;
+        let (is_signed, grid) = (sizes.is_signed, of.grid);
+        let [bits_of_p4, bits_of_p3, bits_below_p3, bits_of_p1] = sizes.index_bits(number == 0, chroma);
+        let (texels, p4_items, p3_items) = (of.items(section(6))?, of.items(section(4))?, of.items(section(3))?);
         // Codes of scales, then indices.
-        let shape_2 = Shape { rows: p2.entries, nodes: grid.n_alpha, width: width_2 };
-        let codes = shape_2.items();
-        let of_p2 = sections.sized(section(2), codes.saturating_add(shape_2.bytes()))?;
-        let p2_items = shape_2.checked(of_p2.from(usize::try_from(codes).unwrap_or(usize::MAX)), &[(0, of_p1)])?;
-
-        // n_β values and an exponent for each slice.
-        let [slices, n_beta] = [u64::from(sizes.slices), grid.n_beta.into()].map(Saturating);
-        let p1_bytes = slices * (n_beta + Saturating(1)) + Saturating(PADDING_BYTES as u64);
+        let (of_p2, p2_items) = (of.sized(section(2))?.bytes, of.items(section(2))?);
         Ok(Self {
             texels: Table::new(texels, bits_of_p4, p6.scales, is_signed),
             p4: Table::new(p4_items, bits_of_p3, p4.scales, is_signed),
             p3: Table::new(p3_items, bits_below_p3, p3.scales, is_signed),
-            p2: SliceTable::new(of_p2.bytes, grid.n_alpha, p2_items, bits_of_p1, p2.scales, is_signed),
-            p1: sections.sized(section(1), p1_bytes.0)?.bytes,
+            p2: SliceTable::new(of_p2, grid.n_alpha, p2_items, bits_of_p1, p2.scales, is_signed),
+            p1: of.sized(section(1))?.bytes,
             n_beta: grid.n_beta,
             is_signed,
         })
@@ -122,4 +91,12 @@ impl<'a> Stage<'a> {
         let start = start as usize;
         self.p1.get(start..start.wrapping_add(4))?.first_chunk::<4>()
     }
+}
+
+/// Refuses a P6 that has not an entry for each of `texels`.
+pub(super) fn check_texels(section: Section, p6: CodebookSize, texels: u32) -> Result<(), ReadError> {
+    if p6.entries == texels {
+        return Ok(());
+    }
+    Err(ReadError::WrongSize { section, need_bytes: texels.into(), have_bytes: p6.entries.into() })
 }
