@@ -5,7 +5,7 @@
 #![no_std]
 
 use core::panic::PanicInfo;
-use subsurf_decoder::bssrdf::BssrdfModel;
+use subsurf_decoder::bssrdf::{BssrdfModel, ProfileTable};
 use subsurf_decoder::btf::factored::ExpansionBuffers;
 use subsurf_decoder::container::Crc;
 use subsurf_decoder::push::{Piece, PushReader};
@@ -47,6 +47,8 @@ pub struct Probe {
     btf_albedo: [f32; 3],
     drawn: [f32; 3],
     pdfs: [f32; 2],
+    /// Room for the base scattering profiles of a small window.
+    profiles: ProfileTable<512>,
     /// Room for a factored BTF that is small.
     table: [i8; 4096],
     words: [i16; 4096],
@@ -111,15 +113,21 @@ fn push(file: &[u8], probe: &mut Probe) -> Result<(), ReadError> {
 fn evaluate(material: &Bssrdf<'_>, probe: &mut Probe) {
     probe.rd = material.rd(probe.x_i, probe.x_o);
     probe.albedo = material.albedo(probe.x_i);
+    if probe.profiles.expand(material)
+        && let BssrdfModel::BaseMaterials(planes) = material.model()
+    {
+        let [i, o] = [probe.x_i, probe.x_o].map(|[x, y]| planes.mixtures.at(x as usize, y as usize));
+        probe.sum += probe.profiles.rd(&i, &o, probe.x_i[0], probe.x_o[1])[0];
+    }
     if let Some(knot) = material.knot(probe.r_mm) {
         probe.log_profile = material.profile(probe.x_i).at(knot);
     }
-    probe.sum = match material.model() {
+    probe.sum += match material.model() {
         BssrdfModel::BaseMaterials(planes) => {
             let mixture = planes.mixtures.at(probe.x_i[0] as usize, probe.x_i[1] as usize);
-            planes.profiles.rgb_at(probe.x_o[0] as usize).iter().chain(&mixture.ratios).sum()
+            planes.profiles.rgb_at(probe.x_o[0] as usize).iter().chain(&mixture.ratios).sum::<f32>()
         }
-        BssrdfModel::PerPixel(planes) => planes.profiles.iter().sum(),
+        BssrdfModel::PerPixel(planes) => planes.profiles.iter().sum::<f32>(),
     };
 }
 

@@ -1,6 +1,6 @@
 //! Rd, profiles and albedo of a checked file (Yatagawa et al. 2020, eq. 1-4).
 
-use super::layout::MAX_PER_PIXEL;
+use super::layout::{BssrdfHeader, MAX_PER_PIXEL};
 use super::planes::{BssrdfModel, Profiles};
 use super::reader::Bssrdf;
 use crate::container::bytes::F32Le;
@@ -70,22 +70,21 @@ impl LocalProfile<'_> {
 }
 
 /// (1 − w) a + w b.
-fn lerp(a: [f32; 3], b: [f32; 3], w: f32) -> [f32; 3] {
+pub(super) fn lerp(a: [f32; 3], b: [f32; 3], w: f32) -> [f32; 3] {
     let [a0, a1, a2] = a;
     let [b0, b1, b2] = b;
     [a0 + w * (b0 - a0), a1 + w * (b1 - a1), a2 + w * (b2 - a2)]
 }
 
-impl<'a> Bssrdf<'a> {
+impl BssrdfHeader {
     /// h and w of distance `r_mm`; `None` beyond r_max, where Rd is 0, and for NaN.
     #[must_use]
     pub fn knot(&self, r_mm: f32) -> Option<Knot> {
-        let header = self.header();
-        if !(0.0..=header.r_max_mm).contains(&r_mm) {
+        if !(0.0..=self.r_max_mm).contains(&r_mm) {
             return None;
         }
-        let intervals = header.samples.saturating_sub(1);
-        let position = r_mm / header.r_max_mm * f32::from(intervals);
+        let intervals = self.samples.saturating_sub(1);
+        let position = r_mm / self.r_max_mm * f32::from(intervals);
         // `as` saturates, and the last interval takes r_max itself.
         #[allow(
             clippy::cast_possible_truncation,
@@ -94,6 +93,28 @@ impl<'a> Bssrdf<'a> {
         )]
         let h = (position as u16).min(intervals.saturating_sub(1));
         Some(Knot { h: h.into(), w: position - f32::from(h) })
+    }
+
+    /// Distance in mm of two pixels `dx`, `dy` apart; `None` outside the window, where Rd is 0.
+    #[must_use]
+    pub fn distance_mm(&self, dx: i32, dy: i32) -> Option<f32> {
+        let radius = u32::from(self.window_radius);
+        let (dx, dy) = (dx.unsigned_abs(), dy.unsigned_abs());
+        if dx > radius || dy > radius {
+            return None;
+        }
+        // Both are at most 1,023, so that the squares are exact in f32.
+        #[allow(clippy::cast_precision_loss, reason = "dx² + dy² < 2²⁴")]
+        let r2 = dx.saturating_mul(dx).saturating_add(dy.saturating_mul(dy)) as f32;
+        Some(libm::sqrtf(r2) * self.pitch_mm)
+    }
+}
+
+impl<'a> Bssrdf<'a> {
+    /// [`BssrdfHeader::knot`].
+    #[must_use]
+    pub fn knot(&self, r_mm: f32) -> Option<Knot> {
+        self.header().knot(r_mm)
     }
 
     /// Profile P̂_x of the pixel at `x` = [column, row]; outside the patch the addressing mode decides.
@@ -129,18 +150,10 @@ impl<'a> Bssrdf<'a> {
         [a0 + b0, a1 + b1, a2 + b2].map(|sum| libm::expf(0.5 * sum))
     }
 
-    /// Distance in mm of two pixels `dx`, `dy` apart; `None` outside the window, where Rd is 0.
+    /// [`BssrdfHeader::distance_mm`].
     #[must_use]
     pub fn distance_mm(&self, dx: i32, dy: i32) -> Option<f32> {
-        let radius = u32::from(self.header().window_radius);
-        let (dx, dy) = (dx.unsigned_abs(), dy.unsigned_abs());
-        if dx > radius || dy > radius {
-            return None;
-        }
-        // Both are at most 1,023, so that the squares are exact in f32.
-        #[allow(clippy::cast_precision_loss, reason = "dx² + dy² < 2²⁴")]
-        let r2 = dx.saturating_mul(dx).saturating_add(dy.saturating_mul(dy)) as f32;
-        Some(libm::sqrtf(r2) * self.header().pitch_mm)
+        self.header().distance_mm(dx, dy)
     }
 
     /// Diffuse reflectance Rd(x_i, x_o) in mm⁻², linear Rec. 709, between pixels given as [column, row] (eq. 1).

@@ -3,8 +3,10 @@
 mod addressing;
 pub mod basis;
 mod evaluate;
+mod exp2;
 pub mod layout;
 mod planes;
+mod profile_table;
 mod reader;
 mod rows;
 mod values;
@@ -14,5 +16,6 @@ pub use basis::SeparableBasis;
 pub use evaluate::{Knot, LocalProfile};
 pub use layout::{BssrdfHeader, Coding};
 pub use planes::{BaseMaterials, BssrdfModel, Mixture, Mixtures, PerPixelProfiles, Profiles};
+pub use profile_table::ProfileTable;
 pub use reader::Bssrdf;
 pub(crate) use rows::BssrdfRows;
