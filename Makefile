@@ -21,6 +21,7 @@ test:
 	scripts/test
 
 check-targets:
+	scripts/cortex-m
 	scripts/check-targets
 
 android:

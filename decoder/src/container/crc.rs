@@ -39,7 +39,7 @@ static TABLES: Tables = tables();
 /// CRC-32 of `bytes`.
 #[must_use]
 pub fn crc32(bytes: &[u8]) -> u32 {
-    let mut crc = Crc32::default();
+    let mut crc = Crc32::NEW;
     crc.update(bytes);
     crc.value()
 }
@@ -48,13 +48,10 @@ pub fn crc32(bytes: &[u8]) -> u32 {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crc32(u32);
 
-impl Default for Crc32 {
-    fn default() -> Self {
-        Self(u32::MAX)
-    }
-}
-
 impl Crc32 {
+    /// CRC-32 of nothing yet.
+    pub(crate) const NEW: Self = Self(u32::MAX);
+
     /// Takes in the next bytes.
     pub(crate) fn update(&mut self, bytes: &[u8]) {
         let [t0, t1, t2, t3, t4, t5, t6, t7] = &TABLES;

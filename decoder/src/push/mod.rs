@@ -104,13 +104,13 @@ impl<const N: usize> Default for PushReader<N> {
 impl<const N: usize> PushReader<N> {
     /// Reader at the start of a file, which compares CRCs.
     #[must_use]
-    pub fn new() -> Self {
+    pub const fn new() -> Self {
         Self::with_crc(Crc::Check)
     }
 
     /// [`Self::new`] with a choice about the sections' CRC-32.
     #[must_use]
-    pub fn with_crc(crc: Crc) -> Self {
+    pub const fn with_crc(crc: Crc) -> Self {
         Self { buffer: Vec::new(), state: State::new(crc), failed: None }
     }
 
@@ -137,7 +137,7 @@ impl<const N: usize> PushReader<N> {
     ///
     /// # Errors
     /// [`ReadError::Truncated`] where some are missing, and the error that [`Self::push`] has given.
-    pub fn finish(self) -> Result<(), ReadError> {
+    pub fn finish(&self) -> Result<(), ReadError> {
         self.failed.map_or(Ok(()), Err).and_then(|()| self.state.end(&self.buffer))
     }
 }

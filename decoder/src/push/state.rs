@@ -36,8 +36,8 @@ pub(super) struct State {
 }
 
 impl State {
-    pub(super) fn new(crc: Crc) -> Self {
-        let sum = Crc32::default();
+    pub(super) const fn new(crc: Crc) -> Self {
+        let sum = Crc32::NEW;
         let (start, plan, fault) = (None, None, None);
         Self { crc, passed: 0, start, section: 0, sum, at: 0, row: 0, is_last: false, plan, fault }
     }
@@ -93,7 +93,7 @@ impl State {
                 return Ok(None);
             }
             self.plan = Some(Plan::Header(header_section(Table::parse(buffer, &start)?)?));
-            self.sum = Crc32::default();
+            self.sum = Crc32::NEW;
         }
         Ok(Some((start, header_end)))
     }
@@ -181,7 +181,7 @@ impl State {
     /// Goes on to the next section.
     fn next_section(&mut self) {
         self.section = self.section.saturating_add(1);
-        (self.sum, self.at, self.row, self.is_last) = (Crc32::default(), 0, 0, false);
+        (self.sum, self.at, self.row, self.is_last) = (Crc32::NEW, 0, 0, false);
     }
 
     /// Fills the buffer to a length, as far as there are bytes.
