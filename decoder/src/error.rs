@@ -124,6 +124,7 @@ pub enum ReadError {
         len: u32,
     },
     /// A section stands before the one that says what its rows are, which [`PushReader`](crate::push::PushReader) must know by then.
+    #[cfg(feature = "push")]
     OutOfOrder {
         /// The section.
         section: Section,
@@ -131,6 +132,7 @@ pub enum ReadError {
         needs: Section,
     },
     /// The buffer of a [`PushReader`](crate::push::PushReader) is too small for a row of the file, or for its section table.
+    #[cfg(feature = "push")]
     BufferTooSmall {
         /// The section that the row belongs to.
         section: Section,
@@ -181,9 +183,11 @@ impl fmt::Display for ReadError {
             Self::IndexOutOfRange { section, offset, index, len } => {
                 write!(f, "{section}: byte {offset}: index {index}, but the table has {len} entries")
             }
+            #[cfg(feature = "push")]
             Self::OutOfOrder { section, needs } => write!(f, "{section}: stands before {needs}, which is needed first"),
+            #[cfg(feature = "push")]
             Self::BufferTooSmall { section, need_bytes, have_bytes } => {
-                write!(f, "{section}: a row takes a buffer of {need_bytes} bytes, there are {have_bytes}")
+                write!(f, "{section}: takes a buffer of {need_bytes} bytes, there are {have_bytes}")
             }
         }
     }

@@ -32,7 +32,7 @@
 //! ```
 //!
 //! The feature `alloc` adds what allocates: [`FactoredBtf::expand`] needs buffers from its caller, `expand_in` takes them
-//! from the heap. The feature `transfer` adds [`Transfer`], scattering precomputed for the vertices of a mesh; without it such files
+//! from the heap. The feature `push` adds `push::PushReader`, which reads files from bytes as they come within a buffer of a fixed size, and `bssrdf::ProfileTable`. The feature `transfer` adds [`Transfer`], scattering precomputed for the vertices of a mesh; without it such files
 //! are of unknown content.
 #![no_std]
 #![forbid(unsafe_code)]
@@ -56,6 +56,7 @@ mod error;
 mod family;
 mod file;
 pub mod kernel;
+#[cfg(feature = "push")]
 pub mod push;
 mod section;
 #[cfg(feature = "transfer")]
@@ -67,6 +68,7 @@ pub use error::ReadError;
 pub use family::Family;
 pub use file::{Content, File};
 pub use kernel::Kernel;
+#[cfg(feature = "push")]
 pub use push::PushReader;
 pub use section::Section;
 #[cfg(feature = "transfer")]

@@ -1,4 +1,5 @@
 //! The row that the example for microcontrollers draws, against the albedo that a whole file gives.
+#![cfg(feature = "push")]
 
 mod common;
 #[path = "../examples/microcontroller/row.rs"]

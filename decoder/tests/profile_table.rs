@@ -1,4 +1,5 @@
 //! Profiles expanded to the distances of a window against the evaluation of a file.
+#![cfg(feature = "push")]
 
 mod common;
 

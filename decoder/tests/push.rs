@@ -1,5 +1,5 @@
 //! The reader of pushed bytes against the reader of whole files: the same rows, the same refusals, whatever the chunks.
-#![cfg(feature = "transfer")]
+#![cfg(all(feature = "push", feature = "transfer"))]
 
 mod common;
 

@@ -11,6 +11,7 @@ mod grid;
 pub mod layout;
 mod material;
 pub mod nested;
+#[cfg(feature = "push")]
 mod rows;
 
 pub use catalog::{Catalog, Texel};

@@ -1,7 +1,6 @@
 //! File header and section table (`FORMAT.md`, section 1).
 
 use super::record::{Field, record};
-use crate::error::ReadError;
 use crate::section::Section;
 
 /// First eight bytes of every file.
@@ -69,21 +68,6 @@ impl Entry {
     pub(crate) fn from_bytes(bytes: &[u8; ENTRY_BYTES]) -> Self {
         let EntryRecord { kind, crc, offset, length } = EntryRecord::from_bytes(bytes);
         Self { section: Section::from_kind(kind), crc, offset, length }
-    }
-
-    /// Refuses a section that does not have `need_bytes`.
-    pub(crate) fn sized(&self, need_bytes: u64) -> Result<(), ReadError> {
-        if self.length == need_bytes { Ok(()) } else { Err(self.wrong_size(need_bytes)) }
-    }
-
-    /// Error of a section that must have another size.
-    pub(crate) fn wrong_size(&self, need_bytes: u64) -> ReadError {
-        ReadError::WrongSize { section: self.section, need_bytes, have_bytes: self.length }
-    }
-
-    /// Error of a section that stands before one that it depends on.
-    pub(crate) fn out_of_order(&self, needs: Section) -> ReadError {
-        ReadError::OutOfOrder { section: self.section, needs }
     }
 
     /// First byte after the section; saturates, so compare it before use.

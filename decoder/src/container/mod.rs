@@ -4,7 +4,7 @@
 
 pub mod bits;
 pub mod bytes;
-mod crc;
+pub(crate) mod crc;
 mod header;
 pub(crate) mod index;
 mod metadata;
@@ -13,7 +13,6 @@ pub(crate) mod record;
 pub(crate) mod sections;
 pub(crate) mod table;
 
-pub(crate) use crc::Crc32;
 pub use crc::crc32;
 pub use header::{ENTRY_BYTES, Entry, FILE_HEADER_BYTES, MAGIC, MAJOR, MAX_SECTIONS, MINOR, file_header};
 pub use metadata::{MAX_KEY_BYTES, MAX_VALUE_BYTES, Metadata, entry_header};

@@ -37,6 +37,7 @@ impl<'a> Sections<'a> {
     }
 
     /// A section that must have `need_bytes`.
+    #[inline(never)]
     pub(crate) fn sized(&self, section: Section, need_bytes: u64) -> Result<SectionBytes<'a>, ReadError> {
         self.any(section)?.sized(need_bytes)
     }

@@ -17,6 +17,8 @@ pub const MAX_TERMS: u8 = 6;
 pub const TAPS: [u8; 2] = [5, 65];
 /// Smallest and largest number of nodes of the tail.
 pub const TAIL_NODES: [u16; 2] = [2, 1_024];
+/// Bytes of a node of the tail.
+pub(crate) const TAIL_NODE_BYTES: u64 = 12;
 /// Smallest and largest radius in mm.
 pub const RADII_MM: [f32; 2] = [1e-6, 1e6];
 /// Smallest and largest variance in mm².
@@ -148,7 +150,7 @@ impl KernelHeader {
             Section::KernelHeader => Saturating(HEADER_BYTES as u64),
             Section::KernelOffsets => side * F32,
             Section::KernelWeights => terms * side * RGB * F32,
-            Section::KernelTail => nodes * RGB * F32,
+            Section::KernelTail => nodes * Saturating(TAIL_NODE_BYTES),
             Section::TwoGaussians => RGB * RGB * F32,
             _ => Saturating(0),
         };

@@ -143,24 +143,24 @@ pub(super) fn offsets(section: SectionBytes<'_>, radius_mm: f32) -> Result<F32Le
 
 /// Rows of rgb that begin within 0 to 1, never rise and end with 0.
 pub(crate) fn tail(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
-    let mut node = TAIL_START;
-    let last = (section.bytes.len() / TAIL_NODE_BYTES).saturating_sub(1);
-    for (k, bytes) in section.bytes.chunks_exact(TAIL_NODE_BYTES).enumerate() {
-        let origin = section.origin.at_item(k, TAIL_NODE_BYTES);
-        node = tail_node(SectionBytes { origin, bytes }, node, k == last)?;
-    }
-    Ok(F32Le::new(section.bytes))
+    tail_after(section, TAIL_START, true)
 }
 
-/// Bytes of a node of a tail.
-pub(crate) const TAIL_NODE_BYTES: usize = RGB * size_of::<f32>();
 /// What the first node of a tail may not exceed.
 pub(crate) const TAIL_START: [f32; 3] = [1.0; 3];
 
-/// Node of a tail, which does not exceed the one before it; the last is 0.
-pub(crate) fn tail_node(node: SectionBytes<'_>, before: [f32; 3], is_last: bool) -> Result<[f32; 3], ReadError> {
-    let most = if is_last { [0.0; 3] } else { before };
-    Ok(checked(node, &mut |k, _| [0.0, most.get(k).copied().unwrap_or(0.0)])?.rgb_at(0))
+/// Nodes of a tail, none of which exceeds the one before it; the last of all is 0.
+pub(crate) fn tail_after(
+    section: SectionBytes<'_>,
+    mut before: [f32; RGB],
+    has_last: bool,
+) -> Result<F32Le<'_>, ReadError> {
+    let last = if has_last { F32Le::new(section.bytes).len().saturating_sub(RGB) } else { usize::MAX };
+    checked(section, &mut |k, value| {
+        let [red, green, blue] = before;
+        before = [green, blue, value];
+        [0.0, if k < last { red } else { 0.0 }]
+    })
 }
 
 impl TwoGaussians {

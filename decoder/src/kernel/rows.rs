@@ -1,10 +1,8 @@
 //! Rows of a kernel's sections as they pass, checked with what checks whole sections.
 
 use super::evaluate::add_term;
-use super::layout::KernelHeader;
-use super::reader::{
-    RGB, TAIL_NODE_BYTES, TAIL_START, TwoGaussians, check_energy, checked_weights, offsets, tail_node,
-};
+use super::layout::{KernelHeader, TAIL_NODE_BYTES};
+use super::reader::{RGB, TAIL_START, TwoGaussians, check_energy, checked_weights, offsets, tail_after};
 use crate::container::Entry;
 use crate::container::index::row_major;
 use crate::container::origin::Origin;
@@ -12,6 +10,9 @@ use crate::container::table::Table;
 use crate::error::ReadError;
 use crate::push::rows::{Arrived, Rows, Taken};
 use crate::section::Section;
+
+/// Bytes of a tap's weights.
+const TAP_BYTES: u64 = 12;
 
 /// Header of a kernel, and sums over what has passed.
 #[derive(Clone, Copy, Debug)]
@@ -61,8 +62,8 @@ impl Rows for KernelRows {
 
     fn row_bytes(&self, entry: &Entry, _: u64) -> Result<u64, ReadError> {
         Ok(match entry.section {
-            Section::KernelWeights => row_major(self.header.side(), TAIL_NODE_BYTES, 0) as u64,
-            Section::KernelTail => TAIL_NODE_BYTES as u64,
+            Section::KernelWeights => (self.header.side() as u64).saturating_mul(TAP_BYTES),
+            Section::KernelTail => TAIL_NODE_BYTES,
             // Few numbers, one row.
             _ => entry.length,
         })
@@ -81,7 +82,7 @@ impl Rows for KernelRows {
                 self.check_energy()?;
             }
             Section::KernelTail => {
-                self.tail = tail_node(row, self.tail, arrived.is_last())?;
+                self.tail = tail_after(row, self.tail, arrived.is_last())?.rgb_at(0);
                 if arrived.at == 0 {
                     self.reflectance = self.tail;
                 }

@@ -6,6 +6,7 @@ use crate::container::origin::Origin;
 use crate::container::sections::SectionBytes;
 use crate::container::table::Table;
 use crate::error::ReadError;
+use crate::section::Section;
 
 /// Bytes of the pieces of what has no rows, pairs of bytes and codes of bits; the last may have fewer.
 const PIECE_BYTES: u64 = 128;
@@ -65,5 +66,22 @@ impl<'r> Arrived<'r> {
     /// Whether the row is the last of its section.
     pub(crate) fn is_last(&self) -> bool {
         self.end() >= self.entry.length
+    }
+}
+
+impl Entry {
+    /// Refuses a section that does not have `need_bytes`.
+    pub(crate) fn sized(&self, need_bytes: u64) -> Result<(), ReadError> {
+        if self.length == need_bytes { Ok(()) } else { Err(self.wrong_size(need_bytes)) }
+    }
+
+    /// Error of a section that must have another size.
+    pub(crate) fn wrong_size(&self, need_bytes: u64) -> ReadError {
+        ReadError::WrongSize { section: self.section, need_bytes, have_bytes: self.length }
+    }
+
+    /// Error of a section that stands before one that it depends on.
+    pub(crate) fn out_of_order(&self, needs: Section) -> ReadError {
+        ReadError::OutOfOrder { section: self.section, needs }
     }
 }

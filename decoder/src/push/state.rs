@@ -3,8 +3,9 @@
 use super::piece::Piece;
 use super::plan::Plan;
 use super::rows::Arrived;
+use crate::container::crc::Crc32;
 use crate::container::table::{Start, Table, truncated};
-use crate::container::{Crc, Crc32, Entry, FILE_HEADER_BYTES};
+use crate::container::{Crc, Entry, FILE_HEADER_BYTES};
 use crate::detect::header_section;
 use crate::error::ReadError;
 use crate::section::Section;

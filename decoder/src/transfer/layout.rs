@@ -3,7 +3,7 @@
 use crate::container::record::{Field, record};
 use crate::container::sections::SectionBytes;
 use crate::error::ReadError;
-use crate::kernel::layout::{LINEAR_REC709, MAX_ETA, RADII_MM, TAIL_NODES};
+use crate::kernel::layout::{LINEAR_REC709, MAX_ETA, RADII_MM, TAIL_NODE_BYTES, TAIL_NODES};
 use crate::section::Section;
 use core::mem::offset_of;
 use core::num::Saturating;
@@ -192,7 +192,7 @@ impl TransferHeader {
             Section::ClusterMeans => clusters * values * of(2),
             Section::ClusterBases => clusters * components * values,
             Section::VertexCodes => of(self.vertices.into()) * of(self.record_bytes() as u64),
-            Section::KernelTail => of(self.tail_nodes.into()) * of(3) * F32,
+            Section::KernelTail => of(self.tail_nodes.into()) * of(TAIL_NODE_BYTES),
             _ => of(0),
         };
         bytes.0

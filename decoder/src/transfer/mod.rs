@@ -3,10 +3,12 @@
 mod evaluate;
 pub mod layout;
 mod reader;
+#[cfg(feature = "push")]
 mod rows;
 mod weights;
 
 pub use layout::TransferHeader;
 pub use reader::Transfer;
+#[cfg(feature = "push")]
 pub(crate) use rows::TransferRows;
 pub use weights::LightWeights;

@@ -5,7 +5,8 @@ use super::reader::{check_clusters, checked_ranges, unit_vectors};
 use crate::container::Entry;
 use crate::container::table::Table;
 use crate::error::ReadError;
-use crate::kernel::reader::{TAIL_NODE_BYTES, TAIL_START, tail_node};
+use crate::kernel::layout::TAIL_NODE_BYTES;
+use crate::kernel::reader::{TAIL_START, tail_after};
 use crate::push::rows::{Arrived, Rows, Taken};
 use crate::section::Section;
 
@@ -41,7 +42,7 @@ impl Rows for TransferRows {
             Section::ClusterRanges => (self.header.components() as u64).saturating_add(1).saturating_mul(RANGE_BYTES),
             Section::ClusterMeans => lights.saturating_mul(2),
             Section::VertexCodes => self.header.record_bytes() as u64,
-            Section::KernelTail => TAIL_NODE_BYTES as u64,
+            Section::KernelTail => TAIL_NODE_BYTES,
             _ => lights,
         })
     }
@@ -52,7 +53,7 @@ impl Rows for TransferRows {
             Section::Lights => drop(unit_vectors(row)?),
             Section::ClusterRanges => drop(checked_ranges(row)?),
             Section::VertexCodes => check_clusters(row, &self.header)?,
-            Section::KernelTail => self.tail = tail_node(row, self.tail, arrived.is_last())?,
+            Section::KernelTail => self.tail = tail_after(row, self.tail, arrived.is_last())?.rgb_at(0),
             _ => {}
         }
         Ok(Taken::Row)

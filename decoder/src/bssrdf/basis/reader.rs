@@ -114,6 +114,7 @@ pub(super) fn check_widths(section: SectionBytes<'_>) -> Result<(), ReadError> {
 }
 
 /// Refuses numbers of larger magnitudes than `most`.
+#[inline(never)]
 pub(super) fn check_magnitudes(section: SectionBytes<'_>, most: f32) -> Result<(), ReadError> {
     for (k, value) in F32Le::new(section.bytes).iter().enumerate() {
         section.origin.at_item(k, size_of::<f32>()).number(0, value, [-most, most])?;

@@ -13,6 +13,7 @@ pub mod layout;
 mod memory;
 pub mod model;
 mod reader;
+#[cfg(feature = "push")]
 mod rows;
 
 pub use evaluate::ExpandedBtf;
@@ -20,4 +21,5 @@ pub use expand::ExpansionBuffers;
 #[cfg(feature = "alloc")]
 pub use memory::ExpansionMemory;
 pub use reader::FactoredBtf;
+#[cfg(feature = "push")]
 pub(crate) use rows::FactoredRows;

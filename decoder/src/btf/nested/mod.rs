@@ -8,6 +8,7 @@ mod offsets;
 mod packed;
 mod piecewise_linear;
 mod reader;
+#[cfg(feature = "push")]
 mod rows;
 mod sampler;
 mod scale;
@@ -17,5 +18,6 @@ mod table;
 pub use codebooks::NestedCodebooks;
 pub use offsets::{CodebookOffsets, PackedTable, StageTables};
 pub use reader::NestedBtf;
+#[cfg(feature = "push")]
 pub(crate) use rows::NestedRows;
 pub use sampler::{Sample, Sampler};

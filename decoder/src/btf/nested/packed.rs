@@ -136,10 +136,10 @@ impl<'a> CodebookSections<'a, '_> {
     }
 
     /// Items of a section, with their indices checked.
-    #[inline(never)]
     pub(super) fn items(self, section: Section) -> Result<Items<'a>, ReadError> {
         let (shape, indices) = self.sizes.table(section, self.grid).ok_or(ReadError::Missing { section })?;
-        let before = usize::try_from(self.sizes.bytes_before(section, shape)).unwrap_or(usize::MAX);
-        shape.checked(self.sized(section)?.from(before), &indices)
+        let before = self.sizes.bytes_before(section, shape);
+        let bytes = self.sections.sized(section, before.saturating_add(shape.bytes()))?;
+        shape.checked(bytes.from(usize::try_from(before).unwrap_or(usize::MAX)), &indices)
     }
 }
