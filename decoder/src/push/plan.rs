@@ -77,8 +77,8 @@ impl Plan {
     pub(super) fn reads(&mut self, entry: &Entry) -> bool {
         match self.rows() {
             Some(rows) => rows.reads(entry),
-            // What may be skipped has lower-case letters; anything else may be rows of the header to come.
-            None => entry.section.is_critical(),
+            // What is known may be rows of the header to come.
+            None => !matches!(entry.section, Section::Other(_) | Section::Metadata),
         }
     }
 

@@ -2,6 +2,8 @@
 #![allow(dead_code, reason = "every test file takes what it needs")]
 
 pub(crate) mod btf;
+#[cfg(feature = "push")]
+pub(crate) mod push;
 
 /// Offsets in the example file, straight from the specification.
 pub(crate) const MODEL: usize = 124;
