@@ -32,8 +32,9 @@
 //! ```
 //!
 //! The feature `alloc` adds what allocates: [`FactoredBtf::expand`] needs buffers from its caller, `expand_in` takes them
-//! from the heap. The feature `push` adds `push::PushReader`, which reads files from bytes as they come within a buffer of a fixed size, and `bssrdf::ProfileTable`. The feature `transfer` adds [`Transfer`], scattering precomputed for the vertices of a mesh; without it such files
-//! are of unknown content.
+//! from the heap. The feature `push` adds `push::PushReader`, which reads files from bytes as they come within a buffer of a fixed size, and
+//! `bssrdf::ProfileTable`. The feature `transfer` adds `Transfer`, scattering precomputed for the vertices of a mesh; without it such files
+//! are refused as those of a newer version.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(

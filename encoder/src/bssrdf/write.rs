@@ -28,11 +28,11 @@ pub(crate) fn file_bytes(header: &BssrdfHeader, half_profiles: bool) -> u64 {
         (Coding::Exact, _) => &[Section::MixtureRatios, Section::BaseIndices],
     };
     let mut lengths = vec![HEADER_BYTES as u64, header.section_bytes(profiles)];
-    lengths.extend(of_pixels.iter().map(|section| header.section_bytes(*section)));
     if header.coding == Coding::Palette {
         let pairs = u64::from(header.base_materials) * u64::from(header.base_materials + 1) / 2;
         lengths.push(2 * pairs.min(MAX_PAIRS.into()).min(header.pixels()));
     }
+    lengths.extend(of_pixels.iter().map(|section| header.section_bytes(*section)));
     container::file_bytes(&lengths)
 }
 
@@ -73,7 +73,7 @@ pub fn mixtures(header: &BssrdfHeader, mixtures: &[Mixture]) -> Vec<(Section, Ve
                 palette_code(number, level(mixture.ratios[0], MAX_CODED_RATIO)).to_le_bytes()
             });
             let codes = codes.collect();
-            vec![(Section::Codes, codes), (Section::Pairs, palette.into_flattened())]
+            vec![(Section::Pairs, palette.into_flattened()), (Section::Codes, codes)]
         }
         (Coding::SmallRatios, _) => {
             let ratios = mixtures.iter().map(|mixture| level(mixture.ratios[0], u8::MAX.into()).to_le_bytes()[0]);
