@@ -3,9 +3,10 @@
 # make check-targets: whether all of it compiles for Windows and Macs, what draws for browsers, and what apps link for Android on 32 bits; the decoder on a Cortex-M4, emulated
 # make android: the libraries for Android, the decoder's tests on other machines by qemu, then an AAR and an APK, and what an app gets; needs the NDK, R8, Maven
 # make android-test: tests of android-demo/ on this machine's Java; says what it needs
+# make fuzz: the decoder's fuzz targets, a minute each; needs cargo-fuzz and a C++ compiler
 # Where there is no graphics card, the first two install Mesa's software drivers with apt-get.
 
-.PHONY: demo test check-targets android android-test
+.PHONY: demo test check-targets android android-test fuzz
 
 subsurf = cargo run --quiet --release --package subsurf-cli --
 study = cargo run --quiet --release --package subsurf-study --
@@ -31,3 +32,6 @@ android:
 
 android-test:
 	scripts/android-jvm
+
+fuzz:
+	scripts/fuzz

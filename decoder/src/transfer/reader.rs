@@ -114,16 +114,12 @@ pub(super) fn checked_ranges(section: SectionBytes<'_>) -> Result<F32Le<'_>, Rea
 
 /// Directions of length 1.
 pub(super) fn unit_vectors(section: SectionBytes<'_>) -> Result<F32Le<'_>, ReadError> {
-    let most = 1.0 + UNIT_TOLERANCE;
+    let range = [1.0 - UNIT_TOLERANCE, 1.0 + UNIT_TOLERANCE];
+    let [_, most] = range;
     let values = checked(section, &mut |_, _| [-most, most])?;
     for k in (0..values.len()).step_by(3) {
         let [x, y, z] = values.rgb_at(k);
-        let rest = 1.0 - x * x - y * y;
-        if (rest - z * z).abs() > UNIT_TOLERANCE {
-            // What x and y leave for z.
-            let most = libm::sqrtf(rest.max(0.0));
-            return Err(section.origin.at_item(k.wrapping_add(2), size_of::<f32>()).bad_number(z, [-most, most]));
-        }
+        section.origin.at_item(k, size_of::<f32>()).number(0, x * x + y * y + z * z, range)?;
     }
     Ok(values)
 }
