@@ -46,6 +46,13 @@ fn container(file: &File<'_>, input: &[u8]) {
         seen.push(entry.section);
     }
     assert!(end <= bytes.len() as u64, "sections end with the file");
+    match container.metadata() {
+        Ok(metadata) => {
+            let text: usize = metadata.map(|(key, value)| key.len() + value.len()).sum();
+            assert!(text <= bytes.len(), "what is said of a file stands in it");
+        }
+        Err(error) => assert!(matches!(error, ReadError::Checksum { section: Section::Metadata, .. }), "{error}"),
+    }
 
     let others = [
         (Bssrdf::parse(input).err(), matches!(file.content(), Content::Bssrdf(_))),

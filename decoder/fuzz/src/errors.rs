@@ -1,8 +1,8 @@
 //! What holds for any error of any input.
 
 use std::fmt::{self, Write};
-use subsurf_decoder::ReadError;
 use subsurf_decoder::container::{MAJOR, MAX_SECTIONS};
+use subsurf_decoder::{ReadError, Section};
 
 /// Longest message.
 const MOST_BYTES: usize = 200;
@@ -28,6 +28,8 @@ pub fn check_error(error: ReadError, input: &[u8]) {
             true
         }
         ReadError::NewerVersion { major, .. } => major != MAJOR,
+        ReadError::NewerSection { section } => matches!(section, Section::Other(_)) && section.is_critical(),
+        ReadError::TwoFamilies { headers: [first, second] } => first != second,
         ReadError::OtherFamily { found, expected } => found != expected,
         ReadError::Truncated { need_bytes, have_bytes, .. } => have_bytes < need_bytes && have_bytes <= length,
         ReadError::SectionCount { count, limit } => limit == MAX_SECTIONS && !(1..=limit).contains(&count),

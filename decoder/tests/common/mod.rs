@@ -5,6 +5,8 @@ pub(crate) mod btf;
 #[cfg(feature = "push")]
 pub(crate) mod push;
 
+use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, Coding};
+
 /// Offsets in the example file, straight from the specification.
 pub(crate) const MODEL: usize = 124;
 pub(crate) const WIDTH: usize = 128;
@@ -135,4 +137,35 @@ pub(crate) fn container(sections: &[(&[u8; 4], Vec<u8>)]) -> Vec<u8> {
     }
     seal_all(&mut file, sections.len());
     file
+}
+
+/// [`container`] of borrowed sections.
+pub(crate) fn assemble(sections: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
+    container(&sections.iter().map(|(kind, bytes)| (*kind, bytes.to_vec())).collect::<Vec<_>>())
+}
+
+/// Numbers as they stand in a file.
+pub(crate) fn floats(values: &[f32]) -> Vec<u8> {
+    values.iter().flat_map(|value| value.to_le_bytes()).collect()
+}
+
+/// Header of the example.
+pub(crate) const HEADER: BssrdfHeader = BssrdfHeader {
+    model: 2,
+    coding: Coding::Exact,
+    addressing: Addressing::Clamp,
+    width: 2,
+    height: 1,
+    window_radius: 1,
+    samples: 2,
+    base_materials: 2,
+    pitch_mm: 0.5,
+    r_max_mm: 1.0,
+    eta: 1.5,
+};
+
+/// BSSRDF of a header and the sections after it.
+pub(crate) fn bssrdf(header: BssrdfHeader, sections: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
+    let header = header.to_bytes();
+    assemble(&[&[(b"BSSR", &header[..])], sections].concat())
 }
