@@ -146,3 +146,67 @@ impl<'a> F16Le<'a> {
         rgb.map_or([0.0; 3], |rgb| rgb.map(|bytes| f16::from_le_bytes(bytes).to_f32()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1, −2, ½, 4, and three bytes that are left over.
+    const SINGLES: [u8; 19] = [0, 0, 0x80, 0x3F, 0, 0, 0, 0xC0, 0, 0, 0, 0x3F, 0, 0, 0x80, 0x40, 9, 9, 9];
+
+    #[test]
+    fn single_precision() {
+        let values = F32Le::new(&SINGLES);
+        assert!(values.iter().eq([1.0, -2.0, 0.5, 4.0]), "all in order");
+        assert_eq!((values.len(), values.is_empty(), F32Le::new(&[1; 3]).is_empty()), (4, false, true));
+        assert_eq!([0, 1, 3, 4].map(|at| values.get(at)), [Some(1.0), Some(-2.0), Some(4.0), None]);
+        assert_eq!(Some(values.as_bytes()), SINGLES.get(..16));
+        assert!(values.bits().eq([0x3F80_0000, -0x4000_0000, 0x3F00_0000, 0x4080_0000]), "their bits");
+        assert_eq!([0, 1, 2].map(|at| values.rgb_at(at)), [[1.0, -2.0, 0.5], [-2.0, 0.5, 4.0], [0.0; 3]]);
+    }
+
+    #[test]
+    fn one_negative_among_many() {
+        // Two blocks of 16 and three more, all 1.
+        let ones = [1.0_f32.to_le_bytes(); 35];
+        let outside = |bits: i32| bits;
+        assert!(!F32Le::new(ones.as_flattened()).any_negative(outside), "none");
+        for (at, other) in (0..35).flat_map(|at| [(at, -1.0_f32), (at, -0.0)]) {
+            let mut values = ones;
+            if let Some(value) = values.get_mut(at) {
+                *value = other.to_le_bytes();
+            }
+            assert!(F32Le::new(values.as_flattened()).any_negative(outside), "{other:?} at {at}");
+        }
+        let zeros = [0; 140];
+        assert!(!F32Le::new(&zeros).any_negative(outside), "0 is not negative");
+        assert!(!F32Le::new(&[]).any_negative(outside), "nothing");
+    }
+
+    #[test]
+    fn sixteen_bits() {
+        let bytes = [0x00, 0x3C, 0x00, 0xC0, 0x00, 0x38, 0x00, 0x44, 9];
+        let (integers, halves) = (U16Le::new(&bytes), F16Le::new(&bytes));
+        let due = [0x3C00, 0xC000, 0x3800, 0x4400];
+        assert!(integers.iter().eq(due) && halves.bits().eq(due), "all in order");
+        assert_eq!([0, 3, 4].map(|at| integers.get(at)), [Some(0x3C00), Some(0x4400), None]);
+        #[cfg(feature = "transfer")]
+        assert!(
+            integers.iter_from(2).eq([0x3800, 0x4400]) && integers.iter_from(5).next().is_none(),
+            "from the third on"
+        );
+        assert_eq!([0, 1, 3, 4].map(|at| halves.get(at)), [Some(1.0), Some(-2.0), Some(4.0), None]);
+        assert_eq!([0, 1, 2].map(|at| halves.rgb_at(at)), [[1.0, -2.0, 0.5], [-2.0, 0.5, 4.0], [0.0; 3]]);
+        assert_eq!((Some(integers.as_bytes()), Some(halves.as_bytes())), (bytes.get(..8), bytes.get(..8)));
+    }
+
+    #[test]
+    fn slices_of_a_file() {
+        let bytes = [1, 2, 3];
+        assert_eq!(slice_at(&bytes, 1, 2), Some(&[2, 3][..]));
+        assert_eq!(slice_at(&bytes, 3, 0), Some(&[][..]));
+        for (offset, length) in [(1, 3), (4, 0), (u64::MAX, 1), (1, u64::MAX)] {
+            assert_eq!(slice_at(&bytes, offset, length), None, "{offset}, {length}");
+        }
+    }
+}
