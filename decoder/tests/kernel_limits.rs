@@ -184,9 +184,12 @@ fn weights_stay_within_16_and_keep_the_energy() {
         assert_eq!(found, at.map(|at| (Section::KernelWeights, at)), "{weights:?}");
     }
     let step = 1.0_f32 / 1024.0;
-    for (reflectance, is_allowed) in
-        [(0.25 + step, true), (0.25 - step, true), ((0.25_f32 + step).next_up(), false), ((0.25_f32 - step).next_down(), false)]
-    {
+    for (reflectance, is_allowed) in [
+        (0.25 + step, true),
+        (0.25 - step, true),
+        ((0.25_f32 + step).next_up(), false),
+        ((0.25_f32 - step).next_down(), false),
+    ] {
         let found = refused_at(&Numbers { tail: [reflectance, 0.0], ..NUMBERS }, &[]);
         assert_eq!(found, (!is_allowed).then_some((Section::KernelWeights, 0)), "{reflectance}");
     }

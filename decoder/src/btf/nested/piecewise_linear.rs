@@ -8,6 +8,8 @@ type Values = [[f32; 4]; MAX_NODES as usize / 4];
 const ZEROS: Values = [[0.0; 4]; MAX_NODES as usize / 4];
 /// Share of all draws that fall anywhere with the same density, so that it is nowhere 0.
 const ANYWHERE: f32 = 1.0 / 32.0;
+/// Integral above which its reciprocal is finite and its shares are normal numbers; those of files are at least 2⁻⁷² but where a weight is next to none.
+const LEAST: f32 = f32::MIN_POSITIVE / f32::EPSILON;
 
 /// Axis with equidistant nodes, and pieces beyond the outer ones.
 #[derive(Clone, Copy, Debug)]
@@ -88,9 +90,9 @@ impl<'a> PiecewiseLinear<'a> {
         let (first, last) = ends(nodes);
         let integral = self.axis.step * (sum - 0.5 * (first + last)) + self.axis.end * (first + last);
         const REST: f32 = 1.0 - ANYWHERE;
-        // Nothing but zeros, as in a hostile file: all places are alike.
+        // Nothing but zeros, as in a hostile file, or what has no normal shares: all places are alike.
         let (all, floor) =
-            if integral > 0.0 { (integral * (1.0 / REST), integral * (ANYWHERE / REST)) } else { (1.0, 1.0) };
+            if integral > LEAST { (integral * (1.0 / REST), integral * (ANYWHERE / REST)) } else { (1.0, 1.0) };
         (self.integral, self.per_integral, self.floor) = (all, 1.0 / all, floor * self.axis.even);
     }
 
@@ -170,5 +172,31 @@ fn pair(nodes: &[f32], node: u32) -> (f32, f32) {
     match nodes.get(node as usize..) {
         Some([low, high, ..]) => (*low, *high),
         _ => (0.0, 0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn densities_are_finite_and_above_0_whatever_the_values() {
+        let axis = Axis::new(3, 0.9, 1.0);
+        for value in [0.0, f32::from_bits(1), 1e-40, f32::MIN_POSITIVE, LEAST, 1e-20, 1.0, 1e30] {
+            for values in [[value, 0.0, 0.0], [0.0, value, 0.0], [0.0, 0.0, value], [value; 3]] {
+                let mut density = PiecewiseLinear::over(&axis);
+                for (node, value) in density.values.as_flattened_mut().iter_mut().zip(values) {
+                    *node = value;
+                }
+                density.integrate();
+                for part in [0.0, f32::from_bits(1), 1e-20, 0.3, 0.5, 1.0] {
+                    let drawn = density.draw(part);
+                    assert!(drawn.density.is_normal() && drawn.density > 0.0, "{values:?}, {part}: {drawn:?}");
+                    assert!((0.0..=2.0).contains(&drawn.at), "{values:?}, {part}: {drawn:?}");
+                    let at = density.at(drawn.at);
+                    assert!((at / drawn.density - 1.0).abs() < 1e-3, "{values:?}, {part}: {drawn:?}, {at}");
+                }
+            }
+        }
     }
 }
