@@ -1,4 +1,5 @@
 //! Separable bases: the section's numbers and limits, and the cascade by its formulas.
+#![allow(clippy::cast_possible_truncation, reason = "numbers of tests are small")]
 
 mod common;
 

@@ -15,8 +15,8 @@ fn header_bytes(sections: usize) -> usize {
 }
 
 /// File of so many sections without bytes that readers skip.
-fn empty_sections(count: usize) -> Vec<u8> {
-    let kinds: Vec<[u8; 4]> = (0..count).map(|k| [b'x', b'0', b'0' + (k / 10) as u8, b'0' + (k % 10) as u8]).collect();
+fn empty_sections(count: u8) -> Vec<u8> {
+    let kinds: Vec<[u8; 4]> = (0..count).map(|k| [b'x', b'0', b'0' + k / 10, b'0' + k % 10]).collect();
     assemble(&kinds.iter().map(|kind| (kind, &[][..])).collect::<Vec<_>>())
 }
 
@@ -24,12 +24,12 @@ fn empty_sections(count: usize) -> Vec<u8> {
 fn one_to_64_sections() {
     for count in [1, 2, 64] {
         let file = empty_sections(count);
-        assert_eq!(file.len(), header_bytes(count));
+        assert_eq!(file.len(), header_bytes(count.into()));
         let container = Container::parse(&file).unwrap();
-        assert_eq!((container.entries().count(), container.file().len()), (count, file.len()));
+        assert_eq!((container.entries().count(), container.file().len()), (count.into(), file.len()));
     }
     for count in [0, 65] {
-        let due = ReadError::SectionCount { count: count as u32, limit: MAX_SECTIONS };
+        let due = ReadError::SectionCount { count: count.into(), limit: MAX_SECTIONS };
         assert_eq!(Container::parse(&empty_sections(count)).unwrap_err(), due);
     }
 }

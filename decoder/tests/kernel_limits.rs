@@ -1,4 +1,5 @@
 //! Limits and values of kernels: what is allowed up to the last value, and what the numbers stand for.
+#![allow(clippy::cast_possible_truncation, reason = "numbers of tests are small")]
 
 mod common;
 

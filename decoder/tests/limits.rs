@@ -1,4 +1,5 @@
 //! Limits of BSSRDFs: what is allowed up to the last value, and refused from the next one on, by field, size, value and index.
+#![allow(clippy::cast_possible_truncation, reason = "numbers of tests are small")]
 
 mod common;
 
@@ -141,7 +142,8 @@ fn logarithms() {
     }
     for value in [most.next_up(), (-most).next_down(), f32::INFINITY, f32::NEG_INFINITY, f32::MAX] {
         for at in [0, 5, 11] {
-            let mut profiles = [0.0; 12];
+            // The others are as large as they may be.
+            let mut profiles = [most; 12];
             profiles[at] = value;
             let offset = first + 4 * at as u64;
             let due = ReadError::BadNumber { section: Section::BaseProfiles, offset, value, min: -87.0, max: 87.0 };
@@ -153,7 +155,7 @@ fn logarithms() {
         [(0x5570_u16, true), (0xD570, true), (0x5571, false), (0xD571, false), (0x7C00, false), (0xFE00, false)]
     {
         for at in [0, 7, 11] {
-            let mut profiles = [0_u16; 12];
+            let mut profiles = [0x5570_u16; 12];
             profiles[at] = bits;
             let bytes: Vec<u8> = profiles.iter().flat_map(|bits| bits.to_le_bytes()).collect();
             match with_profiles(b"PRFH", &bytes) {

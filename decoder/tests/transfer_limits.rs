@@ -1,5 +1,6 @@
 //! Limits and values of transfers: what is allowed up to the last value, and what the numbers stand for.
 #![cfg(feature = "transfer")]
+#![allow(clippy::cast_possible_truncation, reason = "numbers of tests are small")]
 
 mod common;
 

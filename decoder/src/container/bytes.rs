@@ -178,6 +178,9 @@ mod tests {
             }
             assert!(F32Le::new(values.as_flattened()).any_negative(outside), "{other:?} at {at}");
         }
+        let mut two = ones;
+        two.iter_mut().step_by(34).for_each(|value| *value = (-1.0_f32).to_le_bytes());
+        assert!(F32Le::new(two.as_flattened()).any_negative(outside), "the first and the last");
         let zeros = [0; 140];
         assert!(!F32Le::new(&zeros).any_negative(outside), "0 is not negative");
         assert!(!F32Le::new(&[]).any_negative(outside), "nothing");
