@@ -233,6 +233,12 @@ fn two_gaussians_in_their_ranges() {
         numbers[at] = value;
         assert_eq!(refused_at(&NUMBERS, &numbers), Some((Section::TwoGaussians, at as u64)), "{value} as number {at}");
     }
+    // Each far variance goes by the near one of its own channel.
+    let narrow_blue = [0.0, 0.5, 1.0, 1.0, 2.0, 1e-12, 1.0, 2.0, 1e-12];
+    assert_eq!(refused_at(&NUMBERS, &narrow_blue), None, "blue is narrower than red");
+    let mut narrow_red = narrow_blue;
+    narrow_red[6] = 1.0_f32.next_down();
+    assert_eq!(refused_at(&NUMBERS, &narrow_red), Some((Section::TwoGaussians, 6)), "below the near one");
     let mut equal = whole;
     equal[7] = 2.0;
     assert_eq!(refused_at(&NUMBERS, &equal), None, "of one width");
