@@ -73,6 +73,30 @@ fn nested_values_and_albedos() {
 }
 
 #[test]
+fn texels_are_numbered_by_material_level_and_row() {
+    // Sizes and levels of three materials.
+    let bytes = read("nested_materials.subsurf");
+    let btf = NestedBtf::parse(&bytes).unwrap();
+    let mut number = 0;
+    for (at, material) in btf.materials().enumerate() {
+        for level in 0..material.levels {
+            let [width, height] = [material.width, material.height].map(|side| (i32::from(side) >> level).max(1));
+            assert_eq!(material.size(level).map(u32::cast_signed), [width, height], "level {level}");
+            for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
+                for [x, y] in [[x, y], [x - width, y + 5 * height]] {
+                    let texel = btf.texel(at, level, [x, y]).expect("a texel");
+                    assert_eq!(texel.number(), number, "material {at}, level {level}, {x}, {y}");
+                }
+                number += 1;
+            }
+        }
+        assert_eq!(btf.texel(at, material.levels, [0, 0]), None, "no level");
+    }
+    assert_eq!(number, btf.catalog().texels());
+    assert_eq!(btf.texel(btf.materials().count(), 0, [0, 0]), None, "no material");
+}
+
+#[test]
 fn factored_values() {
     for name in FACTORED {
         let bytes = read(&format!("{name}.subsurf"));

@@ -28,7 +28,7 @@ fn mixture(file: &[u8], pixel: usize) -> Mixture {
 
 /// Σ t P̂_b of a node.
 fn blended(parts: &[(usize, f32)], node: usize) -> [f64; 3] {
-    [0, 1, 2].map(|c| parts.iter().map(|(b, t)| f64::from(*t) * f64::from(PROFILES[6 * b + 3 * node + c])).sum())
+    [0, 1, 2].map(|c| parts.iter().map(|(b, t)| f64::from(t * PROFILES[6 * b + 3 * node + c])).sum())
 }
 
 #[test]

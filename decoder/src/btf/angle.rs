@@ -54,4 +54,13 @@ mod tests {
         }
         assert_eq!(atan2(0.0, 0.0).to_bits(), 0.0_f32.to_bits(), "no direction");
     }
+
+    #[test]
+    fn sines_and_cosines_are_those_of_libm() {
+        for angle in (-1_000..=1_000_i16).map(|k| f32::from(k) * (FRAC_PI_2 / 1_000.0)) {
+            let [sin, cos] = sin_cos(angle);
+            let (error, of_cos) = (sin - libm::sinf(angle), cos - libm::cosf(angle));
+            assert!(error.abs() < 2e-7 && of_cos.abs() < 2e-7 && cos >= 0.0, "{angle}: {error:e}, {of_cos:e}");
+        }
+    }
 }

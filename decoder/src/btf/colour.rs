@@ -123,11 +123,20 @@ mod tests {
         let bright = ColourEncoding::LogLuv { toe: 0.01, peak: 50.0 };
         let [l, ..] = bright.encode([50.0; 3]);
         assert!((l - 1.0).abs() < 1e-3, "{l}: the peak");
+        let [l, u, v] = bright.encode([0.0; 3]);
+        assert_eq!(([l.to_bits()], [u, v]), ([0], WHITE_UV), "black has the chroma of white");
+        let octaves = ColourEncoding::LogLuv { toe: 1.0, peak: 3.0 }.octaves();
+        assert!((octaves - 2.0).abs() < 1e-6, "{octaves}: log2(1 + 3)");
     }
 
     #[test]
     fn display_values_become_linear() {
         let [mid, ..] = ColourEncoding::Display { white: 2.0 }.linear([0.5; 3]);
         assert!((mid - 2.0 * 0.214_041).abs() < 1e-5, "{mid}");
+        // The straight part ends at 0.04045.
+        let low = ColourEncoding::Display { white: 1.0 }.linear([0.02, 0.040_45, 0.0405]);
+        for (found, due) in low.into_iter().zip([0.001_547_988, 0.003_130_805, 0.003_134_745]) {
+            assert!((found - due).abs() < 1e-8, "{low:?}");
+        }
     }
 }
