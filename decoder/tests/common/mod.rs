@@ -135,6 +135,8 @@ pub(crate) fn container(sections: &[(&[u8; 4], Vec<u8>)]) -> Vec<u8> {
         file.resize(*offset, 0);
         file.extend(bytes);
     }
+    // A header ends with its CRC where there are no sections, too.
+    file.resize(end, 0);
     seal_all(&mut file, sections.len());
     file
 }
