@@ -1,6 +1,6 @@
 # make demo: build, and do everything once: simulate, encode, judge, draw, time; pictures and tables in demo-out/
 # make test: the tests, on Vulkan and on OpenGL ES 3.0
-# make check-targets: whether all of it compiles for Windows and Macs, what draws for browsers, and what apps link for Android on 32 bits; the decoder on a Cortex-M4, emulated
+# make check-targets: whether all of it compiles for Windows and Macs, what draws for browsers, and what apps link for Android on 32 bits; the decoder on a Cortex-M4 and its tests on s390x, emulated
 # make android: the libraries for Android, the decoder's tests on other machines by qemu, then an AAR and an APK, and what an app gets; needs the NDK, R8, Maven
 # make android-test: tests of android-demo/ on this machine's Java; says what it needs
 # make fuzz: the decoder's fuzz targets, a minute each; needs cargo-fuzz and a C++ compiler
@@ -23,6 +23,7 @@ test:
 
 check-targets:
 	scripts/cortex-m
+	scripts/emulated s390x
 	scripts/check-targets
 
 android:

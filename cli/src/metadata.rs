@@ -1,14 +1,14 @@
 //! Metadata of files that are written: `--meta KEY=VALUE`.
 
 use subsurf_encoder::rate::Target;
-use subsurf_encoder::{metadata_bytes, with_metadata};
+use subsurf_encoder::{Error, metadata_bytes, with_metadata};
 
 use crate::program::failure::bad_request;
 
 /// What the file says of itself.
 #[derive(clap::Args)]
 pub(crate) struct MetaArgs {
-    /// Write into the file who made what: name, author, licence, source, tool, or any other key. Once for each; `subsurf info` shows them
+    /// Write into the file who made what: name, author, licence, source, tool, or any other key. Once for each; an empty value takes a key out. `subsurf info` shows them
     #[arg(long, value_name = "KEY=VALUE", value_parser = entry)]
     meta: Vec<(String, String)>,
 }
@@ -25,6 +25,16 @@ impl MetaArgs {
     /// The same file with the metadata.
     pub(crate) fn added_to(&self, file: Vec<u8>) -> anyhow::Result<Vec<u8>> {
         Ok(if self.meta.is_empty() { file } else { with_metadata(&file, &self.meta)? })
+    }
+
+    /// An error of a search for a file of a size that left room for metadata, which says so.
+    pub(crate) fn explain(&self, error: Error, has_limit: bool) -> anyhow::Error {
+        match metadata_bytes(&self.meta) {
+            Ok(kept) if kept > 0 && has_limit && error.is_callers() => {
+                bad_request(format!("{error}; {kept} bytes of the limit are kept for the metadata of --meta"))
+            }
+            _ => error.into(),
+        }
     }
 
     /// What a target in bytes leaves beside the metadata.

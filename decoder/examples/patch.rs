@@ -1,6 +1,6 @@
 //! Writes a file with nothing but the decoder's records: a patch of 229 × 229 pixels, two base materials in stripes that melt into each other.
 //!
-//! `cargo run --example patch -- FILE`
+//! `cargo run --example patch -- FILE`; without a file it only says what it would write.
 
 use std::error::Error;
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
@@ -21,7 +21,6 @@ fn log_profile(albedo: f32, length_mm: f32, h: u16) -> f32 {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let path = std::env::args().nth(1).ok_or("patch FILE")?;
     let header = BssrdfHeader {
         model: MODEL_2BMPP,
         coding: Coding::Exact,
@@ -62,5 +61,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     file.extend(crc32(&file).to_le_bytes());
     file.extend(sections.into_iter().flat_map(|(_, bytes)| bytes));
     File::parse(&file)?;
-    Ok(std::fs::write(path, file)?)
+    println!("{SIDE} × {SIDE} pixels in {} bytes", file.len());
+    if let Some(path) = std::env::args().nth(1) {
+        std::fs::write(path, file)?;
+    }
+    Ok(())
 }

@@ -11,7 +11,7 @@ use core::fmt;
 pub enum ReadError {
     /// The first eight bytes are not those of a `.subsurf` file.
     NotSubsurf,
-    /// Written by a later, incompatible version of the format.
+    /// Of another major version of the format.
     NewerVersion {
         /// Major version of the file.
         major: u16,
@@ -105,7 +105,7 @@ pub enum ReadError {
         section: Section,
         /// Its first byte.
         offset: u64,
-        /// Its value.
+        /// Its value, or what was computed from the numbers that begin there: a squared length, a sum.
         value: f32,
         /// Smallest value allowed.
         min: f32,
@@ -152,7 +152,9 @@ impl fmt::Display for ReadError {
             Self::NewerVersion { major, minor } => {
                 write!(f, "format version {major}.{minor}; this reader knows version 1")
             }
-            Self::NewerSection { section } => write!(f, "{section}: is not known and must be: made by a newer version"),
+            Self::NewerSection { section } => {
+                write!(f, "{section}: is not known: made by a newer version, or of a family left out")
+            }
             Self::TwoFamilies { headers: [first, second] } => write!(f, "{first} and {second} in one file"),
             Self::OtherFamily { found, expected } => write!(f, "a {found}, not a {expected}"),
             Self::UnknownContent => f.write_str("a .subsurf file whose content this version does not know"),

@@ -1,4 +1,4 @@
-//! Kinds of sections: their four letters and what they hold.
+//! Kinds of sections: their four bytes and what they hold.
 
 use core::fmt;
 
@@ -27,7 +27,7 @@ macro_rules! sections {
         const KINDS: &[([u8; 4], Section)] = &[$($(#[cfg(feature = $feature)])? (*$kind, Section::$name),)*];
 
         impl Section {
-            /// The section of a four-letter kind.
+            /// The section of a kind.
             #[must_use]
             pub fn from_kind(kind: [u8; 4]) -> Self {
                 match kind {
@@ -38,7 +38,7 @@ macro_rules! sections {
                 }
             }
 
-            /// The four letters that stand for this section in the file; the file header has none and gives zeros.
+            /// The four bytes that stand for this section in the file; the file header has none and gives zeros.
             #[must_use]
             pub fn kind(self) -> [u8; 4] {
                 match self {

@@ -93,6 +93,8 @@ fn metadata_is_read_in_order_and_skips_what_is_no_text() {
         &[6, 9, 7, 0],
         "author".as_bytes(),
         "J. Doé".as_bytes(),
+        &[0, 0, 3, 0],
+        b"???",
         &[4, 0, 0, 0],
         b"tool",
         &[5, 0, 9, 0],

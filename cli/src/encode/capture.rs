@@ -176,7 +176,7 @@ pub(super) fn run(args: &FitArgs) -> anyhow::Result<()> {
         let (target, kept) = args.basis.leave_room(target, &capture, args.samples)?;
         let curve = search(&capture, args.samples, args.seed, target, &bars, &mut found).map_err(|error| {
             if kept == 0 || !error.is_callers() {
-                return error.into();
+                return args.meta.explain(error, args.target_bytes.is_some());
             }
             bad_request(format!("{error}; {kept} bytes are kept for the separable basis, which --no-basis leaves out"))
         })?;

@@ -26,7 +26,8 @@ pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>) -> anyhow::Result
             "model": parts.model(), "tone": format!("{:?}", header.encoding), "nodes": nodes, "materials": materials,
             "texel_mm": header.texel_mm, "parts": parts.to_json(), "bytes": bytes.len(),
         });
-        return print_json(args, value, file.container());
+        print_json(value, file.container());
+        return Ok(());
     }
     outln!("{}: BTF in {}, {}", args.file.display(), parts.model(), human(bytes.len() as u64));
     for of in catalog.materials() {
@@ -43,7 +44,8 @@ pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>) -> anyhow::Result
         outln!("  texels of {texel_mm} mm");
     }
     parts.print();
-    print_rest(args, file.container())
+    print_rest(file.container());
+    Ok(())
 }
 
 fn not_a_btf(path: &Path, content: &Content<'_>) -> anyhow::Error {

@@ -8,7 +8,7 @@ use subsurf_viewer::human;
 use super::{Args, print_json, print_rest};
 use crate::outln;
 
-pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>, kernel: &Kernel<'_>) -> anyhow::Result<()> {
+pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>, kernel: &Kernel<'_>) {
     let header = kernel.header();
     let signs: Vec<[f32; 3]> = (0..header.terms.into()).map(|term| kernel.sign(term)).collect();
     if args.json {
@@ -18,7 +18,7 @@ pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>, kernel: &Kernel<'
             "eta": header.eta, "offsets_mm": kernel.offsets().iter().collect::<Vec<_>>(),
             "two_gaussians": kernel.two_gaussians().map(two_gaussians_to_json), "bytes": bytes.len(),
         });
-        return print_json(args, value, file.container());
+        return print_json(value, file.container());
     }
     outln!("{}: separable kernel, {}, {}", args.file.display(), header.method.name(), human(bytes.len() as u64));
     let minus = signs.iter().flatten().any(|sign| *sign < 0.0);
@@ -29,7 +29,7 @@ pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>, kernel: &Kernel<'
     if let Some(TwoGaussians { weight, tau_near, tau_far }) = kernel.two_gaussians() {
         outln!("  two Gaussians: w {weight:?}, τ near {tau_near:?}, far {tau_far:?} mm²");
     }
-    print_rest(args, file.container())
+    print_rest(file.container());
 }
 
 fn two_gaussians_to_json(of: &TwoGaussians) -> Value {

@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 use subsurf_decoder::bssrdf::basis::BasisSize;
 use subsurf_decoder::bssrdf::{BssrdfModel, Coding, Profiles, SeparableBasis};
 use subsurf_decoder::container::Container;
-use subsurf_decoder::{Bssrdf, Content, File};
+use subsurf_decoder::{Bssrdf, Content, File, ReadError};
 use subsurf_encoder::capture::is_btf;
 use subsurf_viewer::read;
 
@@ -40,8 +40,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let file = File::parse(&bytes).map_err(|error| read_error(&args.file, error)).context("not a usable material")?;
     let material = match file.content() {
         Content::Bssrdf(material) => material,
-        Content::Kernel(of) => return kernel::info(args, &bytes, &file, &of),
-        Content::Transfer(of) => return transfer::info(args, &bytes, &file, &of),
+        Content::Kernel(of) => {
+            kernel::info(args, &bytes, &file, &of);
+            return Ok(());
+        }
+        Content::Transfer(of) => {
+            transfer::info(args, &bytes, &file, &of);
+            return Ok(());
+        }
         _ => return btf::info(args, &bytes, &file),
     };
     let container = file.container();
@@ -69,7 +75,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "r_max_mm": header.r_max_mm, "eta": header.eta, "addressing": format!("{:?}", header.addressing).to_lowercase(),
             "basis": material.basis().map(basis_to_json), "bytes": bytes.len(), "sections": sections,
         });
-        return print_json(args, value, container);
+        print_json(value, container);
+        return Ok(());
     }
     outln!("{}: {model}, {}", args.file.display(), human(bytes.len() as u64));
     outln!(
@@ -91,32 +98,55 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Some(basis) => outln!("  {}", basis_line(basis)),
         None => outln!("  no separable basis: `subsurf encode --add-basis FILE` adds one"),
     }
-    print_rest(args, container)
+    print_rest(container);
+    Ok(())
 }
 
 /// Metadata, and kinds, lengths and places of all sections.
-fn print_rest(args: &Args, container: &Container<'_>) -> anyhow::Result<()> {
-    for (key, value) in container.metadata().map_err(|error| read_error(&args.file, error))? {
-        outln!("  {}: {}", printable(key), printable(value));
+fn print_rest(container: &Container<'_>) {
+    match metadata(container) {
+        Ok(entries) => {
+            for (key, value) in entries {
+                outln!("  {}: {}", printable(key), printable(value));
+            }
+        }
+        // The rest of the file is good.
+        Err(error) => outln!("  no metadata: {error}"),
     }
     for entry in container.entries() {
         outln!("  {:<36} {:>10} bytes at {}", entry.section.to_string(), entry.length, entry.offset);
     }
-    Ok(())
 }
 
-/// What is known of a file, with its metadata.
-fn print_json(args: &Args, mut value: Value, container: &Container<'_>) -> anyhow::Result<()> {
-    let metadata = container.metadata().map_err(|error| read_error(&args.file, error))?;
-    value["metadata"] = metadata.map(|(key, value)| (key.to_owned(), Value::from(value))).collect::<Map<_, _>>().into();
+/// What is known of a file, with its metadata; null where that is damaged.
+fn print_json(mut value: Value, container: &Container<'_>) {
+    value["metadata"] = match metadata(container) {
+        Ok(entries) => {
+            entries.into_iter().map(|(key, value)| (key.to_owned(), value.into())).collect::<Map<_, _>>().into()
+        }
+        Err(_) => Value::Null,
+    };
     outln!("{value:#}");
-    Ok(())
 }
 
-/// Text of a file for a terminal, which would obey its control characters.
+/// Keys and values of a file, every key once: the last counts.
+fn metadata<'a>(container: &Container<'a>) -> Result<Vec<(&'a str, &'a str)>, ReadError> {
+    let mut entries: Vec<(&str, &str)> = Vec::new();
+    for entry in container.metadata()? {
+        entries.retain(|(key, _)| *key != entry.0);
+        entries.push(entry);
+    }
+    Ok(entries)
+}
+
+/// Text of a file for a terminal, which would obey its control characters, those that turn the direction of writing among them.
 fn printable(text: &str) -> String {
+    let is_obeyed = |letter: char| {
+        letter.is_control()
+            || matches!(letter, '\u{200B}'..='\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2060}'..='\u{206F}' | '\u{FEFF}')
+    };
     text.chars()
-        .map(|letter| if letter.is_control() { letter.escape_default().to_string() } else { letter.into() })
+        .map(|letter| if is_obeyed(letter) { letter.escape_default().to_string() } else { letter.into() })
         .collect()
 }
 
@@ -138,6 +168,6 @@ pub fn parse<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Bssr
     Bssrdf::parse(bytes).map_err(|error| read_error(path, error)).context("not a usable material")
 }
 
-pub(crate) fn read_error(path: &std::path::Path, source: subsurf_decoder::ReadError) -> subsurf_encoder::Error {
+pub(crate) fn read_error(path: &std::path::Path, source: ReadError) -> subsurf_encoder::Error {
     subsurf_encoder::Error::Read { path: path.to_owned(), source }
 }

@@ -100,7 +100,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let options = Options { channels: if args.grey { 1 } else { 3 }, eta };
     let (bars, began) = (Bars::new(), Instant::now());
     let bytes = match args.target(mesh.positions.len())? {
-        Some(target) => searched(&TransferSource { mesh: &mesh, table: &table, options: &options }, target, &bars)?,
+        Some(target) => {
+            searched(&TransferSource { mesh: &mesh, table: &table, options: &options }, target, args, &bars)?
+        }
         None => {
             let clusters = args.clusters.unwrap_or(Size::of_vertices(mesh.positions.len()).clusters);
             let size = Size { clusters, components: args.components, bits: args.bits };
@@ -137,10 +139,11 @@ impl Args {
 }
 
 /// The file to take; says what is tried.
-fn searched(source: &TransferSource<'_>, target: Target, bars: &Bars) -> anyhow::Result<Vec<u8>> {
+fn searched(source: &TransferSource<'_>, target: Target, args: &Args, bars: &Bars) -> anyhow::Result<Vec<u8>> {
     let _graceful = Graceful::new();
     outln!("rate-distortion curve, e_rms of the worst view and of all, and that of q before it is compressed:");
-    let curve = search(source, target, bars, &mut |point| report::tried(source.mesh.positions.len(), point))?;
+    let curve = search(source, target, bars, &mut |point| report::tried(source.mesh.positions.len(), point))
+        .map_err(|error| args.meta.explain(error, args.target_bytes_per_vertex.is_some()))?;
     if curve.stopped {
         let error = curve.chosen().distortion.total.max;
         outln!("  interrupted: the best file so far is written, of {error:.2e} in the worst view");

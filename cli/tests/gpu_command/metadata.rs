@@ -26,6 +26,20 @@ fn files_say_who_made_them() {
 }
 
 #[test]
+fn damaged_metadata_leaves_the_file_good() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    succeed(folder, &format!("{KERNEL} --meta author=Ada --meta source=\u{202e}gpj"));
+    assert!(succeed(folder, "info k.subsurf").out.contains("  source: \\u{202e}gpj\n"), "no letter turns the line");
+    let mut bytes = std::fs::read(folder.join("k.subsurf")).unwrap();
+    *bytes.last_mut().unwrap() ^= 1;
+    std::fs::write(folder.join("k.subsurf"), bytes).unwrap();
+    assert_eq!(json(folder, "info k.subsurf --json")["metadata"], serde_json::Value::Null);
+    let shown = succeed(folder, "info k.subsurf").out;
+    assert!(shown.contains("  no metadata: meta (metadata): is damaged") && shown.contains("KWGT"), "{shown}");
+}
+
+#[test]
 fn metadata_counts_for_targets_and_needs_a_key() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

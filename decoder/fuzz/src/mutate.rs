@@ -3,9 +3,9 @@
 //! Sizes of sections follow from headers, so that a changed header asks for other sections. The reader's own errors say what
 //! is missing: a part of the mutants is repaired by them until there is nothing to say.
 
-use crate::parts::{Parts, seal_header};
+use crate::parts::{Parts, seal_header, seal_section};
 use libfuzzer_sys::fuzzer_mutate;
-use subsurf_decoder::container::Crc;
+use subsurf_decoder::container::{Container, Crc};
 use subsurf_decoder::{File, ReadError, Section};
 
 /// Bytes that a mutation may add.
@@ -29,6 +29,9 @@ impl Random {
 /// one that begins with a section of the kind `header`.
 pub fn mutate(data: &mut [u8], size: usize, max_size: usize, seed: u32, header: Section) -> usize {
     let mut random = Random(seed.into());
+    if random.below(4) > 0 && in_place(&mut data[..size], &mut random).is_some() {
+        return size;
+    }
     let parts = Parts::of(&data[..size]);
     if parts.is_some() && random.below(32) == 0 {
         let size = fuzzer_mutate(data, size, max_size);
@@ -59,6 +62,27 @@ pub fn mutate(data: &mut [u8], size: usize, max_size: usize, seed: u32, header: 
     let size = bytes.len().min(max_size);
     data[..size].copy_from_slice(&bytes[..size]);
     size
+}
+
+/// Changes bytes of a section, or of the arguments, where they stand, as most mutations do: nothing is copied. `None` for what is no file, and for what has no bytes.
+fn in_place(input: &mut [u8], random: &mut Random) -> Option<()> {
+    let container = Container::parse(input).ok()?;
+    let (count, file_bytes) = (container.entries().count(), container.file().len());
+    // Headers stand first, and count for more.
+    let number = if random.below(4) == 0 { 0 } else { random.below(count + 1) };
+    let (start, end) = match container.entries().nth(number) {
+        Some(entry) => (entry.offset as usize, (entry.offset + entry.length) as usize),
+        None => (file_bytes, input.len()),
+    };
+    let bytes = input.get_mut(start..end).filter(|bytes| !bytes.is_empty())?;
+    let length = bytes.len();
+    let changed = fuzzer_mutate(bytes, length, length);
+    bytes[changed..].fill(0);
+    if number < count {
+        seal_section(input, number, start..end);
+        seal_header(input);
+    }
+    Some(())
 }
 
 /// Changes bytes, and their number unless it is to be kept.

@@ -1,5 +1,6 @@
 //! A file as its sections: what mutation takes apart and puts together again.
 
+use core::ops::Range;
 use subsurf_decoder::Section;
 use subsurf_decoder::container::{Container, ENTRY_BYTES, Entry, FILE_HEADER_BYTES, crc32, file_header};
 
@@ -73,6 +74,15 @@ impl Parts {
         input.extend(&self.arguments);
         input
     }
+}
+
+/// Makes the checksum of section `number` right, which has the bytes of a range.
+pub(crate) fn seal_section(input: &mut [u8], number: usize, range: Range<usize>) {
+    /// Where an entry has the checksum.
+    const CRC_AT: usize = 4;
+    let crc = crc32(&input[range]).to_le_bytes();
+    let at = FILE_HEADER_BYTES + ENTRY_BYTES * number + CRC_AT;
+    input[at..at + CRC_BYTES].copy_from_slice(&crc);
 }
 
 /// Makes the checksum of the header right, where there is room for a header of as many sections as it says.

@@ -9,8 +9,8 @@ use crate::container::index::row_major;
 use core::f32::consts::LOG2_E;
 use heapless::Vec;
 
-/// Exponent where Rd is 0, beyond r_max: no ratios make more than −126 of it.
-const DARK: f32 = -1e6;
+/// What stands where Rd is 0, beyond r_max, and where nodes are missing: no exponent is as low.
+const DARK: f32 = f32::MIN;
 
 /// Base scattering profiles at all distances that pixels of the window have, in memory of the caller's choice: [`ProfileTable::rd`] looks
 /// values up, without interpolation, and takes powers of two from a table of 256 bytes instead of `exp`.
@@ -111,16 +111,23 @@ impl<const N: usize> ProfileTable<N> {
         }
         let place = place(dx.max(dy), dx.min(dy));
         let (places, count) = (places(header), usize::from(header.model));
-        let mut sum = [0.0; 3];
-        for pixel in [x_i, x_o] {
-            for (base, t) in pixel.bases.iter().zip(pixel.ratios).take(count) {
-                let value = self.values.get(row_major((*base).into(), places, place)).copied().unwrap_or([DARK; 3]);
+        let exponents = |pixel: &Mixture| {
+            let mut sum = [0.0; 3];
+            for (base, t) in pixel.bases.iter().zip(pixel.ratios).take(count).filter(|(_, t)| *t > 0.0) {
+                let value = *self.values.get(row_major((*base).into(), places, place))?;
+                if value == [DARK; 3] {
+                    return None;
+                }
                 for (sum, value) in sum.iter_mut().zip(value) {
                     *sum += t * value;
                 }
             }
+            Some(sum)
+        };
+        match (exponents(x_i), exponents(x_o)) {
+            (Some([a0, a1, a2]), Some([b0, b1, b2])) => [a0 + b0, a1 + b1, a2 + b2].map(exp2),
+            _ => [0.0; 3],
         }
-        sum.map(exp2)
     }
 }
 

@@ -21,7 +21,7 @@ pub(crate) struct BssrdfRows {
 }
 
 impl BssrdfRows {
-    /// Refuses files without the sections that the header asks for, or with others sizes of them.
+    /// Refuses files without the sections that the header asks for, or with other sizes of them.
     pub(crate) fn new(header: BssrdfHeader, table: Table<'_>) -> Result<Self, ReadError> {
         let is_half = table.has(Section::HalfProfiles);
         let mut rows = Self { header, is_half, pairs: 0, basis: BasisRows::new(header.samples) };

@@ -44,7 +44,9 @@ impl<'a> Catalog<'a> {
         for (number, material) in materials.iter().enumerate() {
             Material::from_bytes(material).check(section.origin.at_item(number, MATERIAL_BYTES))?;
         }
-        Ok(Self { header, materials })
+        let catalog = Self { header, materials };
+        // As many as that, or more.
+        if catalog.texels() == u32::MAX { Err(section.origin.bad_field(0, u32::MAX)) } else { Ok(catalog) }
     }
 
     /// Model, colour encoding and grid.
@@ -64,8 +66,9 @@ impl<'a> Catalog<'a> {
         self.materials.iter().map(Material::from_bytes)
     }
 
-    /// Number of texels of all levels of all materials; at most 2³² − 1.
+    /// Number of texels of all levels of all materials; fewer than 2³² − 1.
     #[must_use]
+    #[inline(never)]
     pub fn texels(&self) -> u32 {
         self.materials().fold(0, |sum, material| sum.saturating_add(material.texels(u8::MAX)))
     }

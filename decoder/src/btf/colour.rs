@@ -12,7 +12,7 @@ pub enum ColourEncoding {
     LogLuv {
         /// Luminance below which l is nearly linear, above 0.
         toe: f32,
-        /// Luminance at l = 1, above `toe`.
+        /// Luminance at l = 1, at least `toe`.
         peak: f32,
     },
 }

@@ -41,6 +41,10 @@ impl CatalogRows {
         material.check(row.origin)?;
         self.texels = self.texels.saturating_add(material.texels(u8::MAX));
         self.is_whole = arrived.is_last();
+        if self.texels == u32::MAX {
+            let (section, offset) = (Section::Materials, arrived.entry.offset);
+            return Err(ReadError::BadField { section, offset, value: u32::MAX });
+        }
         Ok(Taken::Piece(Piece::Material(material)))
     }
 }

@@ -17,17 +17,18 @@ record! {
     }
 }
 
-/// What stands before the key and the value of an entry, for writers; `None` for lengths out of range.
+/// What stands before the key and the value of an entry, for writers; `None` for lengths out of range: a key has 1 to 255 bytes.
 #[must_use]
 pub fn entry_header(key: &str, value: &str) -> Option<[u8; size_of::<EntryHeader>()]> {
-    let key_bytes = u8::try_from(key.len()).ok()?;
+    let key_bytes = u8::try_from(key.len()).ok().filter(|bytes| *bytes > 0)?;
     let value_bytes = u16::try_from(value.len()).ok()?;
     Some(EntryHeader { key_bytes, reserved: 0, value_bytes }.to_bytes())
 }
 
-/// Keys and values of a file, in its order: an iterator over both as text.
+/// Keys and values of a file, in its order: an iterator over both as text, control characters of strangers in it.
 ///
-/// Usual keys are `name`, `author`, `licence`, `source` and `tool`. Ends with the first entry that leads outside; skips what is not UTF-8.
+/// Usual keys are `name`, `author`, `licence`, `source` and `tool`. Of a key that stands twice, which writers must not do, the last counts. Ends
+/// with the first entry that leads outside; skips those without a key and what is not UTF-8.
 #[derive(Clone, Debug)]
 pub struct Metadata<'a>(&'a [u8]);
 
@@ -55,7 +56,9 @@ impl<'a> Iterator for Metadata<'a> {
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             let [key, value] = self.advance()?.map(core::str::from_utf8);
-            if let (Ok(key), Ok(value)) = (key, value) {
+            if let (Ok(key), Ok(value)) = (key, value)
+                && !key.is_empty()
+            {
                 return Some((key, value));
             }
         }

@@ -74,11 +74,11 @@ pub fn encode(
     progress: &dyn Progress,
     found: &mut dyn FnMut(&rate::btf::Point<Size>),
 ) -> Result<Encoded> {
-    let setup = Setup::new(materials, names, options)?;
     let [shortest, longest] = LENGTHS_MM;
     if let Some(texel_mm) = options.texel_mm.filter(|texel_mm| !(shortest..=longest).contains(texel_mm)) {
         return Err(Error::Request(format!("texels of {texel_mm} mm; a file holds {shortest} to {longest}")));
     }
+    let setup = Setup::new(materials, names, options)?;
     let ranks = presets::ranks(materials.len());
     let fit = Fit::new(options.method, materials, &setup.grid, ranks, options.has_mipmaps);
     let wanted = Wanted::new(options, materials)?;
@@ -125,7 +125,7 @@ fn with_texel_size(file: &[u8], texel_mm: f32) -> Result<Vec<u8>> {
     let content = File::parse(file).map_err(|source| Error::OwnOutput { source })?.content();
     let header = *content.catalog().expect("encoders of BTFs make BTFs").header();
     let header = BtfHeader { texel_mm: Some(texel_mm), ..header };
-    container::with_section(file, Section::BtfHeader, &header.to_bytes())
+    container::with_section(file, Section::BtfHeader, Some(&header.to_bytes()))
 }
 
 fn mismatch(method: Method, size: &Size) -> Error {

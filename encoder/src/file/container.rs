@@ -11,14 +11,18 @@ use crate::file::reread::reread;
 /// # Panics
 /// If there are 2³² sections.
 pub(crate) fn write<'a>(sections: impl IntoIterator<Item = (Section, &'a [u8])>) -> Vec<u8> {
-    let all: Vec<(Section, &[u8])> = sections.into_iter().collect();
+    assemble(&sections.into_iter().map(|(section, bytes)| (section, bytes, crc32(bytes))).collect::<Vec<_>>())
+}
+
+/// A file of sections with their CRC-32.
+fn assemble(all: &[(Section, &[u8], u32)]) -> Vec<u8> {
     let start = FILE_HEADER_BYTES + all.len() * ENTRY_BYTES + 4;
     let (mut table, mut body) = (Vec::new(), Vec::new());
-    for (section, bytes) in &all {
+    for (section, bytes, crc) in all {
         // Fill stands before a section, so that none follows the last.
         body.resize((start + body.len()).next_multiple_of(4) - start, 0);
         let (offset, length) = ((start + body.len()) as u64, bytes.len() as u64);
-        table.extend(Entry { section: *section, crc: crc32(bytes), offset, length }.to_bytes());
+        table.extend(Entry { section: *section, crc: *crc, offset, length }.to_bytes());
         body.extend_from_slice(bytes);
     }
     let sections = u32::try_from(all.len()).expect("a handful of sections");
@@ -29,22 +33,27 @@ pub(crate) fn write<'a>(sections: impl IntoIterator<Item = (Section, &'a [u8])>)
     out
 }
 
-/// The same file with a section in place of the one of its kind, or behind the others; all of these stay as they are.
+/// The same file with a section in place of the one of its kind, or behind the others but metadata; with none, without that kind. All others stay
+/// as they are, those too that nobody reads or that are damaged.
 ///
 /// # Errors
 /// [`Error::Request`] if the bytes are no file; [`Error::OwnOutput`] if the decoder refuses the result.
-pub(crate) fn with_section(file: &[u8], section: Section, bytes: &[u8]) -> Result<Vec<u8>> {
+pub(crate) fn with_section(file: &[u8], section: Section, bytes: Option<&[u8]>) -> Result<Vec<u8>> {
     let refuse = |error: subsurf_decoder::ReadError| Error::Request(error.to_string());
     let parsed = Container::parse(file).map_err(refuse)?;
     let mut sections = Vec::new();
     for entry in parsed.entries() {
-        sections.push((entry.section, parsed.section(entry.section, Crc::Check).map_err(refuse)?.1));
+        sections.push((entry.section, parsed.section(entry.section, Crc::Skip).map_err(refuse)?.1, entry.crc));
     }
-    match sections.iter_mut().find(|(kind, _)| *kind == section) {
-        Some((_, old)) => *old = bytes,
-        None => sections.push((section, bytes)),
+    let old = sections.iter().position(|(kind, ..)| *kind == section);
+    let last = sections.iter().position(|(kind, ..)| *kind == Section::Metadata).unwrap_or(sections.len());
+    match (bytes.map(|bytes| (section, bytes, crc32(bytes))), old) {
+        (Some(new), Some(old)) => sections[old] = new,
+        (Some(new), None) => sections.insert(last, new),
+        (None, Some(old)) => drop(sections.remove(old)),
+        (None, None) => {}
     }
-    reread(write(sections))
+    reread(assemble(&sections))
 }
 
 /// Bytes of a file whose sections are this long.

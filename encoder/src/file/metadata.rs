@@ -6,7 +6,8 @@ use subsurf_decoder::container::{Container, ENTRY_BYTES, MAX_KEY_BYTES, MAX_VALU
 use crate::error::{Error, Result};
 use crate::file::container;
 
-/// The same file with these keys and values; a key that it has already gets the new value, an empty value takes the key out.
+/// The same file with these keys and values; a key that it has already gets the new value, an empty value takes the key out. Metadata that is
+/// damaged counts as none.
 ///
 /// # Errors
 /// [`Error::Request`] if the bytes are no file, for a key that is empty or longer than 255 bytes, and for a value of more than 65,535 bytes.
@@ -14,16 +15,10 @@ pub fn with_metadata(file: &[u8], entries: &[(String, String)]) -> Result<Vec<u8
     if entries.is_empty() {
         return Ok(file.to_vec());
     }
-    let refuse = |error: subsurf_decoder::ReadError| Error::Request(error.to_string());
-    let before = Container::parse(file).and_then(|container| container.metadata()).map_err(refuse)?;
-    let mut all: Vec<(&str, &str)> = before.collect();
-    for (key, value) in entries {
-        all.retain(|(other, _)| other != key);
-        if !value.is_empty() {
-            all.push((key, value));
-        }
-    }
-    container::with_section(file, Section::Metadata, &section(&all)?)
+    let container = Container::parse(file).map_err(|error| Error::Request(error.to_string()))?;
+    let all = merged(container.metadata().into_iter().flatten(), entries);
+    let section = section(&all)?;
+    container::with_section(file, Section::Metadata, Some(&section[..]).filter(|section| !section.is_empty()))
 }
 
 /// Bytes that such metadata adds to a file without any, at most.
@@ -31,15 +26,30 @@ pub fn with_metadata(file: &[u8], entries: &[(String, String)]) -> Result<Vec<u8
 /// # Errors
 /// [`Error::Request`] as [`with_metadata`].
 pub fn metadata_bytes(entries: &[(String, String)]) -> Result<u64> {
-    let all: Vec<(&str, &str)> = entries.iter().map(|(key, value)| (key.as_str(), value.as_str())).collect();
+    let all = merged(std::iter::empty(), entries);
     // With the fill before it.
     Ok(if all.is_empty() { 0 } else { (ENTRY_BYTES + section(&all)?.len() + 3) as u64 })
+}
+
+/// Keys and values of a file after changes: every key once, with its last value.
+fn merged<'a>(
+    before: impl Iterator<Item = (&'a str, &'a str)>,
+    entries: &'a [(String, String)],
+) -> Vec<(&'a str, &'a str)> {
+    let mut all: Vec<(&str, &str)> = Vec::new();
+    for (key, value) in before.chain(entries.iter().map(|(key, value)| (key.as_str(), value.as_str()))) {
+        all.retain(|(other, _)| *other != key);
+        if !value.is_empty() {
+            all.push((key, value));
+        }
+    }
+    all
 }
 
 fn section(entries: &[(&str, &str)]) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     for (key, value) in entries {
-        let header = entry_header(key, value).filter(|_| !key.is_empty()).ok_or_else(|| {
+        let header = entry_header(key, value).ok_or_else(|| {
             let lengths = [key.len(), value.len()];
             Error::Request(format!(
                 "metadata {:?}: {lengths:?} bytes of key and value; a key has 1 to {MAX_KEY_BYTES}, a value up to {MAX_VALUE_BYTES}",
@@ -77,6 +87,29 @@ mod tests {
         let found: Vec<_> = container.metadata().unwrap().collect();
         assert_eq!(found, [("licence", "CC0-1.0"), ("name", "green jade")]);
         assert_eq!(with_metadata(&plain, &[]).unwrap(), plain);
+        let none = with_metadata(&file, &entries(&[("licence", ""), ("name", ""), ("tool", "")])).unwrap();
+        assert!(none == plain, "no key, no section");
+        assert_eq!(metadata_bytes(&entries(&[("name", "a"), ("name", "")])).unwrap(), 0);
+    }
+
+    #[test]
+    fn other_sections_stay_in_order_and_damaged_metadata_is_replaced() {
+        let shape = Shape { size: [4, 3], radius: 1, samples: 2, base_materials: 2, addressing: Addressing::Clamp };
+        let named = with_metadata(&shape.bmpp(), &entries(&[("name", "jade")])).unwrap();
+        let extra = container::with_section(&named, Section::from_kind(*b"xtra"), Some(b"123")).unwrap();
+        let kinds: Vec<Section> = Container::parse(&extra).unwrap().entries().map(|entry| entry.section).collect();
+        assert_eq!(kinds.last(), Some(&Section::Metadata), "behind all others");
+
+        // The last byte of the file is one of the name.
+        let mut damaged = extra.clone();
+        *damaged.last_mut().unwrap() ^= 1;
+        let mended = with_metadata(&damaged, &entries(&[("name", "jade")])).unwrap();
+        assert!(mended == extra, "read as none, and written anew");
+        assert!(
+            container::with_section(&damaged, Section::from_kind(*b"xtra"), None)
+                .is_ok_and(|file| { Container::parse(&file).unwrap().metadata().is_err() }),
+            "what is damaged stays damaged where it is not replaced"
+        );
     }
 
     #[test]

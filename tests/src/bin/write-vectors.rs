@@ -17,13 +17,17 @@ use subsurf_tests::{format_basis, format_example, shape};
 
 fn main() -> std::io::Result<()> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("vectors");
+    // What is not written any more shall not stay.
+    for entry in std::fs::read_dir(&folder)? {
+        std::fs::remove_file(entry?.path())?;
+    }
     let mut refused = String::from("file,error\n");
     let mut write = |name: &str, bytes: &[u8]| -> std::io::Result<()> {
         std::fs::write(folder.join(format!("{name}.subsurf")), bytes)?;
         match table(bytes) {
             Ok(table) => std::fs::write(folder.join(format!("{name}.csv")), table)?,
             // Writing to a string cannot fail.
-            Err(error) => _ = writeln!(refused, "{name}.subsurf,{error}"),
+            Err(error) => _ = writeln!(refused, "{name}.subsurf,\"{error}\""),
         }
         Ok(())
     };
@@ -174,6 +178,8 @@ fn main() -> std::io::Result<()> {
     write("x_nested_signed", &wrong(&nested, b"BOOK", 40 + 36, &[1]))?;
     write("x_nested_index", &wrong(&nested, b"P4S0", 0, &[0xFF; 2]))?;
     write("x_nested_merged", &wrong(&nested, b"MERG", 0, &[0xFF]))?;
+    let wide = wrong(&nested, b"BOOK", 4, &(1_u32 << 24).to_le_bytes());
+    write("x_nested_merged_width", &wrong(&wide, b"BOOK", 40 + 24, &(1_u32 << 24).to_le_bytes()))?;
     write("x_nested_size", &wrong(&nested, b"BOOK", 40 + 32, &[200]))?;
     write("x_factored_luma", &wrong(&factors, b"FACT", 0, &[0]))?;
     write("x_factored_stages", &wrong(&factors, b"FACT", 2, &[33]))?;

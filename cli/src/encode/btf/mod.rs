@@ -83,7 +83,7 @@ pub(crate) struct Args {
     /// Make mipmaps: a third more of what is stored for texels
     #[arg(long)]
     mipmaps: bool,
-    /// Distance of neighbouring texels in mm, for who draws the file in its true size
+    /// Distance of neighbouring texels in mm, 0.000001 to 1000000, for who draws the file in its true size
     #[arg(long, value_name = "MM")]
     texel_mm: Option<f32>,
     #[command(flatten)]
@@ -114,7 +114,8 @@ pub(super) fn run(args: &Args) -> anyhow::Result<()> {
         if !args.json {
             outln!("{}", line(point));
         }
-    })?;
+    })
+    .map_err(|error| args.meta.explain(error, args.target_bytes.is_some()))?;
     drop(graceful);
     encoded.bytes = args.meta.added_to(encoded.bytes)?;
     write_bytes(&output, &encoded.bytes)?;

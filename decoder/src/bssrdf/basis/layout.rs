@@ -1,4 +1,4 @@
-//! The `SEPB` section: L and A, and the sizes and ranges that follow from them.
+//! The `sepb` section: L and A, and the sizes and ranges that follow from them.
 
 use crate::container::record::{Field, record};
 use crate::container::sections::SectionBytes;
@@ -27,7 +27,7 @@ const RGB: u64 = 3;
 const F32: u64 = 4;
 
 record! {
-    /// Start of the `SEPB` section.
+    /// Start of the `sepb` section.
     BasisRecord {
         terms: u8,
         gaussians: u8,

@@ -115,7 +115,7 @@ pub fn usual_core(usual: f32, magnitude: f32) -> f32 {
 }
 
 /// Codes the core of one component, `[view axis][light axis]`, `light_axes` to a row; `usual` goes on from component to
-/// component and begins with zeros. IntegerModel are whole.
+/// component and begins with zeros. Numbers are whole.
 pub fn code_core<C: BitCoder>(
     coder: &mut C,
     numbers: &mut IntegerModel,

@@ -274,7 +274,10 @@ impl CodebookSizes {
         for (number, (stage, record)) in stages.iter_mut().zip(records).enumerate() {
             let (origin, is_first) = (origin.at(BOOK_BYTES).at_item(number, BOOK_BYTES), number == 0);
             *stage = StageSizes::parse(record, origin, is_first)?;
-            let widest = stage.widths(is_first, &chroma).into_iter().max().unwrap_or(0);
+            let [.., p2] = stage.codebooks;
+            // M joins rows of P2 of the first stage and of I2.
+            let merged = if is_first { index_bits(p2.entries).saturating_add(index_bits(chroma.i2)) } else { 0 };
+            let widest = stage.widths(is_first, &chroma).into_iter().fold(merged, u32::max);
             if widest > MAX_ITEM_BITS {
                 return Err(origin.bad_field(0, widest));
             }

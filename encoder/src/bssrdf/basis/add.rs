@@ -26,7 +26,7 @@ pub fn add_basis(file: &[u8], options: &BasisOptions, progress: &dyn Progress) -
 /// # Errors
 /// [`Error::Request`] if the bytes are no file; [`Error::OwnOutput`] if the decoder refuses the result.
 pub fn with_basis(file: &[u8], basis: &FittedBasis) -> Result<Vec<u8>> {
-    container::with_section(file, Section::SeparableBasis, &basis.to_bytes())
+    container::with_section(file, Section::SeparableBasis, Some(&basis.to_bytes()))
 }
 
 /// Bytes that a basis adds to a file of a capture, at most.

@@ -63,7 +63,7 @@ impl FittedBasis {
         Ok(Self { size, samples: nodes.samples, sigmas, weights, projection, psnr_db })
     }
 
-    /// The `SEPB` section.
+    /// The `sepb` section.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let numbers = self.sigmas.iter().chain(self.weights.as_flattened()).chain(self.projection.as_flattened());

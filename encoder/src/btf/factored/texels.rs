@@ -96,6 +96,8 @@ fn carrying(words: Vec<DMatrix<f32>>, chosen: Vec<Vec<Choice>>) -> (Vec<DMatrix<
     let adds = |words: &DMatrix<f32>, chosen: &[Choice]| {
         chosen.iter().any(|choice| words.column(usize::from(choice.0)).iter().any(|value| *value != 0.0))
     };
-    let stages = words.into_iter().zip(chosen).enumerate();
-    stages.filter(|(number, (words, chosen))| *number == 0 || adds(words, chosen)).map(|(_, stage)| stage).unzip()
+    let carry: Vec<bool> = words.iter().zip(&chosen).map(|(words, chosen)| adds(words, chosen)).collect();
+    let none = !carry.contains(&true);
+    let stages = words.into_iter().zip(chosen).zip(carry).enumerate();
+    stages.filter(|(number, (_, carries))| *carries || none && *number == 0).map(|(_, (stage, _))| stage).unzip()
 }
