@@ -57,6 +57,7 @@ mod error;
 mod family;
 mod file;
 pub mod kernel;
+mod powers;
 #[cfg(feature = "push")]
 pub mod push;
 mod section;

@@ -1,7 +1,7 @@
 //! Powers of two by a table.
 
-/// Entries of the table, a power of two.
-const STEPS: usize = 64;
+use crate::powers::{POWERS, STEPS};
+
 /// 1.5 · 2²³: added to a number of less than 2²², it leaves the nearest whole number in the lowest bits.
 const ROUNDING: f32 = 12_582_912.0;
 /// Least exponent whose power is normal.
@@ -9,27 +9,6 @@ const LEAST: f32 = -126.0;
 
 /// Largest whole exponent.
 const MOST: f32 = 127.0;
-
-/// 2^(k / 64) as bits.
-static POWERS: [u32; STEPS] = powers();
-
-#[allow(
-    clippy::arithmetic_side_effects,
-    clippy::indexing_slicing,
-    clippy::cast_possible_truncation,
-    reason = "runs at compile time, where a panic is a build error"
-)]
-const fn powers() -> [u32; STEPS] {
-    /// 2^(1 / 64).
-    const ROOT: f64 = 1.010_889_286_051_700_5;
-    let (mut powers, mut power, mut k) = ([0; STEPS], 1.0, 0);
-    while k < STEPS {
-        powers[k] = (power as f32).to_bits();
-        power *= ROOT;
-        k += 1;
-    }
-    powers
-}
 
 /// 2^x with a relative error of at most 1.7 · 10⁻⁷; 0 where 2^x is not normal in f32, below −126, and 2¹²⁷ above 127 and for NaN.
 ///

@@ -1,23 +1,6 @@
 //! Scales: powers of two in steps of 1/64 octaves, with a sign in some stages.
 
-use super::layout::STEPS_PER_OCTAVE;
-
-/// Bits of the f32 values 2^(k/64).
-static MANTISSAS: [u32; STEPS_PER_OCTAVE as usize] = mantissas();
-
-#[allow(clippy::cast_possible_truncation, reason = "from 1 to 2")]
-#[allow(clippy::indexing_slicing, clippy::arithmetic_side_effects, reason = "evaluated by the compiler")]
-const fn mantissas() -> [u32; STEPS_PER_OCTAVE as usize] {
-    let mut table = [0; STEPS_PER_OCTAVE as usize];
-    let (mut power, mut k) = (1.0_f64, 0);
-    while k < table.len() {
-        table[k] = (power as f32).to_bits();
-        // 2^(1/64)
-        power *= 1.010_889_286_051_700_5;
-        k += 1;
-    }
-    table
-}
+use crate::powers::POWERS;
 
 /// Scale: exponent in 1/64 octaves, and the sign in the highest bit.
 #[derive(Clone, Copy, Debug, Default)]
@@ -36,7 +19,7 @@ impl Scale {
     /// ±2^(exponent / 64). Products of a checked file are within 2^±104, and normal.
     #[inline]
     pub(super) fn value(self) -> f32 {
-        let mantissa = MANTISSAS.get((self.exponent & 63) as usize).copied().unwrap_or(0);
+        let mantissa = POWERS.get((self.exponent & 63) as usize).copied().unwrap_or(0);
         let octaves = (self.exponent >> 6).wrapping_shl(23).cast_unsigned();
         f32::from_bits(mantissa.wrapping_add(octaves) ^ self.sign)
     }
