@@ -3,7 +3,7 @@
 # make check-targets: whether all of it compiles for Windows and Macs, what draws for browsers, and what apps link for Android on 32 bits; the decoder on a Cortex-M4 and its tests on s390x, emulated
 # make android: the libraries for Android, the decoder's tests on other machines by qemu, then an AAR and an APK, and what an app gets; needs the NDK, R8, Maven
 # make android-test: tests of android-demo/ on this machine's Java; says what it needs
-# make fuzz: the decoder's fuzz targets, a minute each; needs cargo-fuzz and a C++ compiler
+# make fuzz: fuzz targets of the decoder and of the shaders' twins, a minute each; needs cargo-fuzz and a C++ compiler
 # Where there is no graphics card, the first two install Mesa's software drivers with apt-get.
 
 .PHONY: demo test check-targets android android-test fuzz

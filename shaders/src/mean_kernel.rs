@@ -16,15 +16,17 @@ pub fn softening_gain(material: &Bssrdf<'_>) -> [Rgb; 8] {
     let rest = |k: u8| {
         let begin = 0.5 * f32::from(k) * header.pitch_mm;
         let radii = (0..STEPS).map(|n| (f32::from(n) + 0.5) * step).filter(|r_mm| *r_mm > begin);
-        radii.fold([0.0; 3], |sum: Rgb, r_mm| {
+        // In f64, which sums of any profile stay within.
+        radii.fold([0.0_f64; 3], |sum, r_mm| {
             let ring = profile.at(r_mm);
-            [0, 1, 2].map(|c| sum[c] + ring[c] * r_mm)
+            [0, 1, 2].map(|c| sum[c] + f64::from(ring[c]) * f64::from(r_mm))
         })
     };
     let all = rest(0);
     std::array::from_fn(|k| {
         let left = rest(u8::try_from(k).unwrap_or(0));
-        [0, 1, 2].map(|c| all[c] / left[c].max(0.1 * all[c]).max(1e-30))
+        #[allow(clippy::cast_possible_truncation, reason = "0 to 10")]
+        [0, 1, 2].map(|c| (all[c] / left[c].max(0.1 * all[c]).max(1e-300)) as f32)
     })
 }
 
@@ -35,15 +37,17 @@ pub fn mean_kernel(material: &Bssrdf<'_>) -> Vec<Rgb> {
     let header = material.header();
     let radius = i32::from(header.window_radius);
     let profile = MeanProfile::of(material);
-    let area = header.pitch_mm * header.pitch_mm;
+    let area = f64::from(header.pitch_mm).powi(2);
     let line = |x: i32| {
-        (-radius..=radius).fold([0.0; 3], |sum: Rgb, y| {
+        // In f64, which sums of any profile stay within.
+        (-radius..=radius).fold([0.0_f64; 3], |sum, y| {
             #[allow(clippy::cast_precision_loss, reason = "pixels of a window")]
             let reflectance = profile.at(((x * x + y * y) as f32).sqrt() * header.pitch_mm);
-            [0, 1, 2].map(|c| sum[c] + reflectance[c] * area)
+            [0, 1, 2].map(|c| sum[c] + f64::from(reflectance[c]) * area)
         })
     };
-    let lines: Vec<Rgb> = (0..=radius).map(line).collect();
-    let albedo = [0, 1, 2].map(|c| lines[0][c] + 2.0 * lines[1..].iter().map(|line| line[c]).sum::<f32>());
-    lines.iter().map(|line| [0, 1, 2].map(|c| line[c] / albedo[c].max(1e-30).sqrt())).collect()
+    let lines: Vec<[f64; 3]> = (0..=radius).map(line).collect();
+    let albedo = [0, 1, 2].map(|c| lines[0][c] + 2.0 * lines[1..].iter().map(|line| line[c]).sum::<f64>());
+    #[allow(clippy::cast_possible_truncation, reason = "a root of what a profile holds")]
+    lines.iter().map(|line| [0, 1, 2].map(|c| (line[c] / albedo[c].max(1e-300).sqrt()) as f32)).collect()
 }
