@@ -1,6 +1,5 @@
 //! From a profile to a kernel.
 
-use rayon::prelude::*;
 use subsurf_decoder::kernel::layout::{MAX_ETA, MAX_TERMS, TAPS};
 use subsurf_decoder::kernel::{KernelMethod, TwoGaussians};
 
@@ -10,6 +9,7 @@ use super::profile::{Profile, Radial, check_two_gaussians};
 use super::taps::Taps;
 use super::{Kernel, Term};
 use crate::error::{Error, Result};
+use crate::math::parallel;
 use crate::metrics::kernel::{KernelErrors, Truth};
 
 /// Entries of the table T(d).
@@ -61,15 +61,12 @@ pub struct Encoded {
 pub fn encode(profile: &Profile, options: &Options) -> Result<Encoded> {
     options.check()?;
     let profile = profile.condensed().limited()?;
-    let fitted: Vec<(Separable, KernelErrors, [f64; 3])> = (0..3)
-        .into_par_iter()
-        .map(|c| {
-            let truth = Truth::new(&profile.channels[c], CELLS);
-            let (separable, two) = options.fit(&truth, c);
-            let errors = truth.errors(&separable);
-            (separable, errors, two)
-        })
-        .collect();
+    let fitted: Vec<(Separable, KernelErrors, [f64; 3])> = parallel::map(3, |c| {
+        let truth = Truth::new(&profile.channels[c], CELLS);
+        let (separable, two) = options.fit(&truth, c);
+        let errors = truth.errors(&separable);
+        (separable, errors, two)
+    });
     let radius = profile.channels.iter().map(Radial::radius_mm).fold(0.0, f64::max);
     let taps = Taps::new(&profile.channels, radius, options.taps);
     let weights = |t: usize| {
@@ -111,13 +108,13 @@ pub fn encode(profile: &Profile, options: &Options) -> Result<Encoded> {
 pub fn compare(profile: &Profile, options: &[Options]) -> Result<Vec<KernelErrors>> {
     options.iter().try_for_each(Options::check)?;
     let profile = profile.condensed().limited()?;
-    let truths: Vec<Truth> = profile.channels.par_iter().map(|radial| Truth::new(radial, CELLS)).collect();
-    let of = |options: &Options| {
-        let channels: Vec<KernelErrors> =
-            (0..3).into_par_iter().map(|c| truths[c].errors(&options.fit(&truths[c], c).0)).collect();
-        KernelErrors::mean(channels.into_iter())
-    };
-    Ok(options.par_iter().map(of).collect())
+    let truths = parallel::map(3, |c| Truth::new(&profile.channels[c], CELLS));
+    // All channels of all options at once.
+    let errors = parallel::map(3 * options.len(), |k| {
+        let (options, c) = (&options[k / 3], k % 3);
+        truths[c].errors(&options.fit(&truths[c], c).0)
+    });
+    Ok(errors.chunks(3).map(|channels| KernelErrors::mean(channels.iter().copied())).collect())
 }
 
 impl Options {

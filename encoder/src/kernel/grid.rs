@@ -1,8 +1,8 @@
 //! Cells along half an axis, and what profiles are in them.
 
-use rayon::prelude::*;
-
 use super::profile::Radial;
+
+use crate::math::parallel;
 
 /// Cells along half an axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,7 +61,7 @@ impl Grid {
         let count = self.edges_mm.len();
         // Symmetric: corners of one triangle are enough.
         let row = |i: usize| (0..=i).map(|j| radial.corner(self.edges_mm[i], self.edges_mm[j])).collect::<Vec<f64>>();
-        let corners: Vec<Vec<f64>> = (0..count).into_par_iter().map(row).collect();
+        let corners = parallel::map(count, row);
         let corner = |i: usize, j: usize| corners[i.max(j)][i.min(j)];
         let widths = self.widths();
         let cell = |i: usize, j: usize| {

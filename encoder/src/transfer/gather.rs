@@ -2,11 +2,11 @@
 
 use glam::Vec3;
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 
 use super::point_tree::PointTree;
 use super::rd_table::RdTable;
 use super::surface::Surface;
+use crate::math::parallel;
 use crate::progress::Progress;
 
 /// Sources that are multiplied at a time.
@@ -29,8 +29,8 @@ impl Gather<'_> {
     pub(super) fn exact(&self) -> DMatrix<f32> {
         let all: Vec<u32> = (0..).take(self.surface.len()).collect();
         let mut out = DMatrix::zeros(self.channels * self.flux.nrows(), self.surface.len());
-        out.as_mut_slice().par_chunks_mut(self.channels * self.flux.nrows()).zip(&all).for_each(|(out, place)| {
-            self.add(&[*place], &all, &self.surface.positions, self.flux, true, out);
+        parallel::for_chunks(out.as_mut_slice(), self.channels * self.flux.nrows(), |place, out| {
+            self.add(&[all[place]], &all, &self.surface.positions, self.flux, true, out);
         });
         out
     }
@@ -42,9 +42,9 @@ impl Gather<'_> {
         let sums = self.sums(&tree);
         let centres: Vec<Vec3> = tree.nodes.iter().map(|node| node.centre).collect();
         let rows = self.channels * self.flux.nrows();
-        let of_leaf = |leaf: &usize| {
-            let places = &tree.order[tree.nodes[*leaf].points.clone()];
-            let (points, nodes) = self.sources(&tree, *leaf, spread);
+        let of_leaf = |leaf: usize| {
+            let places = &tree.order[tree.nodes[leaf].points.clone()];
+            let (points, nodes) = self.sources(&tree, leaf, spread);
             let mut out = vec![0.0; rows * places.len()];
             self.add(places, &points, &self.surface.positions, self.flux, true, &mut out);
             self.add(places, &nodes, &centres, &sums, false, &mut out);
@@ -55,7 +55,7 @@ impl Gather<'_> {
         let mut out = DMatrix::zeros(rows, self.surface.len());
         // In portions, so that the sums are not all there twice.
         for leaves in leaves.chunks(4 * BLOCK) {
-            let sums: Vec<Vec<f32>> = leaves.par_iter().map(of_leaf).collect();
+            let sums = parallel::map(leaves.len(), |leaf| of_leaf(leaves[leaf]));
             for (leaf, sums) in leaves.iter().zip(&sums) {
                 for (place, sums) in tree.order[tree.nodes[*leaf].points.clone()].iter().zip(sums.chunks(rows)) {
                     out.column_mut(*place as usize).copy_from_slice(sums);

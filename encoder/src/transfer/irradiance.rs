@@ -2,11 +2,11 @@
 
 use glam::Vec3;
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use subsurf_scene::{Mesh, Occluder};
 
 use super::rd_table::single;
 use super::surface::Surface;
+use crate::math::parallel;
 use crate::progress::Progress;
 use crate::simulate::fresnel;
 
@@ -38,7 +38,7 @@ pub(super) fn entered(
             }
         }
     };
-    flux.as_mut_slice().par_chunks_mut(BLOCK * lights.len()).enumerate().for_each(|(block, columns)| {
+    parallel::for_chunks(flux.as_mut_slice(), BLOCK * lights.len(), |block, columns| {
         for (place, flux) in (block * BLOCK..).zip(columns.chunks_mut(lights.len())) {
             of_place(place, flux);
         }

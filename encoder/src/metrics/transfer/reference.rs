@@ -1,13 +1,13 @@
 //! What schemes are measured against: q that is not compressed, and exact sums between the lights.
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use subsurf_decoder::container::bytes::F32Le;
 use subsurf_decoder::transfer::LightWeights;
 use subsurf_scene::Mesh;
 
 use super::views::{ImageError, Views};
 use crate::error::{Error, Result};
+use crate::math::parallel;
 use crate::progress::Progress;
 use crate::transfer::{Options, Precomputed, RdTable, Scheme, fibonacci, precompute};
 
@@ -110,7 +110,7 @@ impl<'a> Reference<'a> {
             let found = scheme.exitance(&weights);
             found.iter().zip(self.q.row(light).iter()).map(|(a, b)| f64::from(a.max(0.0) - b).powi(2)).sum::<f64>()
         };
-        let squares: Vec<f64> = (0..lights).into_par_iter().map(square).collect();
+        let squares = parallel::map(lights, square);
         (squares.iter().sum::<f64>() / self.q.len() as f64).sqrt()
     }
 
@@ -127,10 +127,9 @@ impl<'a> Reference<'a> {
 
 /// Values of vertices `[direction][vertex]`; below 0 there is no light.
 fn images(scheme: &dyn Scheme, weights: &[Vec<f32>]) -> Vec<Vec<f32>> {
-    let of = |weights: &Vec<f32>| {
-        let mut values = scheme.exitance(weights);
+    parallel::map(weights.len(), |image| {
+        let mut values = scheme.exitance(&weights[image]);
         values.iter_mut().for_each(|value| *value = value.max(0.0));
         values
-    };
-    weights.par_iter().map(of).collect()
+    })
 }

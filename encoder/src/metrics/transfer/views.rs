@@ -3,9 +3,10 @@
 use glam::{Mat3, Vec3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use subsurf_scene::Mesh;
+
+use crate::math::parallel;
 
 /// Pixels of one orthographic view: the triangle in front, and where on it.
 struct View {
@@ -50,14 +51,15 @@ impl Views {
             }
         };
         let axes: Vec<[Vec3; 2]> = (0..count).map(|_| [random(), random()]).collect();
-        Self(axes.par_iter().map(|[forward, roll]| View::new(mesh, *forward, *roll, side)).collect())
+        Self(parallel::map(count, |view| View::new(mesh, axes[view][0], axes[view][1], side)))
     }
 
     /// Errors between values of vertices `[image][vertex]`, as large as 1 where images are white. The background counts and is the same
     /// in both. Views show the images in turn.
     #[must_use]
     pub fn errors(&self, mesh: &Mesh, a: &[Vec<f32>], b: &[Vec<f32>]) -> ImageError {
-        let of_view = |(number, view): (usize, &View)| {
+        let of_view = |number: usize| {
+            let view = &self.0[number];
             let [a, b] = [&a[number % a.len()], &b[number % b.len()]];
             let square = |pixel: &Option<(u32, [f32; 3])>| {
                 let Some((triangle, share)) = pixel else { return 0.0 };
@@ -68,7 +70,7 @@ impl Views {
             };
             view.pixels.iter().map(square).sum::<f64>() / view.pixels.len() as f64
         };
-        let squares: Vec<f64> = self.0.par_iter().enumerate().map(of_view).collect();
+        let squares = parallel::map(self.0.len(), of_view);
         let mean = squares.iter().sum::<f64>() / squares.len().max(1) as f64;
         ImageError { max: squares.iter().copied().fold(0.0, f64::max).sqrt(), rms: mean.sqrt() }
     }

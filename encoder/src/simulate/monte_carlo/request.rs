@@ -4,7 +4,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
-use rayon::prelude::*;
 
 use super::half_space::HalfSpace;
 use super::outcome::{Outcome, Sum};
@@ -12,6 +11,7 @@ use super::packet::trace;
 use super::score::{Event, Grid, Quantity, Score, Tally, units};
 use super::stack::{Source, Stack};
 use crate::error::{Error, Result};
+use crate::math::parallel;
 use crate::progress::Progress;
 
 /// Packets that a thread traces at a time, at least and at most. Each has random numbers of its own, so results do not hang on
@@ -144,7 +144,7 @@ impl Request {
             }
             sums
         };
-        let sums = (0..threads).into_par_iter().map(of_thread).reduce(|| Sums::new(self), Sums::merged);
+        let sums = parallel::map(threads, of_thread).into_iter().fold(Sums::new(self), Sums::merged);
         Ok(Outcome::new(self, sums, half_space.is_some()))
     }
 

@@ -2,13 +2,13 @@
 //! component analysis*; for transfer Sloan et al. 2003, *Clustered principal components for precomputed radiance transfer*).
 
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 use super::Size;
 use crate::math::eigen::leading_axes;
 use crate::math::k_means::KMeans;
 use crate::math::k_means::euclidean::Euclidean;
 use crate::math::matrix::product;
+use crate::math::parallel;
 use crate::math::svd::Columns;
 use crate::progress::Progress;
 
@@ -50,12 +50,12 @@ impl Rotated {
         let mut centred = matrix.clone();
         centred.column_iter_mut().for_each(|mut column| column -= &mean);
         // Sums of parts in a fixed order, whatever the threads.
-        let part = |first: usize| {
+        let part = |number: usize| {
+            let first = number * SAMPLE;
             let part = centred.columns(first, SAMPLE.min(centred.ncols() - first));
             part * part.transpose()
         };
-        let starts: Vec<usize> = (0..centred.ncols()).step_by(SAMPLE).collect();
-        let parts: Vec<DMatrix<f32>> = starts.par_iter().map(|first| part(*first)).collect();
+        let parts = parallel::map(centred.ncols().div_ceil(SAMPLE), part);
         let zero = DMatrix::zeros(matrix.nrows(), matrix.nrows());
         let axes = leading_axes(parts.iter().fold(zero, |sum, part| sum + part), DIMENSIONS);
         let columns = product(&axes.transpose(), &centred);
@@ -112,7 +112,8 @@ impl Local {
         for (column, cluster) in chosen.iter().enumerate() {
             members[usize::from(*cluster)].push(column);
         }
-        let of_cluster = |members: &Vec<usize>| {
+        let of_cluster = |cluster: usize| {
+            let members = &members[cluster];
             let mut own = columns.select_columns(members);
             let none = DMatrix::zeros(columns.nrows(), size.components);
             if members.is_empty() {
@@ -122,7 +123,8 @@ impl Local {
             own.column_iter_mut().for_each(|mut column| column -= &mean);
             (mean, leading(&own, none))
         };
-        let (means, components): (Vec<DVector<f32>>, Vec<DMatrix<f32>>) = members.par_iter().map(of_cluster).unzip();
+        let (means, components): (Vec<DVector<f32>>, Vec<_>) =
+            parallel::map(members.len(), of_cluster).into_iter().unzip();
         Self { means: DMatrix::from_columns(&means), components }
     }
 
@@ -149,12 +151,12 @@ impl Local {
             let (cluster, _) = rests.fold((0, f32::INFINITY), |best, next| if next.1 < best.1 { next } else { best });
             u8::try_from(cluster).expect("at most 256 clusters")
         };
-        let starts: Vec<usize> = (0..columns.ncols()).step_by(BLOCK).collect();
-        let of_block = |first: &usize| {
-            let products = &all * columns.columns(*first, BLOCK.min(columns.ncols() - first));
+        let of_block = |block: usize| {
+            let first = block * BLOCK;
+            let products = &all * columns.columns(first, BLOCK.min(columns.ncols() - first));
             products.as_slice().chunks_exact(products.nrows()).map(best).collect::<Vec<_>>()
         };
-        starts.par_iter().flat_map_iter(of_block).collect()
+        parallel::map(columns.ncols().div_ceil(BLOCK), of_block).concat()
     }
 }
 

@@ -1,10 +1,10 @@
 //! Means, components and coefficients in few bits.
 
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 use subsurf_decoder::transfer::layout::{MAX_BITS, MAX_COMPONENTS};
 
 use super::cpca::Clusters;
+use crate::math::parallel;
 use crate::math::uniform::{OffsetStep, codes};
 use crate::transfer::rd_table::single;
 
@@ -45,10 +45,10 @@ impl Quantised {
         for (place, cluster) in clusters.chosen.iter().enumerate() {
             members[usize::from(*cluster)].push(place);
         }
-        let of = |(number, members): (usize, Vec<usize>)| {
-            Cluster::new(q, members, &clusters.means.column(number).into_owned(), &clusters.components[number])
-        };
-        let clusters: Vec<Cluster> = members.into_par_iter().enumerate().map(of).collect();
+        let clusters = parallel::map(members.len(), |number| {
+            let mean = clusters.means.column(number).into_owned();
+            Cluster::new(q, members[number].clone(), &mean, &clusters.components[number])
+        });
         let count = clusters[0].components.len();
         let bits = shared(&clusters, count, bits);
         let mut out = Self {
