@@ -3,6 +3,7 @@
 use glam::Vec3;
 use nalgebra::DMatrix;
 
+use super::near::{Near, NearWeights};
 use super::point_tree::PointTree;
 use super::rd_table::RdTable;
 use super::surface::Surface;
@@ -13,24 +14,32 @@ use crate::progress::Progress;
 const BLOCK: usize = 512;
 
 /// Exitance q `[channel · lights + light × place]`: Σ_i R_d(‖x_i − x_o‖) Φ_i over the places within the radius of R_d, Φ_i the flux
-/// that entered there (section 3.1, without 1/π). A place sees itself as a disc of its area.
+/// that entered there (section 3.1, without 1/π); near a place, integrals over the triangles.
 pub(super) struct Gather<'a> {
     pub(super) surface: &'a Surface,
     /// Φ `[light × place]` in mm².
     pub(super) flux: &'a DMatrix<f32>,
     pub(super) table: &'a RdTable,
+    /// Triangles of the surface.
+    pub(super) near: Near<'a>,
     /// 1, or 3.
     pub(super) channels: usize,
 }
 
-impl Gather<'_> {
+impl<'a> Gather<'a> {
+    pub(super) fn new(surface: &'a Surface, flux: &'a DMatrix<f32>, table: &'a RdTable, channels: usize) -> Self {
+        Self { surface, flux, table, near: Near::new(surface, table), channels }
+    }
+
     /// The sum over all places one by one, O(N²): the check.
     #[cfg(test)]
     pub(super) fn exact(&self) -> DMatrix<f32> {
         let all: Vec<u32> = (0..).take(self.surface.len()).collect();
         let mut out = DMatrix::zeros(self.channels * self.flux.nrows(), self.surface.len());
         parallel::for_chunks(out.as_mut_slice(), self.channels * self.flux.nrows(), |place, out| {
+            let at = self.surface.positions[place];
             self.add(&[all[place]], &all, &self.surface.positions, self.flux, true, out);
+            self.add_near(&[all[place]], at, 0.0, out);
         });
         out
     }
@@ -48,6 +57,7 @@ impl Gather<'_> {
             let mut out = vec![0.0; rows * places.len()];
             self.add(places, &points, &self.surface.positions, self.flux, true, &mut out);
             self.add(places, &nodes, &centres, &sums, false, &mut out);
+            self.add_near(places, tree.nodes[leaf].centre, tree.nodes[leaf].radius, &mut out);
             progress.advance(places.len() as u64);
             out
         };
@@ -114,18 +124,13 @@ impl Gather<'_> {
         are_places: bool,
         out: &mut [f32],
     ) {
-        let lights = flux.nrows();
         for sources in sources.chunks(BLOCK) {
-            let mut columns = DMatrix::zeros(lights, sources.len());
-            for (column, source) in columns.as_mut_slice().chunks_mut(lights).zip(sources) {
-                column.copy_from_slice(flux.column(*source as usize).as_slice());
-            }
             let mut weights = DMatrix::zeros(sources.len(), places.len() * self.channels);
             for (number, place) in places.iter().enumerate() {
                 let at = self.surface.positions[*place as usize];
                 for (row, source) in sources.iter().enumerate() {
                     let rd = if are_places && source == place {
-                        self.own(*place as usize)
+                        [0.0; 3]
                     } else {
                         self.table.at_squared(at.distance_squared(positions[*source as usize]))
                     };
@@ -134,18 +139,24 @@ impl Gather<'_> {
                     }
                 }
             }
-            let mut out = nalgebra::DMatrixViewMut::from_slice(out, lights, places.len() * self.channels);
-            out.gemm(1.0, &columns, &weights, 1.0);
+            add_weighted(flux, sources, &weights, out);
         }
     }
 
-    /// Mean of R_d over a disc of the place's own area: what enters there leaves there.
-    fn own(&self, place: usize) -> [f32; 3] {
-        let area = self.surface.areas[place];
-        if area <= 0.0 {
-            return [0.0; 3];
-        }
-        let (all, beyond) = (self.table.reflectance(), self.table.tail_at((area / std::f32::consts::PI).sqrt()));
-        std::array::from_fn(|c| (all[c] - beyond[c]) / area)
+    /// Adds what triangles near the places in a ball send beyond what their corners do.
+    fn add_near(&self, places: &[u32], centre: Vec3, radius: f32, out: &mut [f32]) {
+        let NearWeights { sources, weights } = self.near.weights(places, centre, radius, self.channels);
+        add_weighted(self.flux, &sources, &weights, out);
     }
+}
+
+/// Adds the flux of `sources` times `weights`, `[source × sum]`, to `out`, `[sum][light]`.
+fn add_weighted(flux: &DMatrix<f32>, sources: &[u32], weights: &DMatrix<f32>, out: &mut [f32]) {
+    let lights = flux.nrows();
+    let mut columns = DMatrix::zeros(lights, sources.len());
+    for (column, source) in columns.as_mut_slice().chunks_mut(lights).zip(sources) {
+        column.copy_from_slice(flux.column(*source as usize).as_slice());
+    }
+    let mut out = nalgebra::DMatrixViewMut::from_slice(out, lights, weights.ncols());
+    out.gemm(1.0, &columns, weights, 1.0);
 }

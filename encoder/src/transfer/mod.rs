@@ -7,6 +7,7 @@ mod compress;
 mod gather;
 mod irradiance;
 mod lights;
+mod near;
 mod point_tree;
 mod precompute;
 mod rd_table;

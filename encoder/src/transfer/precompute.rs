@@ -108,7 +108,7 @@ pub fn precompute(
     } else {
         table
     };
-    let gather = Gather { surface: &surface, flux: &flux, table, channels: options.channels };
+    let gather = Gather::new(&surface, &flux, table, options.channels);
     let q = gather.hierarchical(SPREAD, progress);
     let total: f64 = q.iter().map(|value| f64::from(*value)).sum();
     if !total.is_finite() || total <= 0.0 {
@@ -138,7 +138,7 @@ mod tests {
         let mesh = knot(10.0, 3.0, 24).fitted(20.0).unwrap();
         let (surface, table, lights) = (Surface::new(&mesh), marble(), fibonacci(12));
         let flux = entered(&mesh, &surface, &lights, 1.5, &());
-        let gather = Gather { surface: &surface, flux: &flux, table: &table, channels: 3 };
+        let gather = Gather::new(&surface, &flux, &table, 3);
         let (exact, quick) = (gather.exact(), gather.hierarchical(SPREAD, &()));
         let difference = &exact - &quick;
         let rms = difference.norm() / (exact.len() as f32).sqrt();

@@ -21,6 +21,8 @@ pub(super) struct Surface {
     pub(super) areas: Vec<f32>,
     /// Vertices `[place]` with their areas in mm², those without area left out.
     pub(super) senders: Vec<Vec<(u32, f32)>>,
+    /// Places of the corners of the triangles.
+    pub(super) triangles: Vec<[u32; 3]>,
 }
 
 impl Surface {
@@ -32,7 +34,13 @@ impl Surface {
         let [low, high] = bounds.unwrap_or_else(|| mesh.bounds());
         let same_mm = SAME * (high - low).max_element();
         let mut cells: HashMap<[i32; 3], Vec<u32>> = HashMap::with_capacity(mesh.positions.len());
-        let mut out = Self { place_of: Vec::new(), positions: Vec::new(), areas: Vec::new(), senders: Vec::new() };
+        let mut out = Self {
+            place_of: Vec::new(),
+            positions: Vec::new(),
+            areas: Vec::new(),
+            senders: Vec::new(),
+            triangles: Vec::new(),
+        };
         for ((vertex, position), area) in (0..).zip(&mesh.positions).zip(areas) {
             let next = u32::try_from(out.positions.len()).expect("fewer than 2³² vertices");
             let corner = |step: f32| ((*position - low + step) / (CELL * same_mm)).floor().as_ivec3();
@@ -55,6 +63,8 @@ impl Surface {
                 out.senders[place].push((vertex, area));
             }
         }
+        let places = |triangle: &[u32; 3]| triangle.map(|vertex| out.place_of[vertex as usize]);
+        out.triangles = mesh.triangles.iter().map(places).collect();
         out
     }
 
