@@ -3,8 +3,8 @@
 
 mod common;
 
-use common::push::{CHUNKS, OTHER_ORDER, Seen, basis, files, is_same, push, result, sound_files};
-use common::{btf, container, seal_all};
+use common::push::{CHUNKS, OTHER_ORDER, Seen, basis, files, is_same, push, rebuilt, result, sound_files};
+use common::{btf, seal_all};
 use proptest::prelude::*;
 use subsurf_decoder::bssrdf::layout::HEADER_BYTES;
 use subsurf_decoder::container::Crc;
@@ -88,6 +88,75 @@ fn damage_is_refused_for_the_same_reason() {
 }
 
 #[test]
+fn wrong_values_and_lengths_of_sections_are_refused_for_the_same_reason() {
+    type Change = fn(&mut Vec<u8>);
+    // Not a number, an index beyond any table, at either end; a byte less and one more.
+    let changes: [Change; 4] = [
+        |section| section.iter_mut().take(4).for_each(|byte| *byte = 0xFF),
+        |section| section.iter_mut().rev().take(4).for_each(|byte| *byte = 0xFF),
+        |section| section.truncate(section.len().saturating_sub(1)),
+        |section| section.push(0),
+    ];
+    let mut refused = 0;
+    for (name, bytes) in sound_files() {
+        for (number, (which, change)) in (0..usize::from(bytes[12]))
+            .flat_map(|number| changes.iter().enumerate().map(move |change| (number, change)))
+        {
+            let bad = rebuilt(&bytes, |sections| change(&mut sections[number].1));
+            let expected = File::parse(&bad).map(drop);
+            let found = result(&bad, Crc::Check);
+            let is_due = is_same(found, expected) || is_exception(found, expected);
+            assert!(is_due, "{name}, change {which} of section {number}: {found:?}, not {expected:?}");
+            refused += usize::from(found.is_err());
+        }
+    }
+    assert!(refused > 300, "{refused} of them are refused");
+}
+
+#[test]
+fn missing_sections_are_named() {
+    for (name, bytes) in sound_files() {
+        for number in 0..usize::from(bytes[12]) {
+            let bad = rebuilt(&bytes, |sections| drop(sections.remove(number)));
+            let expected = File::parse(&bad).map(drop);
+            let found = result(&bad, Crc::Check);
+            assert!(is_same(found, expected), "{name} without section {number}: {found:?}, not {expected:?}");
+        }
+    }
+}
+
+#[test]
+fn sizes_that_are_cut_say_what_they_take() {
+    for (bytes, kind) in [(btf::factored(), b"FACT"), (btf::nested(), b"BOOK")] {
+        for length in 0..130 {
+            let bad = rebuilt(&bytes, |sections| {
+                let (_, content) = sections.iter_mut().find(|(of, _)| of == kind).expect("the section");
+                content.truncate(length);
+            });
+            let expected = File::parse(&bad).map(drop);
+            let found = result(&bad, Crc::Check);
+            assert!(is_same(found, expected), "{length} bytes: {found:?}, not {expected:?}");
+        }
+    }
+}
+
+#[test]
+fn numbers_of_a_basis_at_their_limits() {
+    // Two widths, six weights, six factors.
+    for (number, limit) in [(2, 1e6), (7, 1e6), (8, 1e15_f32), (13, 1e15)] {
+        for (value, is_allowed) in [(limit, true), (-limit, true), (limit.next_up(), false), (-limit.next_up(), false)]
+        {
+            let bytes = rebuilt(&basis(), |sections| {
+                sections[4].1[4 + 4 * number..][..4].copy_from_slice(&value.to_le_bytes());
+            });
+            let found = result(&bytes, Crc::Check);
+            assert_eq!(found.is_ok(), is_allowed, "number {number} is {value}: {found:?}");
+            assert_eq!(found, File::parse(&bytes).map(drop), "number {number} is {value}");
+        }
+    }
+}
+
+#[test]
 fn a_buffer_that_is_too_small_says_what_it_takes() {
     let bytes = common::example();
     let (_, end) = push::<27>(&bytes, 7, Crc::Check);
@@ -109,20 +178,11 @@ fn a_buffer_that_is_too_small_says_what_it_takes() {
 fn rows_before_what_they_depend_on_are_refused() {
     // Sections of sound files in another order, which the reader of whole files takes.
     let swapped = |bytes: &[u8], a: Section, b: Section| {
-        let file = File::parse(bytes).unwrap();
-        let sections = file.container().entries().map(|entry| entry.section);
-        let of = |section: Section| {
-            let section = if section == a {
-                b
-            } else if section == b {
-                a
-            } else {
-                section
-            };
-            (section.kind(), file.container().section(section, Crc::Check).unwrap().1.to_vec())
-        };
-        let sections: Vec<_> = sections.map(of).collect();
-        let bytes = container(&sections.iter().map(|(kind, bytes)| (kind, bytes.clone())).collect::<Vec<_>>());
+        let bytes = rebuilt(bytes, |sections| {
+            let [a, b] =
+                [a, b].map(|of| sections.iter().position(|(kind, _)| *kind == of.kind()).expect("the section"));
+            sections.swap(a, b);
+        });
         assert!(File::parse(&bytes).is_ok(), "{a} and {b} in another order");
         push::<4096>(&bytes, 64, Crc::Check).1
     };

@@ -54,7 +54,7 @@ fn bits(count: u32) -> u32 {
 }
 
 /// Items one after the other from the lowest bit on, each of fields of a value and a number of bits; then eight bytes.
-fn pack(items: impl IntoIterator<Item = Vec<(u32, u32)>>) -> Vec<u8> {
+pub(crate) fn pack(items: impl IntoIterator<Item = Vec<(u32, u32)>>) -> Vec<u8> {
     let bits: Vec<u8> = items
         .into_iter()
         .flatten()

@@ -33,10 +33,7 @@ impl FactoredRows {
 
     /// Sizes, for a section that depends on them.
     fn shape(&self, entry: &Entry) -> Result<&TuckerShape, ReadError> {
-        match &self.shape {
-            Some(shape) if self.is_whole => Ok(shape),
-            _ => Err(entry.out_of_order(Section::TuckerHeader)),
-        }
+        self.shape.as_ref().ok_or(entry.out_of_order(Section::TuckerHeader))
     }
 
     /// Takes a part of `FACT`; with the last stage, checks the sizes of all sections.
@@ -49,13 +46,14 @@ impl FactoredRows {
         }
         if at == 0 {
             self.shape = Some(TuckerShape::parse_fixed(arrived.row(), grid)?);
-            return Ok(Taken::Part);
+            return part(arrived, 1);
         }
         let Some(shape) = &mut self.shape else { return Ok(Taken::Part) };
         let number = at.saturating_sub(FIXED_BYTES) / STAGE_BYTES;
         shape.parse_stage(number, arrived.row())?;
-        if number.saturating_add(1) < shape.count.into() {
-            return Ok(Taken::Part);
+        let passed = number.saturating_add(1);
+        if passed < shape.count.into() {
+            return part(arrived, passed.saturating_add(1));
         }
         self.is_whole = true;
         arrived.entry.sized(shape.section_bytes())?;
@@ -81,6 +79,11 @@ impl FactoredRows {
         }
         0
     }
+}
+
+/// Part of `FACT`, which goes on at least up to the end of its first `stages` stages.
+fn part<'r>(arrived: &Arrived<'_>, stages: usize) -> Result<Taken<'r>, ReadError> {
+    if arrived.is_last() { Err(arrived.entry.wrong_size(stages_end(stages) as u64)) } else { Ok(Taken::Part) }
 }
 
 impl Rows for FactoredRows {
