@@ -3,7 +3,8 @@
 
 mod common;
 
-use common::push::{CHUNKS, Seen, push, sound_files};
+use common::btf::factored;
+use common::push::{CHUNKS, Seen, push, rebuilt, sound_files};
 use subsurf_decoder::bssrdf::{BssrdfModel, Mixtures, Profiles};
 use subsurf_decoder::container::Crc;
 use subsurf_decoder::push::{Piece, PushReader};
@@ -48,6 +49,12 @@ fn rows_are_those_of_the_file_whatever_the_chunks() {
 fn compare(name: &str, seen: &Seen, content: Content<'_>) {
     let first = |debug: String| assert_eq!(seen.pieces[0], debug, "{name}");
     let lengths = |section: Section| seen.of(section).iter().map(Vec::len).collect::<Vec<_>>();
+    // Of a node, of a light.
+    for (section, bytes) in
+        [(Section::BaseProfiles, 12), (Section::HalfProfiles, 6), (Section::KernelTail, 12), (Section::Lights, 12)]
+    {
+        assert!(lengths(section).iter().all(|length| *length == bytes), "{name}: {section}");
+    }
     match content {
         Content::Bssrdf(material) => {
             let header = material.header();
@@ -125,11 +132,14 @@ fn compare(name: &str, seen: &Seen, content: Content<'_>) {
             first(format!("{:?}", Piece::Btf(btf.catalog().header())));
             let shape = format!("{:?}", Piece::Tucker(btf.shape()));
             assert!(seen.pieces.contains(&shape), "{name}");
+            let (shape, grid) = (btf.shape(), btf.catalog().grid());
+            let views = vec![grid.view_nodes(); shape.view_axes.into()];
+            let lights = vec![grid.light_nodes(); shape.light_axes.into()];
+            assert_eq!(lengths(Section::Axes), [views, lights].concat(), "{name}");
             if name != "factored" {
                 return;
             }
             assert_eq!(lengths(Section::TuckerHeader), [8, 20, 20, 8, 12], "ratios, columns twice, views, lights");
-            assert_eq!(lengths(Section::Axes), [6; 5], "{name}");
             assert_eq!((lengths(Section::Core), lengths(Section::Codewords)), (vec![128, 128, 44], vec![70]), "{name}");
             assert_eq!(lengths(Section::TexelIndices), [2; 165], "{name}");
         }
@@ -149,6 +159,45 @@ fn compare(name: &str, seen: &Seen, content: Content<'_>) {
             assert_eq!(seen.of(Section::ClusterBases).len(), of_clusters(header.components()), "{name}");
         }
         _ => panic!("{name}: a family without a test"),
+    }
+}
+
+#[test]
+fn sections_that_are_not_read_take_no_buffer() {
+    for (name, bytes) in sound_files() {
+        let (expected, end) = push::<2048>(&bytes, 64, Crc::Check);
+        assert_eq!(end, Ok(()), "{name}");
+        for number in [0, 1, usize::from(bytes[12])] {
+            let longer = rebuilt(&bytes, |sections| sections.insert(number, (*b"fill", vec![0xFF; 3_000])));
+            for chunk in [7, 1000, usize::MAX] {
+                let (found, end) = push::<2048>(&longer, chunk, Crc::Check);
+                assert_eq!((&found, end), (&expected, Ok(())), "{name}, section {number}, chunks of {chunk}");
+            }
+        }
+    }
+}
+
+#[test]
+fn tints_that_the_sizes_leave_out_are_passed_over() {
+    let (_, bytes) = sound_files().find(|(name, _)| name == "nested_display.subsurf").expect("the vector");
+    let expected = push::<2048>(&bytes, 64, Crc::Check);
+    let longer = rebuilt(&bytes, |sections| sections.push((*b"TINT", vec![0xFF; 3_000])));
+    assert!(File::parse(&longer).is_ok(), "the reader of whole files does not look at it");
+    assert_eq!(push::<2048>(&longer, 64, Crc::Check), expected);
+}
+
+#[test]
+fn a_section_without_bytes_has_no_rows() {
+    let bytes = rebuilt(&factored(), |sections| {
+        for (_, content) in sections.iter_mut().filter(|(kind, _)| [*b"CORE", *b"WORD"].contains(kind)) {
+            content.clear();
+        }
+    });
+    let (seen, end) = push::<4096>(&bytes, 64, Crc::Check);
+    assert_eq!(end, Ok(()));
+    for section in [Section::Core, Section::Codewords] {
+        assert_eq!(seen.of(section), &[] as &[Vec<u8>], "{section}");
+        assert!(seen.pieces.contains(&format!("{:?}", Piece::End(section))), "{section} has passed");
     }
 }
 
