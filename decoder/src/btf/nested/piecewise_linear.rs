@@ -177,7 +177,10 @@ fn pair(nodes: &[f32], node: u32) -> (f32, f32) {
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
+
     use super::*;
+    use std::vec::Vec;
 
     #[test]
     fn densities_are_finite_and_above_0_whatever_the_values() {
@@ -196,6 +199,36 @@ mod tests {
                     let at = density.at(drawn.at);
                     assert!((at / drawn.density - 1.0).abs() < 1e-3, "{values:?}, {part}: {drawn:?}, {at}");
                 }
+            }
+        }
+    }
+
+    /// Share of the density before a place: pieces are linear.
+    fn share(density: &PiecewiseLinear<'_>, place: f32) -> f64 {
+        let axis = density.axis;
+        let nodes = (0..axis.count).map(|node| axis.end + f32::from(node) * axis.step);
+        let ends: Vec<f32> = nodes.chain([2.0 * axis.end + (f32::from(axis.count) - 1.0) * axis.step]).collect();
+        let (mut start, mut sum) = (0.0_f32, 0.0);
+        for end in ends {
+            let end = end.min(place);
+            sum += 0.5 * f64::from(density.at(start) + density.at(end)) * f64::from((end - start).max(0.0));
+            start = end;
+        }
+        sum
+    }
+
+    #[test]
+    fn places_have_the_share_that_was_drawn_before_them() {
+        let axis = Axis::new(5, 0.7, 1.0);
+        for values in [[1.0, 2.0, 0.5, 0.0, 3.0], [4.0, 0.0, 0.0, 1.0, 0.01], [1e-12, 3e-12, 0.0, 1e-12, 2e-12]] {
+            let mut density = PiecewiseLinear::over(&axis);
+            density.values.as_flattened_mut().iter_mut().zip(values).for_each(|(node, value)| *node = value);
+            density.integrate();
+            assert!((share(&density, 2.0) - 1.0).abs() < 2e-6, "{values:?}: all of it");
+            for part in (0..=1000_u16).map(|k| f32::from(k) / 1000.0) {
+                let drawn = density.draw(part);
+                let found = share(&density, drawn.at);
+                assert!((found - f64::from(part)).abs() < 5e-6, "{values:?}: {found}, not {part}, {drawn:?}");
             }
         }
     }
