@@ -1,30 +1,34 @@
 //! Factored BTFs: channels as sums over the columns of the expanded table, and limits of sizes and indices.
+#![cfg(feature = "alloc")]
 #![allow(clippy::cast_possible_truncation, reason = "numbers of tests are small")]
 
 mod common;
 
 use common::{assemble, floats};
-use subsurf_decoder::btf::factored::layout::{CodewordStage, MAX_STAGES, TuckerShape};
+use subsurf_decoder::btf::factored::layout::{CodewordStage, MAX_CHROMA, MAX_LUMA, MAX_STAGES, TuckerShape};
 use subsurf_decoder::btf::factored::{ExpandedBtf, ExpansionMemory};
 use subsurf_decoder::btf::{BtfHeader, BtfModel, ColourEncoding, Grid, GridCoord, LerpCoord, Material, Texel};
+use subsurf_decoder::container::{Container, Crc};
 use subsurf_decoder::{FactoredBtf, ReadError, Section};
 
 /// 6 nodes of view and 6 of light.
 const GRID: Grid = Grid { n_alpha: 3, n_beta: 2, n_theta: 2, n_phi: 3, ..Grid::PAPER };
 /// 11 columns of luma, 3 of each channel of chroma; 16 coefficients.
-const SHAPE: TuckerShape = shape();
-const COLUMNS: usize = 17;
+const SHAPE: TuckerShape = shape(11, 3);
+/// As many as there can be.
+const LARGEST: TuckerShape = shape(MAX_LUMA, MAX_CHROMA);
 
-const fn shape() -> TuckerShape {
+/// Two stages of codewords: of all coefficients, and of those of luma.
+const fn shape(luma: u8, chroma: u8) -> TuckerShape {
     let mut stages = [CodewordStage { words: 0, first: 0, count: 0 }; MAX_STAGES];
-    stages[0] = CodewordStage { words: 4, first: 0, count: 16 };
-    stages[1] = CodewordStage { words: 2, first: 5, count: 11 };
-    TuckerShape { luma: 11, chroma: 3, view_axes: 2, light_axes: 3, stages, count: 2 }
+    stages[0] = CodewordStage { words: 4, first: 0, count: 2 + chroma + luma };
+    stages[1] = CodewordStage { words: 2, first: 2 + chroma, count: luma };
+    TuckerShape { luma, chroma, view_axes: 2, light_axes: 3, stages, count: 2 }
 }
 
 /// Value of a step of columns, of ratios.
-fn scales() -> Vec<f32> {
-    (0..COLUMNS).map(|c| 0.001 * (c + 1) as f32).collect()
+fn scales(shape: &TuckerShape) -> Vec<f32> {
+    (0..shape.columns()).map(|c| 0.001 * (c + 1) as f32).collect()
 }
 
 const RATIOS: [f32; 2] = [0.01, 0.03];
@@ -34,8 +38,8 @@ fn file(shape: &TuckerShape, indices: [u8; 4]) -> Vec<u8> {
     let encoding = ColourEncoding::Display { white: 1.0 };
     let header = BtfHeader { model: BtfModel::Factored, encoding, materials: 1, grid: GRID, texel_mm: None };
     let material = Material { name: [0; 24], width: 2, height: 1, levels: 1 };
-    let (core_steps, axis_scales) = ([0.5; COLUMNS], [0.002, 0.004, 0.5, 0.25, 0.125]);
-    let numbers = floats(&[&RATIOS[..], &scales(), &core_steps, &axis_scales].concat());
+    let (core_steps, axis_scales) = (vec![0.5; shape.columns()], [0.002, 0.004, 0.5, 0.25, 0.125]);
+    let numbers = floats(&[&RATIOS[..], &scales(shape), &core_steps, &axis_scales].concat());
     let tucker: Vec<u8> = shape.to_bytes().chain(numbers).collect();
     let any = |length: u32, seed: u32| -> Vec<u8> {
         (0..length).map(|k| ((k + seed).wrapping_mul(2_654_435_761) >> 24) as u8).collect()
@@ -45,15 +49,32 @@ fn file(shape: &TuckerShape, indices: [u8; 4]) -> Vec<u8> {
         (b"MATS", &material.to_bytes()),
         (b"FACT", &tucker),
         (b"AXES", &any(30, 1)),
-        (b"CORE", &any(90, 50)),
-        (b"WORD", &any(150, 300)),
+        (b"CORE", &any(6 * shape.columns() as u32, 50)),
+        (b"WORD", &any(10 * shape.coefficients() as u32, 300)),
         (b"INDX", &indices),
     ])
 }
 
+/// File whose `FACT` is cut or filled up to a length.
+fn with_header_bytes(length: usize) -> Vec<u8> {
+    let bytes = file(&SHAPE, [0; 4]);
+    let container = Container::parse(&bytes).unwrap();
+    let sections: Vec<_> = container
+        .entries()
+        .map(|entry| {
+            let mut content = container.section(entry.section, Crc::Check).unwrap().1.to_vec();
+            if entry.section == Section::TuckerHeader {
+                content.resize(length, 0);
+            }
+            (entry.section.kind(), content)
+        })
+        .collect();
+    assemble(&sections.iter().map(|(kind, content)| (kind, &content[..])).collect::<Vec<_>>())
+}
+
 /// Columns between the 16 nodes around coordinates.
-fn interpolated(btf: &ExpandedBtf<'_>, coord: &GridCoord) -> [f64; COLUMNS] {
-    let mut sums = [0.0; COLUMNS];
+fn interpolated(btf: &ExpandedBtf<'_>, columns: usize, coord: &GridCoord) -> Vec<f64> {
+    let mut sums = vec![0.0; columns];
     for corner in 0..16_usize {
         let (mut weight, mut node) = (1.0, 0);
         let axes = [(coord.phi, 3), (coord.theta, 2), (coord.alpha, 3), (coord.beta, 2)];
@@ -62,7 +83,7 @@ fn interpolated(btf: &ExpandedBtf<'_>, coord: &GridCoord) -> [f64; COLUMNS] {
             weight *= f64::from([1.0 - at.weight, at.weight][end]);
             node = node * count + at.nodes[end] as usize;
         }
-        let row = &btf.table()[COLUMNS * node..COLUMNS * (node + 1)];
+        let row = &btf.table()[columns * node..columns * (node + 1)];
         sums.iter_mut().zip(row).for_each(|(sum, step)| *sum += weight * f64::from(*step));
     }
     sums
@@ -70,12 +91,6 @@ fn interpolated(btf: &ExpandedBtf<'_>, coord: &GridCoord) -> [f64; COLUMNS] {
 
 #[test]
 fn channels_are_sums_over_columns() {
-    let bytes = file(&SHAPE, [3, 0, 1, 1]);
-    let btf = FactoredBtf::parse(&bytes).unwrap();
-    assert_eq!((btf.shape(), btf.table_len(), btf.words_len(), btf.scratch_len()), (&SHAPE, 612, 86, 18));
-    let mut memory = ExpansionMemory::default();
-    let expanded = btf.expand_in(&mut memory).unwrap();
-    assert!(expanded.table().iter().filter(|step| **step != 0).count() > 300, "a table with something in it");
     let on = |first, second, weight| LerpCoord { nodes: [first, second], weight };
     let coords = [
         GridCoord {
@@ -87,29 +102,66 @@ fn channels_are_sums_over_columns() {
         },
         GridCoord { phi: on(0, 1, 0.0), theta: on(0, 1, 1.0), alpha: on(0, 1, 1.0), beta: on(0, 1, 0.0), fade: 1.0 },
     ];
-    for (number, coord) in [0, 1].into_iter().flat_map(|number| coords.map(|coord| (number, coord))) {
-        let texel = Texel::from_number(number);
-        let steps = expanded.coefficients(texel).map(f64::from);
-        assert!(steps[..16].iter().filter(|step| **step != 0.0).count() > 8, "{steps:?}");
-        assert!(steps[16..].iter().all(|step| *step == 0.0), "as many as there are coefficients");
-        let (columns, scales) = (interpolated(&expanded, &coord), scales());
-        // Coefficients of chroma stand before those of luma, columns of luma before those of chroma.
-        let products = |first_step: usize, first_column: usize, count: usize| -> [f64; 2] {
-            let parts = (0..count)
-                .map(|k| steps[first_step + k] * f64::from(scales[first_column + k]) * columns[first_column + k]);
-            parts.fold([0.0, 0.0], |[sum, most], part| [sum + part, most + part.abs()])
-        };
-        let ([y, most], [a, most_a], [b, most_b]) = (products(5, 0, 11), products(2, 11, 3), products(2, 14, 3));
-        let ratios = [0, 1].map(|c| steps[c] * f64::from(RATIOS[c]));
-        let due = [y, ratios[0] * y + a, ratios[1] * y + b];
-        let room = [most, ratios[0].abs() * most + most_a, ratios[1].abs() * most + most_b];
-        let found = expanded.channels(texel, &coord);
-        for c in 0..3 {
-            let error = (f64::from(found[c]) - due[c]).abs();
-            assert!(error <= 1e-5 * room[c] + 1e-9, "texel {number}, channel {c}: {found:?}, not {due:?}");
+    for (shape, lengths) in [(&SHAPE, [36 * 17, 4 * 16 + 2 * 11, 18]), (&LARGEST, [36 * 192, 4 * 162 + 2 * 128, 18])] {
+        let bytes = file(shape, [3, 0, 1, 1]);
+        let btf = FactoredBtf::parse(&bytes).unwrap();
+        assert_eq!((btf.shape(), [btf.table_len(), btf.words_len(), btf.scratch_len()]), (shape, lengths));
+        let mut memory = ExpansionMemory::default();
+        let expanded = btf.expand_in(&mut memory).unwrap();
+        let is_filled = |steps: &[i8]| steps.iter().filter(|step| **step != 0).count() > steps.len() / 2;
+        assert!(is_filled(expanded.table()), "a table with something in it");
+        for (number, coord) in [0, 1].into_iter().flat_map(|number| coords.map(|coord| (number, coord))) {
+            assert_sums(&expanded, shape, Texel::from_number(number), &coord);
         }
-        let value = expanded.catalog().header().encoding.decode(found).map(|value| value * coord.fade);
-        assert_eq!(expanded.eval_at(texel, &coord), value);
+    }
+}
+
+/// Channels of a texel are what its coefficients and the columns of the table add up to.
+fn assert_sums(expanded: &ExpandedBtf<'_>, shape: &TuckerShape, texel: Texel, coord: &GridCoord) {
+    let [luma, chroma] = [shape.luma, shape.chroma].map(usize::from);
+    let steps = expanded.coefficients(texel).map(f64::from);
+    let (of_texel, others) = steps.split_at(shape.coefficients());
+    assert!(of_texel.iter().filter(|step| **step != 0.0).count() > of_texel.len() / 2, "{steps:?}");
+    assert!(others.iter().all(|step| *step == 0.0), "as many as there are coefficients");
+    let (columns, scales) = (interpolated(expanded, shape.columns(), coord), scales(shape));
+    // Coefficients of chroma stand before those of luma, columns of luma before those of chroma.
+    let products = |first_step: usize, first_column: usize, count: usize| -> [f64; 2] {
+        let parts =
+            (0..count).map(|k| steps[first_step + k] * f64::from(scales[first_column + k]) * columns[first_column + k]);
+        parts.fold([0.0, 0.0], |[sum, most], part| [sum + part, most + part.abs()])
+    };
+    let [y, most] = products(2 + chroma, 0, luma);
+    let [[a, most_a], [b, most_b]] = [luma, luma + chroma].map(|column| products(2, column, chroma));
+    let ratios = [0, 1].map(|c| steps[c] * f64::from(RATIOS[c]));
+    let due = [y, ratios[0] * y + a, ratios[1] * y + b];
+    let room = [most, ratios[0].abs() * most + most_a, ratios[1].abs() * most + most_b];
+    let found = expanded.channels(texel, coord);
+    for c in 0..3 {
+        let error = (f64::from(found[c]) - due[c]).abs();
+        assert!(error <= 1e-5 * room[c] + 1e-9, "{texel:?}, channel {c}: {found:?}, not {due:?}");
+    }
+    let value = expanded.catalog().header().encoding.decode(found).map(|value| value * coord.fade);
+    assert_eq!(expanded.eval_at(texel, coord), value, "{texel:?}");
+}
+
+#[test]
+fn a_header_of_another_length_says_what_it_takes() {
+    // Two stages of four bytes after the first eight, and 41 numbers.
+    let whole = 16 + 4 * (2 + 2 * SHAPE.columns() + 5);
+    for length in 0..whole + 2 {
+        let need_bytes = match length {
+            0..8 => 8,
+            8..12 => 12,
+            12..16 => 16,
+            _ => whole as u64,
+        };
+        let have_bytes = length as u64;
+        let due = (length != whole).then_some(ReadError::WrongSize {
+            section: Section::TuckerHeader,
+            need_bytes,
+            have_bytes,
+        });
+        assert_eq!(FactoredBtf::parse(&with_header_bytes(length)).err(), due, "{length} bytes");
     }
 }
 
