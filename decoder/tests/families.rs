@@ -3,6 +3,7 @@
 mod common;
 
 use common::{example, seal, seal_all, with_section};
+use subsurf_decoder::btf::Catalog;
 use subsurf_decoder::container::Crc;
 use subsurf_decoder::{Bssrdf, Content, FactoredBtf, Family, File, NestedBtf, ReadError, Section};
 
@@ -14,6 +15,18 @@ fn the_front_door_tells_what_a_file_holds() {
     assert_eq!((material.header().width, file.content().family()), (2, Family::Bssrdf));
     let sections: Vec<Section> = file.container().entries().map(|entry| entry.section).collect();
     assert_eq!(sections[..2], [Section::BssrdfHeader, Section::BaseProfiles]);
+}
+
+#[test]
+fn btfs_alone_have_a_catalog() {
+    for (name, texels) in
+        [("nested_display", Some(6)), ("factored", Some(7)), ("kernel_example", None), ("one_pixel", None)]
+    {
+        let bytes = std::fs::read(format!("../tests/vectors/{name}.subsurf")).unwrap();
+        let file = File::parse(&bytes).unwrap();
+        let content = file.content();
+        assert_eq!(content.catalog().map(Catalog::texels), texels, "{name}");
+    }
 }
 
 #[test]

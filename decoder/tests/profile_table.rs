@@ -5,7 +5,7 @@ mod common;
 
 use common::container;
 use subsurf_decoder::bssrdf::layout::{MODEL_2BMPP, MODEL_PER_PIXEL};
-use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, BssrdfModel, Coding, Mixtures, ProfileTable};
+use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, BssrdfModel, Coding, Mixture, Mixtures, ProfileTable};
 use subsurf_decoder::container::bytes::F32Le;
 use subsurf_decoder::push::{Piece, PushReader};
 use subsurf_decoder::{Bssrdf, Content, File, Section};
@@ -121,6 +121,22 @@ fn nodes_that_are_pushed_make_the_same_table() {
     });
     assert_eq!(pushed, Ok(()));
     assert_eq!(format!("{table:?}"), format!("{expected:?}"));
+}
+
+#[test]
+fn materials_without_a_share_may_be_missing() {
+    let bytes = patch(-8.0, 2.0);
+    let material = Bssrdf::parse(&bytes).unwrap();
+    let mut table = ProfileTable::<84>::new();
+    assert!(table.begin(material.header()), "there is room");
+    for _ in 0..material.header().samples {
+        table.push([0.0; 3]);
+    }
+    // The first material is there, others are not.
+    for (t, due) in [(1.0, [1.0; 3]), (0.5, [0.0; 3])] {
+        let pixel = Mixture { bases: [0, 1, 0, 0, 0], ratios: [t, 1.0 - t, 0.0, 0.0, 0.0] };
+        assert_eq!(table.rd(&pixel, &pixel, 0, 0), due, "{t} of the first");
+    }
 }
 
 #[test]

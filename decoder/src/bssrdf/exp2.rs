@@ -46,5 +46,6 @@ mod tests {
         assert_eq!([-127.0, -1e6, f32::NEG_INFINITY].map(exp2), [0.0; 3]);
         assert_eq!([127.5, 1e9, f32::INFINITY, f32::NAN].map(exp2), [exp2(127.0); 4]);
         assert_eq!([0.0, 1.0, -3.0, 127.0].map(exp2), [1.0, 2.0, 0.125, 1.701_411_8e38], "whole powers are exact");
+        assert_eq!([-126.0, (-126.0_f32).next_down()].map(exp2), [f32::MIN_POSITIVE, 0.0], "the least power, and none");
     }
 }
