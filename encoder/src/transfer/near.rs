@@ -18,8 +18,8 @@ const RULES: [(f32, u16); 3] = [(1.5, 4), (3.0, 2), (REACH, 1)];
 /// Distance from which corners are as good.
 const REACH: f32 = 4.0;
 /// Directions, and rings of each, of triangles that have the place as a corner.
-const DIRECTIONS: u16 = 6;
-const RINGS: u16 = 8;
+const DIRECTIONS: u16 = 4;
+const RINGS: u16 = 6;
 
 /// Weights of sources for the places of a leaf.
 pub(super) struct NearWeights {
@@ -27,6 +27,15 @@ pub(super) struct NearWeights {
     pub(super) sources: Vec<u32>,
     /// What their flux is multiplied by, `[source × channel + channels · place]`.
     pub(super) weights: DMatrix<f32>,
+}
+
+/// What triangles near a place add to one of their corners.
+#[derive(Clone, Copy, Default)]
+struct Part {
+    /// ∫ R_d λ dA `[rgb]`.
+    integral: [f32; 3],
+    /// Their thirds in mm².
+    area: f32,
 }
 
 /// Triangles of a surface, to be found by their distance.
@@ -66,22 +75,35 @@ impl<'a> Near<'a> {
     /// in the sums, but for the places themselves, which count in none.
     pub(super) fn weights(&self, places: &[u32], centre: Vec3, radius: f32, channels: usize) -> NearWeights {
         let triangles = self.around(centre, radius);
-        let (mut rows, mut sources, mut found) = (HashMap::new(), Vec::new(), Vec::new());
+        let (mut rows, mut sources) = (HashMap::new(), Vec::new());
+        let mut row_of = |source: u32| {
+            *rows.entry(source).or_insert_with(|| {
+                sources.push(source);
+                sources.len() - 1
+            })
+        };
+        let triangles: Vec<(usize, [usize; 3])> =
+            triangles.into_iter().map(|number| (number, self.surface.triangles[number].map(&mut row_of))).collect();
+        let mut weights = DMatrix::zeros(sources.len(), places.len() * channels);
+        let mut parts = vec![Part::default(); sources.len()];
         for (number, place) in places.iter().enumerate() {
-            for triangle in &triangles {
-                for (source, weight) in self.corrections(*place, *triangle) {
-                    let row = *rows.entry(source).or_insert_with(|| {
-                        sources.push(source);
-                        sources.len() - 1
-                    });
-                    found.push((row, number, weight));
+            parts.fill(Part::default());
+            for (triangle, rows) in &triangles {
+                let Some(integrals) = self.integrals(*place, *triangle) else { continue };
+                for (row, integral) in rows.iter().zip(integrals) {
+                    // A third of the triangle is of each corner.
+                    parts[*row].area += self.areas[*triangle] / 3.0;
+                    parts[*row].integral = [0, 1, 2].map(|c| parts[*row].integral[c] + integral[c]);
                 }
             }
-        }
-        let mut weights = DMatrix::zeros(sources.len(), places.len() * channels);
-        for (row, number, weight) in found {
-            for c in 0..channels {
-                weights[(row, number * channels + c)] += weight[c];
+            for (row, (part, source)) in parts.iter().zip(&sources).enumerate().filter(|(_, (part, _))| part.area > 0.0)
+            {
+                let [at, from] = [place, source].map(|place| self.surface.positions[*place as usize]);
+                let rd = if place == source { [0.0; 3] } else { self.table.at_squared(at.distance_squared(from)) };
+                for c in 0..channels {
+                    weights[(row, number * channels + c)] =
+                        (part.integral[c] - rd[c] * part.area) / self.surface.areas[*source as usize];
+                }
             }
         }
         NearWeights { sources, weights }
@@ -103,32 +125,21 @@ impl<'a> Near<'a> {
         triangles
     }
 
-    /// Corners of a triangle with the difference of ∫ R_d λ_i dA, λ_i its barycentric coordinates, from what they have in a sum over places,
-    /// for each unit of their flux. Nothing of triangles that are far, or have no area.
-    fn corrections(&self, place: u32, triangle: usize) -> impl Iterator<Item = (u32, [f32; 3])> + use<'_> {
-        let (at, area) = (self.surface.positions[place as usize], self.areas[triangle]);
+    /// ∫ R_d λ_k dA `[k][rgb]` over a triangle as a place sees it, λ_k its barycentric coordinates. `None` of triangles that are far, or have no
+    /// area.
+    fn integrals(&self, place: u32, triangle: usize) -> Option<[[f32; 3]; 3]> {
+        if self.areas[triangle] <= 0.0 {
+            return None;
+        }
         let corners = self.surface.triangles[triangle];
         let positions = corners.map(|place| self.surface.positions[place as usize]);
-        let own = corners.iter().position(|corner| *corner == place);
+        if let Some(own) = corners.iter().position(|corner| *corner == place) {
+            return Some(self.around_corner(positions, own));
+        }
+        let at = self.surface.positions[place as usize];
         let distance = at.distance(self.centroids[triangle]) / self.reaches[triangle] * REACH;
-        let integrals = match own {
-            _ if area <= 0.0 => None,
-            Some(own) => Some(self.around_corner(positions, own)),
-            None => RULES
-                .iter()
-                .find(|(limit, _)| distance < *limit)
-                .map(|(_, parts)| self.over_parts(at, positions, *parts)),
-        };
-        integrals.into_iter().flat_map(move |integrals| {
-            (0..3).map(move |k| {
-                let source = corners[k] as usize;
-                // A third of the triangle is of each corner.
-                let rd =
-                    if own == Some(k) { [0.0; 3] } else { self.table.at_squared(at.distance_squared(positions[k])) };
-                let weight = |c: usize| (integrals[k][c] - rd[c] * area / 3.0) / self.surface.areas[source];
-                (corners[k], std::array::from_fn(weight))
-            })
-        })
+        let (_, parts) = RULES.iter().find(|(limit, _)| distance < *limit)?;
+        Some(self.over_parts(at, positions, *parts))
     }
 
     /// ∫ R_d λ_k dA `[k][rgb]` by the centroids of parts of the triangle that are alike.
