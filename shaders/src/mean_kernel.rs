@@ -1,30 +1,33 @@
 //! What is drawn without heterogeneity: one profile for the whole patch.
 
 use subsurf_decoder::Bssrdf;
+use subsurf_decoder::bssrdf::BssrdfHeader;
 use subsurf_scene::MeanProfile;
 
 use crate::rgb::Rgb;
 
-/// Factors that give back the light that softened distances √(r² + s²) take from the mean profile, for s = k / 2 pixels; shape
-/// `[k]`: ∫ R(r) r dr from 0, divided by that from s, which is taken to be at least a tenth of it.
+/// Factors that give back the light that softened distances √(r² + s²) take from what a mean profile spreads over a plane, for s = k / 2
+/// pixels of `header`; shape `[k]`. Only what is near is softened, with weights that fall from 1 to 0 between the distances `fade_mm`:
+/// ∫ w(r) R(r) r dr, divided by ∫ w(r) R(√(r² + s²)) r dr, which is taken to be at least a tenth of it.
 #[must_use]
-pub fn softening_gain(material: &Bssrdf<'_>) -> [Rgb; 8] {
-    const STEPS: u16 = 4_096;
-    let header = material.header();
-    let profile = MeanProfile::of(material);
-    let step = header.r_max_mm / f32::from(STEPS);
-    let rest = |k: u8| {
-        let begin = 0.5 * f32::from(k) * header.pitch_mm;
-        let radii = (0..STEPS).map(|n| (f32::from(n) + 0.5) * step).filter(|r_mm| *r_mm > begin);
+pub fn softening_gain(profile: &MeanProfile, header: &BssrdfHeader, fade_mm: [f32; 2]) -> [Rgb; 8] {
+    const STEPS: u16 = 256;
+    let step = header.r_max_mm.min(fade_mm[1]) / f32::from(STEPS);
+    let light = |k: u8| {
+        let softening_mm = 0.5 * f32::from(k) * header.pitch_mm;
+        let radii = (0..STEPS).map(|n| (f32::from(n) + 0.5) * step);
         // In f64, which sums of any profile stay within.
         radii.fold([0.0_f64; 3], |sum, r_mm| {
-            let ring = profile.at(r_mm);
-            [0, 1, 2].map(|c| sum[c] + f64::from(ring[c]) * f64::from(r_mm))
+            let width = (fade_mm[1] - fade_mm[0]).max(f32::MIN_POSITIVE);
+            let faded = ((r_mm - fade_mm[0]) / width).clamp(0.0, 1.0);
+            let share = f64::from((1.0 - faded * faded * (3.0 - 2.0 * faded)) * r_mm);
+            let ring = profile.at(r_mm.hypot(softening_mm));
+            [0, 1, 2].map(|c| sum[c] + f64::from(ring[c]) * share)
         })
     };
-    let all = rest(0);
+    let all = light(0);
     std::array::from_fn(|k| {
-        let left = rest(u8::try_from(k).unwrap_or(0));
+        let left = light(u8::try_from(k).unwrap_or(0));
         #[allow(clippy::cast_possible_truncation, reason = "0 to 10")]
         [0, 1, 2].map(|c| (all[c] / left[c].max(0.1 * all[c]).max(1e-300)) as f32)
     })

@@ -1,7 +1,8 @@
 //! Materials for splats on the device.
 
 use subsurf_decoder::Bssrdf;
-use subsurf_shaders::{Rgb, softening_gain};
+use subsurf_scene::MeanProfile;
+use subsurf_shaders::Rgb;
 
 use super::bssrdf::BssrdfPlanes;
 use super::patch_layers::PatchLayers;
@@ -15,8 +16,8 @@ pub struct SplatMaterial {
     pub(crate) planes: BssrdfPlanes,
     /// One layer: albedo under uniform light.
     pub(crate) albedo: PatchLayers,
-    /// Factors that give back the light that softened distances take, by [`softening_gain`].
-    pub(crate) softening_gain: [Rgb; 8],
+    /// What softened distances take from samples is given back by it.
+    pub(crate) mean: MeanProfile,
 }
 
 impl SplatMaterial {
@@ -26,7 +27,7 @@ impl SplatMaterial {
     /// [`Error::Unsupported`](crate::Error::Unsupported) if the device takes no texture of that size.
     pub(crate) fn new(gpu: &Gpu, material: &Bssrdf<'_>, planes: BssrdfPlanes) -> Result<Self> {
         let albedo = PatchLayers::new(gpu, material.header(), 1)?;
-        Ok(Self { planes, softening_gain: softening_gain(material), albedo })
+        Ok(Self { planes, mean: MeanProfile::of(material), albedo })
     }
 
     /// Planes of the file.

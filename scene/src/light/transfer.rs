@@ -4,9 +4,9 @@
 /// about 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AmbientTransfer {
-    /// Share from surface that faces the same way as the vertex.
+    /// Share of the light that falls on the vertex's own side: surface around it counts by half of 1 + the cosine between both normals.
     pub front: [f32; 3],
-    /// Share from surface that faces the other way: light that passes through thin parts.
+    /// Share of the light on the other side, by the rest: what is round, and light that passes through thin parts.
     pub back: [f32; 3],
 }
 

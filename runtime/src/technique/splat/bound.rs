@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use glam::{Mat4, Vec3};
 use subsurf_decoder::bssrdf::BssrdfHeader;
+use subsurf_scene::MeanProfile;
+use subsurf_shaders::softening_gain;
 use subsurf_shaders::uniform::{self, LightSource, MAX_RINGS, Splat, SplatRings, TsmLight, Upsampling};
 use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureView};
 
@@ -39,7 +41,7 @@ struct Bound {
     passes: Arc<Passes>,
     maps: Arc<Maps>,
     header: BssrdfHeader,
-    softening_gain: [[f32; 4]; 8],
+    mean: MeanProfile,
     /// Levels of the last frame.
     levels: SplatLevels,
     gbuffer: [BindGroup; 2],
@@ -71,6 +73,14 @@ struct Draw {
     refines: bool,
     block: Tracked<Buffer>,
     group: BindGroup,
+    softening: Softening,
+}
+
+/// Factors of the first ring, for the distances in mm where it fades out.
+#[derive(Clone, Copy, Debug, Default)]
+struct Softening {
+    fade_out: [f32; 2],
+    gain: [[f32; 4]; 8],
 }
 
 impl Draw {
@@ -133,7 +143,7 @@ impl Passes {
             reductions: self.reductions(gpu, slot, lights, plan)?,
             draws: self.draws(gpu, lights, maps, plan)?,
             levels: SplatLevels { first: 1, rings: 1 },
-            softening_gain: material.softening_gain.map(|[r, g, b]| [r, g, b, 0.0]),
+            mean: material.mean.clone(),
             header: *material.planes.header(),
             rings_block,
             upsampling,
@@ -181,22 +191,16 @@ impl Passes {
                     texture(&maps.visible[2].view),
                 ];
                 let group = self.splat.bind(gpu, 1, &group)?;
-                draws.push(Draw { tile, ring, refines, block, group });
+                draws.push(Draw { tile, ring, refines, block, group, softening: Softening::default() });
             }
         }
         Ok(draws)
     }
 }
 
-impl Bound {
-    /// Draws of a frame, with the lights of their tiles.
-    fn drawn<'a>(&'a self, block: &'a uniform::Scene) -> impl Iterator<Item = (&'a Draw, &'a LightSource)> {
-        let draws = self.draws.iter().filter(|draw| draw.ring < self.levels.rings);
-        draws.filter_map(|draw| {
-            let light = block.drawn_shadows().nth(draw.tile as usize)?;
-            Some((draw, &block.light[light as usize]))
-        })
-    }
+/// Light of the tile of a draw, if it shines in the frame.
+fn light_of<'a>(draw: &Draw, block: &'a uniform::Scene) -> Option<&'a LightSource> {
+    block.drawn_shadows().nth(draw.tile as usize).map(|light| &block.light[light as usize])
 }
 
 impl Bindings for Bound {
@@ -211,15 +215,21 @@ impl Bindings for Bound {
         let block = group.block;
         let clip_from_world = Mat4::from_cols_array_2d(&block.clip_from_world);
         let clip_from_centre = clip_from_world * Mat4::from_translation(Vec3::from(block.centre_mm));
-        for (draw, light) in self.drawn(block) {
+        let (levels, mean, header) = (self.levels, &self.mean, &self.header);
+        for draw in self.draws.iter_mut().filter(|draw| draw.ring < levels.rings) {
+            let Some(light) = light_of(draw, block) else { continue };
             #[allow(clippy::cast_precision_loss, reason = "small")]
             let texel_at = |level: u32| light.texel_mm * (1_u32 << level) as f32;
             // Distances are of samples of a directional light's first level.
-            let in_mm = |edges: f32| edges * texel_at(self.levels.first);
-            let [fade_in, fade_out] = self.levels.fades(draw.ring).map(|fade| fade.map(in_mm));
-            let level = draw.level(&self.levels);
+            let in_mm = |edges: f32| edges * texel_at(levels.first);
+            let [fade_in, fade_out] = levels.fades(draw.ring).map(|fade| fade.map(in_mm));
+            let level = draw.level(&levels);
+            if draw.ring == 0 && draw.softening.fade_out != fade_out {
+                let gain = softening_gain(mean, header, fade_out).map(|[r, g, b]| [r, g, b, 0.0]);
+                draw.softening = Softening { fade_out, gain };
+            }
             let splat = Splat {
-                softening_gain: self.softening_gain,
+                softening_gain: draw.softening.gain,
                 clip_from_centre: clip_from_centre.to_cols_array_2d(),
                 fade_in,
                 fade_out,
@@ -230,7 +240,7 @@ impl Bindings for Bound {
                 side: (group.plan.light_texels >> level).max(1),
                 refines: u32::from(draw.refines),
                 stride: 1 << draw.ring,
-                pitch_mm: self.header.pitch_mm,
+                pitch_mm: header.pitch_mm,
                 group: group.number(),
                 columns: group.plan.light_columns,
                 pad: [0; 2],
@@ -257,7 +267,7 @@ impl Bindings for Bound {
         self.passes.gbuffer.record(encoder, &attachments, [scene, albedo], shared, group.draws());
         lap(self.passes.gbuffer.name(), encoder);
         for (ring, number) in self.maps.rings.iter().zip(0..self.levels.rings) {
-            let draws = self.drawn(group.block).map(|(draw, _)| draw).filter(|draw| draw.ring == number);
+            let draws = self.draws.iter().filter(|draw| draw.ring == number && light_of(draw, group.block).is_some());
             let squares = |draw: &Draw| (group.plan.light_texels >> draw.level(&self.levels)).max(1).pow(2);
             let draws: Vec<_> = draws.map(|draw| (&draw.group, squares(draw))).collect();
             self.passes.splat.record(encoder, &ring.view, &self.planes, &draws);

@@ -2,8 +2,8 @@
 // draw them write.
 
 struct TsmTexel {
-    // Mean of depths along the light's axis, and of positions relative to the middle of the scene, in mm. Targets of one
-    // channel keep the depth.
+    // Mean of depths along the light's axis, and of positions relative to the middle of the scene, in mm, by the light that enters; those of
+    // one of the points where they lie far apart. Targets of one channel keep the depth.
     @location(0) position: TargetTexel,
     // Mean irradiance that enters, on a plane across the axis; at the finest level the number of the group that it enters, 0
     // where there is no surface; at the coarser ones the share of the texel where there is a surface of one group.
