@@ -2,7 +2,7 @@
 
 use subsurf_decoder::Bssrdf;
 use subsurf_decoder::bssrdf::basis::MAX_GAUSSIANS;
-use subsurf_scene::{Mapping, Placement, SurfacePoints};
+use subsurf_scene::{Mapping, MeanProfile, Placement, SurfacePoints};
 use subsurf_shaders::cpu::{Triangles, gather, irradiance, profile_sums, shade_vertex, surface_gather};
 use subsurf_shaders::separable::{ProfileSums, ProjectedBasis};
 use subsurf_shaders::uniform::{BlurStage, MOST_TAPS, Material, Transmission};
@@ -29,7 +29,8 @@ pub fn bssrdf(material: &Bssrdf<'_>) {
     if header.window_radius > MOST_RADIUS || u64::from(header.pixels()) > MOST_PIXELS {
         return;
     }
-    let gain = softening_gain(material);
+    let fade_mm = [2.0, 3.2].map(|pixels| pixels * header.pitch_mm);
+    let gain = softening_gain(&MeanProfile::of(material), header, fade_mm);
     assert!(gain.as_flattened().iter().all(|gain| gain.is_finite() && *gain >= 0.0), "{gain:?}");
     let kernel = mean_kernel(material);
     assert!(kernel.len() == usize::from(header.window_radius) + 1 && are_finite(&kernel), "{kernel:?}");
