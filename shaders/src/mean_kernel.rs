@@ -16,7 +16,7 @@ pub fn softening_gain(profile: &MeanProfile, header: &BssrdfHeader, fade_mm: [f3
     let light = |k: u8| {
         let softening_mm = 0.5 * f32::from(k) * header.pitch_mm;
         let radii = (0..STEPS).map(|n| (f32::from(n) + 0.5) * step);
-        // In f64, which sums of any profile stay within.
+        // In f64: sums over the brightest profiles overflow f32.
         radii.fold([0.0_f64; 3], |sum, r_mm| {
             let width = (fade_mm[1] - fade_mm[0]).max(f32::MIN_POSITIVE);
             let faded = ((r_mm - fade_mm[0]) / width).clamp(0.0, 1.0);
@@ -42,7 +42,7 @@ pub fn mean_kernel(material: &Bssrdf<'_>) -> Vec<Rgb> {
     let profile = MeanProfile::of(material);
     let area = f64::from(header.pitch_mm).powi(2);
     let line = |x: i32| {
-        // In f64, which sums of any profile stay within.
+        // In f64: sums over the brightest profiles overflow f32.
         (-radius..=radius).fold([0.0_f64; 3], |sum, y| {
             #[allow(clippy::cast_precision_loss, reason = "pixels of a window")]
             let reflectance = profile.at(((x * x + y * y) as f32).sqrt() * header.pitch_mm);

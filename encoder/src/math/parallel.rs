@@ -1,5 +1,5 @@
-//! Loops on all cores. Rayon's iterators are compiled for every closure, several times each, which was a seventh of this crate's code.
-//! Here they are compiled once, for [`run`]; what differs between calls is a plain loop.
+//! Loops on all cores. Rayon's iterators are compiled for every closure, several times each. Here they are compiled once, for [`run`]; what
+//! differs between calls is a plain loop. Only loops that end at the first error, keep a buffer for each thread, or look for a least value use Rayon's own.
 
 use std::sync::{Mutex, PoisonError};
 

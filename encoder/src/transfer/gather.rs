@@ -153,10 +153,12 @@ impl<'a> Gather<'a> {
 /// Adds the flux of `sources` times `weights`, `[source × sum]`, to `out`, `[sum][light]`.
 fn add_weighted(flux: &DMatrix<f32>, sources: &[u32], weights: &DMatrix<f32>, out: &mut [f32]) {
     let lights = flux.nrows();
-    let mut columns = DMatrix::zeros(lights, sources.len());
-    for (column, source) in columns.as_mut_slice().chunks_mut(lights).zip(sources) {
-        column.copy_from_slice(flux.column(*source as usize).as_slice());
+    for (number, sources) in sources.chunks(BLOCK).enumerate() {
+        let mut columns = DMatrix::zeros(lights, sources.len());
+        for (column, source) in columns.as_mut_slice().chunks_mut(lights).zip(sources) {
+            column.copy_from_slice(flux.column(*source as usize).as_slice());
+        }
+        let mut out = nalgebra::DMatrixViewMut::from_slice(out, lights, weights.ncols());
+        out.gemm(1.0, &columns, &weights.rows(number * BLOCK, sources.len()), 1.0);
     }
-    let mut out = nalgebra::DMatrixViewMut::from_slice(out, lights, weights.ncols());
-    out.gemm(1.0, &columns, weights, 1.0);
 }

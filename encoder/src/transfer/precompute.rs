@@ -89,8 +89,8 @@ pub fn precompute(
     }
     let surface = Surface::new(mesh);
     let places = surface.len();
-    // Flux of places and of nodes, of which there are about 0.3 to a place, q, and a portion of q.
-    let bytes = (places * lights.len()) as u64 * (10 + 4 * options.channels as u64);
+    // Flux of places and of nodes, of which there are about 0.3 to a place, q, and a portion of q; triangles by place and in a tree.
+    let bytes = places as u64 * (lights.len() as u64 * (10 + 4 * options.channels as u64) + 200);
     memory::expect(bytes, || format!("scattering of {} lights at {places} places", lights.len()))?;
     let (spacing, half) = (surface.spacing_mm(), table.half_radius_mm());
     if spacing > COARSE * half {

@@ -47,7 +47,7 @@ impl Quantised {
         }
         let clusters = parallel::map(members.len(), |number| {
             let mean = clusters.means.column(number).into_owned();
-            Cluster::new(q, members[number].clone(), &mean, &clusters.components[number])
+            Cluster::new(q, &members[number], &mean, &clusters.components[number])
         });
         let count = clusters[0].components.len();
         let bits = shared(&clusters, count, bits);
@@ -78,14 +78,14 @@ impl Quantised {
 }
 
 impl Cluster {
-    fn new(q: &DMatrix<f32>, members: Vec<usize>, mean: &DVector<f32>, exact: &DMatrix<f32>) -> Self {
+    fn new(q: &DMatrix<f32>, members: &[usize], mean: &DVector<f32>, exact: &DMatrix<f32>) -> Self {
         let mean = codes(mean.iter().copied(), u16::MAX);
         let [offset, step] = mean.0;
         let rounded_mean =
             DVector::from_iterator(q.nrows(), mean.1.iter().map(|code| offset + step * f32::from(*code)));
         let components: Vec<Vec<i8>> = exact.column_iter().map(|column| signed(column.as_slice())).collect();
         let rounded = DMatrix::from_fn(q.nrows(), components.len(), |row, k| f32::from(components[k][row]));
-        let mut rest = q.select_columns(&members);
+        let mut rest = q.select_columns(members);
         rest.column_iter_mut().for_each(|mut column| column -= &rounded_mean);
         // Least squares to the rounded components, which are not quite orthogonal; what is zero gets nothing.
         let mut gram = (rounded.transpose() * &rounded).map(f64::from);
@@ -96,7 +96,7 @@ impl Cluster {
         let along = (rounded.transpose() * rest).map(f64::from);
         let solved = gram.cholesky().expect("it is positive: a ridge was added").solve(&along);
         let squares = rounded.column_iter().map(|column| column.norm_squared()).collect();
-        Self { mean, components, members, coefficients: solved.map(single), squares }
+        Self { mean, components, members: members.to_vec(), coefficients: solved.map(single), squares }
     }
 }
 
