@@ -253,10 +253,10 @@ mod tests {
         surface.place_of.iter().map(|place| sums[*place as usize]).collect()
     }
 
-    /// Plane of cells of `cell_mm`, in two triangles each, whose vertices are moved at random by up to a quarter of a cell.
-    fn plane(cell_mm: [f32; 2], side_mm: f32) -> Mesh {
+    /// Plane of so many cells of `cell_mm`, in two triangles each, whose vertices are moved at random by up to a quarter of a cell.
+    fn plane(cell_mm: [f32; 2], cells: [u32; 2]) -> Mesh {
         let mut rng = Pcg64::seed_from_u64(5);
-        let [columns, rows] = cell_mm.map(|cell| (side_mm / cell) as u32 + 1);
+        let [columns, rows] = cells.map(|cells| cells + 1);
         let mut positions = Vec::new();
         for (y, x) in (0..rows).flat_map(|y| (0..columns).map(move |x| (y, x))) {
             let [x, y] = [(x, cell_mm[0]), (y, cell_mm[1])]
@@ -278,8 +278,8 @@ mod tests {
         // R_d of all channels ends at 3 mm, red is the narrowest.
         let tail = |k: u16, power: i32| (1.0 - (f32::from(k) / 255.0).powi(4)).powi(power);
         let table = RdTable::of_tail(3.0, (0..=255).map(|k| [12, 6, 3].map(|power| tail(k, power))).collect());
-        for cell_mm in [[0.4, 0.4], [0.15, 0.8], [1.2, 0.2]] {
-            let mesh = plane(cell_mm, 10.0);
+        for (cell_mm, cells) in [([0.4, 0.4], [25, 25]), ([0.15, 0.8], [66, 12]), ([1.2, 0.2], [8, 50])] {
+            let mesh = plane(cell_mm, cells);
             let surface = Surface::new(&mesh);
             let light = |at: Vec3| 1.0 + 0.3 * at.x - 0.05 * at.z;
             let entered = surface.positions.iter().zip(&surface.areas).map(|(at, area)| light(*at) * area);
@@ -306,8 +306,8 @@ mod tests {
         // A corner on the edge across from it, at each place where a direction may go: with area by rounding alone.
         for k in 0..=16_u8 {
             let s = f32::from(k) / 16.0;
-            let mut mesh = plane([1.0, 1.0], 6.0);
-            let first = mesh.positions.len() as u32;
+            let mut mesh = plane([1.0, 1.0], [6, 6]);
+            let first = u32::try_from(mesh.positions.len()).unwrap();
             let [a, b] = [Vec3::new(0.1, 2.0, 0.3), Vec3::new(5.3, 2.1, 4.9)];
             mesh.positions.extend([a, b, a.lerp(b, s)]);
             mesh.normals.extend([Vec3::Y; 3]);
