@@ -2,17 +2,10 @@
 
 mod common;
 
-use common::btf;
+use common::{btf, place};
 use subsurf_decoder::btf::nested::layout::Scales;
 use subsurf_decoder::btf::{CodebookOffsets, PackedTable, StageTables};
 use subsurf_decoder::{NestedBtf, Section};
-
-/// First byte of a section.
-fn start(btf: &NestedBtf<'_>, section: Section) -> u64 {
-    let container = subsurf_decoder::container::Container::parse(btf.file()).unwrap();
-    let entry = container.entries().find(|entry| entry.section == section).expect("the section");
-    entry.offset
-}
 
 #[test]
 fn tables_begin_where_their_sections_do() {
@@ -20,8 +13,9 @@ fn tables_begin_where_their_sections_do() {
     let file = NestedBtf::parse(&bytes).unwrap();
     let of = CodebookOffsets::of(&file);
     assert_eq!(&of.sizes, file.codebooks().sizes());
+    let start = |section| place(&bytes, section).0 as u64;
     let table = |section, before, nodes, width, index_bits, len, scales| PackedTable {
-        start: start(&file, section) + before,
+        start: start(section) + before,
         nodes,
         width,
         index_bits,
@@ -39,8 +33,8 @@ fn tables_begin_where_their_sections_do() {
         };
         let due = StageTables {
             tables: [of_book(6, 0, 1, p6), of_book(4, 0, 3, p4), of_book(3, 0, 2, p3), of_book(2, 3 * rows, 3, p2)],
-            p2_bytes: start(&file, section(2)),
-            p1: start(&file, section(1)),
+            p2_bytes: start(section(2)),
+            p1: start(section(1)),
         };
         assert_eq!(of.stages[usize::from(number)], due, "stage {number}");
     }
@@ -49,7 +43,7 @@ fn tables_begin_where_their_sections_do() {
     assert_eq!(of.merged, table(Section::Merged, 0, 1, 9, 7, 66, none));
     assert_eq!(of.i2, table(Section::ChromaSlices2, 0, 3, 7, 7, 70, none));
     assert_eq!(of.i1, table(Section::ChromaSlices1, 0, 2, 7, 7, 67, none));
-    assert_eq!([of.colours, of.tints], [Section::Colours, Section::Tints].map(|section| start(&file, section)));
+    assert_eq!([of.colours, of.tints], [Section::Colours, Section::Tints].map(start));
 }
 
 #[test]

@@ -4,11 +4,10 @@
 
 mod common;
 
-use common::{assemble, floats};
+use common::{assemble, floats, rebuilt};
 use subsurf_decoder::btf::factored::layout::{CodewordStage, MAX_CHROMA, MAX_LUMA, MAX_STAGES, TuckerShape};
 use subsurf_decoder::btf::factored::{ExpandedBtf, ExpansionMemory};
 use subsurf_decoder::btf::{BtfHeader, BtfModel, ColourEncoding, Grid, GridCoord, LerpCoord, Material, Texel};
-use subsurf_decoder::container::{Container, Crc};
 use subsurf_decoder::{FactoredBtf, ReadError, Section};
 
 /// 6 nodes of view and 6 of light.
@@ -57,19 +56,10 @@ fn file(shape: &TuckerShape, indices: [u8; 4]) -> Vec<u8> {
 
 /// File whose `FACT` is cut or filled up to a length.
 fn with_header_bytes(length: usize) -> Vec<u8> {
-    let bytes = file(&SHAPE, [0; 4]);
-    let container = Container::parse(&bytes).unwrap();
-    let sections: Vec<_> = container
-        .entries()
-        .map(|entry| {
-            let mut content = container.section(entry.section, Crc::Check).unwrap().1.to_vec();
-            if entry.section == Section::TuckerHeader {
-                content.resize(length, 0);
-            }
-            (entry.section.kind(), content)
-        })
-        .collect();
-    assemble(&sections.iter().map(|(kind, content)| (kind, &content[..])).collect::<Vec<_>>())
+    rebuilt(&file(&SHAPE, [0; 4]), |sections| {
+        let header = sections.iter_mut().find(|(kind, _)| *kind == Section::TuckerHeader.kind());
+        header.expect("the header").1.resize(length, 0);
+    })
 }
 
 /// Columns between the 16 nodes around coordinates.

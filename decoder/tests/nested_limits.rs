@@ -2,16 +2,9 @@
 
 mod common;
 
-use common::{btf, seal_all};
+use common::{btf, place, seal_all};
 use subsurf_decoder::btf::nested::layout::BOOK_BYTES;
-use subsurf_decoder::{File, NestedBtf, ReadError, Section};
-
-/// First byte and length of a section.
-fn place(bytes: &[u8], section: Section) -> (usize, usize) {
-    let file = File::parse(bytes).unwrap();
-    let entry = file.container().entries().find(|entry| entry.section == section).expect("the section");
-    (usize::try_from(entry.offset).unwrap(), usize::try_from(entry.length).unwrap())
-}
+use subsurf_decoder::{NestedBtf, ReadError, Section};
 
 /// The file with some bytes of a section replaced, and sealed; the error that it has.
 fn error_with(section: Section, changes: &[(usize, &[u8])]) -> Option<ReadError> {

@@ -4,7 +4,8 @@
 mod common;
 
 use common::btf::factored;
-use common::push::{CHUNKS, Seen, push, rebuilt, sound_files};
+use common::push::{CHUNKS, Seen, push, sound_files};
+use common::rebuilt;
 use subsurf_decoder::bssrdf::{BssrdfModel, Mixtures, Profiles};
 use subsurf_decoder::container::Crc;
 use subsurf_decoder::push::{Piece, PushReader};

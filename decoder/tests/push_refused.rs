@@ -3,7 +3,8 @@
 
 mod common;
 
-use common::push::{CHUNKS, OTHER_ORDER, Seen, basis, files, is_same, push, rebuilt, result, sound_files};
+use common::push::{CHUNKS, OTHER_ORDER, Seen, basis, files, is_same, push, result, sound_files};
+use common::rebuilt;
 use common::{btf, seal_all};
 use proptest::prelude::*;
 use subsurf_decoder::bssrdf::layout::HEADER_BYTES;

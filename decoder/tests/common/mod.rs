@@ -5,7 +5,9 @@ pub(crate) mod btf;
 #[cfg(feature = "push")]
 pub(crate) mod push;
 
+use subsurf_decoder::Section;
 use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, Coding};
+use subsurf_decoder::container::{Container, Crc};
 
 /// Offsets in the example file, straight from the specification.
 pub(crate) const MODEL: usize = 124;
@@ -170,4 +172,20 @@ pub(crate) const HEADER: BssrdfHeader = BssrdfHeader {
 pub(crate) fn bssrdf(header: BssrdfHeader, sections: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
     let header = header.to_bytes();
     assemble(&[&[(b"BSSR", &header[..])], sections].concat())
+}
+
+/// File with other sections.
+pub(crate) fn rebuilt(bytes: &[u8], change: impl FnOnce(&mut Vec<([u8; 4], Vec<u8>)>)) -> Vec<u8> {
+    let file = Container::parse(bytes).unwrap();
+    let content = |section: Section| file.section(section, Crc::Skip).unwrap().1.to_vec();
+    let mut sections = file.entries().map(|entry| (entry.section.kind(), content(entry.section))).collect();
+    change(&mut sections);
+    container(&sections.iter().map(|(kind, bytes)| (kind, bytes.clone())).collect::<Vec<_>>())
+}
+
+/// First byte and length of a section.
+pub(crate) fn place(bytes: &[u8], section: Section) -> (usize, usize) {
+    let container = Container::parse(bytes).unwrap();
+    let entry = container.entries().find(|entry| entry.section == section).expect("the section");
+    (usize::try_from(entry.offset).unwrap(), usize::try_from(entry.length).unwrap())
 }

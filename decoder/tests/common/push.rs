@@ -1,6 +1,6 @@
 //! Files for readers of pushed bytes, and what comes of them.
 
-use subsurf_decoder::container::{Container, Crc};
+use subsurf_decoder::container::Crc;
 use subsurf_decoder::push::{Piece, PushReader};
 use subsurf_decoder::{File, ReadError, Section};
 
@@ -82,15 +82,6 @@ pub(crate) fn files() -> Vec<(String, Vec<u8>)> {
     let files: Vec<_> = vectors.chain(made.map(|(name, bytes)| (name.to_owned(), bytes))).collect();
     assert!(files.len() > 40, "vectors are at {folder}");
     files
-}
-
-/// File with other sections.
-pub(crate) fn rebuilt(bytes: &[u8], change: impl FnOnce(&mut Vec<([u8; 4], Vec<u8>)>)) -> Vec<u8> {
-    let container = Container::parse(bytes).unwrap();
-    let content = |section: Section| container.section(section, Crc::Skip).unwrap().1.to_vec();
-    let mut sections = container.entries().map(|entry| (entry.section.kind(), content(entry.section))).collect();
-    change(&mut sections);
-    super::container(&sections.iter().map(|(kind, bytes)| (kind, bytes.clone())).collect::<Vec<_>>())
 }
 
 /// Vector whose header follows its rows.
