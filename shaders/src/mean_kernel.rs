@@ -25,9 +25,9 @@ pub fn softening_gain(profile: &MeanProfile, header: &BssrdfHeader, fade_mm: [f3
             [0, 1, 2].map(|c| sum[c] + f64::from(ring[c]) * share)
         })
     };
-    let all = light(0);
-    std::array::from_fn(|k| {
-        let left = light(u8::try_from(k).unwrap_or(0));
+    let lights = [0, 1, 2, 3, 4, 5, 6, 7].map(light);
+    let [all, ..] = lights;
+    lights.map(|left| {
         #[allow(clippy::cast_possible_truncation, reason = "0 to 10")]
         [0, 1, 2].map(|c| (all[c] / left[c].max(0.1 * all[c]).max(1e-300)) as f32)
     })

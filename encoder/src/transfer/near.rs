@@ -19,7 +19,7 @@ const RULES: [(f32, u16); 3] = [(1.5, 4), (3.0, 2), (REACH, 1)];
 const REACH: f32 = 4.0;
 /// The edge of a triangle is its longest one, but at most so many of an equilateral triangle of its area: so not many thin ones are near.
 const THIN: f32 = 3.0;
-/// Most times that parts are halved in triangles with edges longer than twice the radius within which half of the light leaves.
+/// Most times as many parts along each edge of a triangle, where edges are longer than twice the radius within which half of the light leaves.
 const MOST_FINER: u16 = 4;
 /// Directions, and rings of each, of triangles that have the place as a corner.
 const DIRECTIONS: u16 = 4;
@@ -58,9 +58,8 @@ pub(super) struct Near<'a> {
     tree: PointTree,
     /// Distances in mm from which the triangles of each node are far.
     reaches: Vec<f32>,
-    /// Numbers of the triangles around each place, those of a place from its start on.
-    around: Vec<u32>,
-    starts: Vec<u32>,
+    /// Numbers of the triangles around each place.
+    around: Vec<Vec<u32>>,
 }
 
 impl<'a> Near<'a> {
@@ -85,28 +84,19 @@ impl<'a> Near<'a> {
                 None => tree.order[node.points.clone()].iter().map(|k| reaches[*k as usize]).fold(0.0, f32::max),
             };
         }
-        let mut corners: Vec<[u32; 2]> = (0..)
-            .zip(&surface.triangles)
-            .flat_map(|(number, triangle)| triangle.map(|place| [place, number]))
-            .collect();
-        corners.sort_unstable();
-        let start = |place: usize| {
-            u32::try_from(corners.partition_point(|[of, _]| (*of as usize) < place)).expect("fewer than 2³² corners")
-        };
-        let starts = (0..=surface.len()).map(start).collect();
-        let around = corners.into_iter().map(|[_, number]| number).collect();
+        let mut around = vec![Vec::new(); surface.len()];
+        for (number, triangle) in (0..).zip(&surface.triangles) {
+            triangle.iter().for_each(|place| around[*place as usize].push(number));
+        }
         let half_radius_mm = table.half_radius_mm();
-        Self { surface, table, centroids, areas, edges, half_radius_mm, tree, reaches: of_nodes, around, starts }
+        Self { surface, table, centroids, areas, edges, half_radius_mm, tree, reaches: of_nodes, around }
     }
 
     /// What is to be added for triangles near the `places` in a ball to sums over all other places, R_d(‖x_i − x_o‖) Φ_i: their integrals, less what
     /// those sums have of them.
     pub(super) fn weights(&self, places: &[u32], centre: Vec3, radius: f32, channels: usize) -> NearWeights {
         let mut triangles = self.within(centre, radius);
-        for place in places {
-            let [start, end] = [0, 1].map(|k| self.starts[*place as usize + k] as usize);
-            triangles.extend(&self.around[start..end]);
-        }
+        places.iter().for_each(|place| triangles.extend(&self.around[*place as usize]));
         triangles.sort_unstable();
         triangles.dedup();
         let (mut rows, mut sources) = (HashMap::new(), Vec::new());
