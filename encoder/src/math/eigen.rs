@@ -61,7 +61,7 @@ pub(crate) fn leading_axes(matrix: DMatrix<f32>, count: usize) -> DMatrix<f32> {
     for _ in 0..ROUNDS {
         range = orthonormal(product(&matrix, &range));
     }
-    let within = range.tr_mul(&product(&matrix, &range));
+    let within = range.transpose() * product(&matrix, &range);
     range * Eigen::of(within).leading(count)
 }
 

@@ -26,7 +26,7 @@ pub(crate) fn orthonormal(matrix: DMatrix<f32>) -> DMatrix<f32> {
 fn cholesky_qr(matrix: &DMatrix<f32>) -> DMatrix<f32> {
     // Double precision: the leading component is many times as long as the last.
     let double = matrix.map(f64::from);
-    let gram = double.tr_mul(&double);
+    let gram = double.transpose() * &double;
     // Columns that depend on others get a little of their own, rather than none.
     let ridge = DMatrix::identity(gram.ncols(), gram.ncols()) * (gram.trace().max(1e-30) * 1e-13);
     let upper = (gram + ridge).cholesky().expect("it is positive: a ridge was added").l().transpose();

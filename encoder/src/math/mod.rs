@@ -1,5 +1,6 @@
 //! Numerical methods that several encoders share.
 
+pub(crate) mod argmax;
 pub(crate) mod banded;
 pub(crate) mod eigen;
 pub(crate) mod envelope;

@@ -110,7 +110,7 @@ impl<F: Fn(usize, &mut [f32]) + Sync> Columns<F> {
         let mut product = DMatrix::zeros(self.columns, right.ncols());
         self.blocks(progress, |first, block| {
             let starts: Vec<usize> = (0..block.ncols()).step_by(SHARE).collect();
-            let part = |start: usize| block.columns(start, SHARE.min(block.ncols() - start)).tr_mul(right);
+            let part = |start: usize| block.columns(start, SHARE.min(block.ncols() - start)).transpose() * right;
             let parts = parallel::map(starts.len(), |k| part(starts[k]));
             for (start, part) in starts.iter().zip(parts) {
                 product.rows_mut(first + start, part.nrows()).copy_from(&part);

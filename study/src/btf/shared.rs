@@ -101,8 +101,7 @@ pub(super) fn shared(
     }
     let svd = svd_of(&images)?;
     let prepared = setup(Method::Nested, &names, &images)?.nested(&images, &svd);
-    let mut found = None;
-    for share in SHARES {
+    let of_share = |share: usize| {
         let p4 = share * Extent::USUAL.p4 * names.len() / 100;
         let bytes = prepared.encode(&Extent { p4, ..Extent::USUAL }.sizes(), &Bars::new())?.to_bytes();
         let together = (bytes.len() as u64, quality(&images, &bytes)?);
@@ -114,13 +113,25 @@ pub(super) fn shared(
             apart.0,
             apart.1
         );
-        write_bytes(&files.join(format!("shared-{}-{side}.subsurf", set.label)), &bytes)?;
-        found = Some(Shared { request: request.clone(), title: set.title.clone(), apart, together, p4 });
-        if together.1 >= apart.1 {
-            break;
+        anyhow::Ok((bytes, Shared { request: request.clone(), title: set.title.clone(), apart, together, p4 }))
+    };
+    // Quality rises with P4; the largest is kept where none is good enough.
+    let (mut found, mut first, mut end) = (None, 0, SHARES.len());
+    while first < end {
+        let middle = usize::midpoint(first, end);
+        let (bytes, tried) = of_share(SHARES[middle])?;
+        let is_enough = tried.together.1 >= apart.1;
+        if is_enough || middle + 1 == SHARES.len() {
+            found = Some((bytes, tried));
+        }
+        if is_enough {
+            end = middle;
+        } else {
+            first = middle + 1;
         }
     }
-    let found = found.ok_or_else(|| bad_request("no shared file was tried"))?;
+    let (bytes, found) = found.ok_or_else(|| bad_request("no shared file was tried"))?;
+    write_bytes(&files.join(format!("shared-{}-{side}.subsurf", set.label)), &bytes)?;
     cache::write(&path, &found)?;
     Ok(found)
 }

@@ -98,8 +98,9 @@ impl Space<'_> {
         let mut cross = DMatrix::zeros(count, bases[0].ncols());
         for (table, basis) in tables.iter().zip(bases) {
             let read = self.read(table);
-            metric += read.tr_mul(&read);
-            cross += read.tr_mul(basis);
+            let transposed = read.transpose();
+            metric += &transposed * &read;
+            cross += transposed * basis;
         }
         let ridge = RIDGE * metric.diagonal().max() + f32::MIN_POSITIVE;
         (metric + DMatrix::identity(count, count) * ridge, cross)

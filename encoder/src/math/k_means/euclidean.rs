@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::KMeans;
+use crate::math::argmax::argmax;
 use crate::math::parallel;
 
 /// Columns that one thread compares at a time.
@@ -23,23 +24,18 @@ impl KMeans for Euclidean<'_> {
         let columns = self.0;
         let count = words.nrows();
         let halves: Vec<f32> = words.column_iter().map(|word| 0.5 * word.norm_squared()).collect();
+        let transposed = words.transpose();
         let starts: Vec<usize> = (0..columns.ncols()).step_by(BLOCK).collect();
         let of_block = |start: usize| {
             let block = columns.view((0, start), (count, BLOCK.min(columns.ncols() - start)));
-            let products = words.tr_mul(&block);
-            let best = |(column, products): (usize, nalgebra::DVectorView<'_, f32>)| {
-                let mut best = (0, f32::INFINITY);
-                // ½ ‖x − c‖² less ½ ‖x‖².
-                for (word, (half, product)) in halves.iter().zip(products.iter()).enumerate() {
-                    let distance = half - product;
-                    if distance < best.1 {
-                        best = (word, distance);
-                    }
-                }
-                let (word, distance) = best;
-                (u8::try_from(word).expect("at most 256"), 2.0 * distance + block.column(column).norm_squared())
+            let products = &transposed * block;
+            let best = |(products, column): (&[f32], nalgebra::DVectorView<'_, f32>)| {
+                // The least ½ ‖x − c‖² less ½ ‖x‖².
+                let word = argmax(products, &halves, |product, half| product - half);
+                let distance = halves[word] - products[word];
+                (u8::try_from(word).expect("at most 256"), 2.0 * distance + column.norm_squared())
             };
-            products.column_iter().enumerate().map(|(k, column)| best((k, column.as_view()))).collect::<Vec<_>>()
+            products.as_slice().chunks(halves.len()).zip(block.column_iter()).map(best).collect::<Vec<_>>()
         };
         parallel::map(starts.len(), |k| of_block(starts[k])).concat()
     }

@@ -5,6 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 use super::KMeans;
+use crate::math::argmax::argmax;
 use crate::math::eigen;
 use crate::math::matrix::product;
 use crate::math::parallel;
@@ -79,15 +80,14 @@ impl Samples {
 
     /// The largest score, which is the length of a vector along a codeword.
     fn best(&self, scores: &[f32], inverse_lengths: &[f32]) -> Match {
-        let mut best = (0, f32::NEG_INFINITY);
-        for (index, score) in scores.iter().enumerate() {
-            let size = if self.is_signed { score.abs() } else { *score };
-            if size > best.1 && inverse_lengths[index] > 0.0 {
-                best = (index, size);
-            }
-        }
-        let gain = scores[best.0] * inverse_lengths[best.0];
-        let index = u32::try_from(best.0).expect("fewer than 2³² codewords");
+        let of_word = |size: f32, inverse: f32| if inverse > 0.0 { size } else { f32::NEG_INFINITY };
+        let best = if self.is_signed {
+            argmax(scores, inverse_lengths, |score, inverse| of_word(score.abs(), inverse))
+        } else {
+            argmax(scores, inverse_lengths, of_word)
+        };
+        let gain = scores[best] * inverse_lengths[best];
+        let index = u32::try_from(best).expect("fewer than 2³² codewords");
         Match { index, gain: if self.is_signed { gain } else { gain.max(0.0) } }
     }
 

@@ -147,17 +147,21 @@ pub(super) fn grey_tiff(picture: &Rgb32FImage, is_large: bool) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// An OpenEXR file of luminance alone.
-pub(super) fn grey_exr(picture: &Rgb32FImage) -> Vec<u8> {
-    use exr::prelude::{Image, SpecificChannels, Vec2, WritableImage};
+/// An OpenEXR file of channels of floats.
+fn exr<const N: usize>(size: [u32; 2], channels: [(&str, Vec<f32>); N]) -> Vec<u8> {
+    use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, SmallVec, Text, WritableImage};
 
-    let size = [picture.width(), picture.height()].map(|side| side as usize);
-    let value = |at: Vec2<usize>| (picture.as_raw()[3 * (at.y() * size[0] + at.x())],);
-    let channels = SpecificChannels::build().with_channel::<f32>("Y").with_pixel_fn(value);
+    let channel = |(name, values)| AnyChannel::new(Text::from(name), FlatSamples::F32(values));
+    let channels: SmallVec<[_; 4]> = channels.map(channel).into_iter().collect();
     let mut bytes = std::io::Cursor::new(Vec::new());
-    let image = Image::from_channels((size[0], size[1]), channels);
+    let image = Image::from_channels((size[0] as usize, size[1] as usize), AnyChannels::sort(channels));
     image.write().to_buffered(&mut bytes).expect("memory can be written to");
     bytes.into_inner()
+}
+
+/// An OpenEXR file of luminance alone.
+pub(super) fn grey_exr(picture: &Rgb32FImage) -> Vec<u8> {
+    exr([picture.width(), picture.height()], [("Y", picture.pixels().map(|pixel| pixel.0[0]).collect())])
 }
 
 #[test]
@@ -176,15 +180,9 @@ fn one_float_for_each_pixel_is_a_picture_too() {
 /// Luminance with chroma beside it, which is in fewer pixels, is no picture of grey.
 #[test]
 fn luminance_and_chroma_are_refused() {
-    use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, SmallVec, Text, WritableImage};
-
-    let channel = |name: &str| AnyChannel::new(Text::from(name), FlatSamples::F32(vec![0.5; 4]));
-    let channels: SmallVec<[_; 4]> = ["BY", "RY", "Y"].map(channel).into_iter().collect();
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    let image = Image::from_channels((2, 2), AnyChannels::sort(channels));
-    image.write().to_buffered(&mut bytes).expect("memory can be written to");
+    let bytes = exr([2, 2], ["BY", "RY", "Y"].map(|name| (name, vec![0.5; 4])));
     let folder = tempfile::tempdir().unwrap();
-    let path = write(folder.path(), "colour.exr", &bytes.into_inner());
+    let path = write(folder.path(), "colour.exr", &bytes);
     let error = Picture::open(&path).unwrap_err().to_string();
     assert!(error.contains("colour.exr") && error.lines().count() == 1, "{error}");
 }

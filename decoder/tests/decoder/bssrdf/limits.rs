@@ -1,9 +1,7 @@
 //! Limits of BSSRDFs: what is allowed up to the last value, and refused from the next one on, by field, size, value and index.
 #![allow(clippy::cast_possible_truncation, reason = "numbers of tests are small")]
 
-mod common;
-
-use common::{HEADER, bssrdf, floats};
+use crate::common::{HEADER, bssrdf, floats};
 use subsurf_decoder::bssrdf::{BssrdfHeader, Coding};
 use subsurf_decoder::{Bssrdf, ReadError, Section};
 

@@ -1,5 +1,4 @@
 //! BTFs: values by the tables beside the vectors, and densities that are those of the samples drawn.
-#![cfg(feature = "alloc")]
 #![allow(clippy::cast_possible_truncation, reason = "numbers of tests are small")]
 
 use std::f64::consts::{FRAC_PI_2, PI};

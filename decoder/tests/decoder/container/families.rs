@@ -1,8 +1,6 @@
 //! The front door: what a file holds, and files of another family or of none.
 
-mod common;
-
-use common::{example, seal, seal_all, with_section};
+use crate::common::{example, seal, seal_all, with_section};
 use subsurf_decoder::btf::Catalog;
 use subsurf_decoder::container::Crc;
 use subsurf_decoder::{Bssrdf, Content, FactoredBtf, Family, File, NestedBtf, ReadError, Section};
@@ -130,7 +128,7 @@ fn metadata_is_read_in_order_and_skips_what_is_no_text() {
 #[test]
 fn checksums_are_compared_unless_they_are_not_wanted() {
     let mut bytes = example();
-    bytes[common::PROF] ^= 1;
+    bytes[crate::common::PROF] ^= 1;
     assert!(matches!(File::parse(&bytes), Err(ReadError::Checksum { .. })), "damaged");
     assert!(File::parse_with(&bytes, Crc::Skip).is_ok(), "the value itself is a legal one");
 }

@@ -1,8 +1,6 @@
 //! Offsets of nested codebooks, by which shaders read a file's bytes, against the file that was packed bit by bit.
 
-mod common;
-
-use common::{btf, place};
+use crate::common::{btf, place};
 use subsurf_decoder::btf::nested::layout::Scales;
 use subsurf_decoder::btf::{CodebookOffsets, PackedTable, StageTables};
 use subsurf_decoder::{NestedBtf, Section};

@@ -1,11 +1,8 @@
 //! The reader of pushed bytes against the reader of whole files: the same rows, whatever the chunks.
-#![cfg(all(feature = "push", feature = "transfer"))]
 
-mod common;
-
-use common::btf::factored;
-use common::push::{CHUNKS, Seen, push, sound_files};
-use common::rebuilt;
+use crate::common::btf::factored;
+use crate::common::push::{CHUNKS, Seen, push, sound_files};
+use crate::common::rebuilt;
 use subsurf_decoder::bssrdf::{BssrdfModel, Mixtures, Profiles};
 use subsurf_decoder::container::Crc;
 use subsurf_decoder::push::{Piece, PushReader};

@@ -1,8 +1,6 @@
 //! Kernel files: the reader against the words of `FORMAT.md`, section 6, and hostile ones.
 
-mod common;
-
-use common::seal;
+use crate::common::seal;
 use proptest::prelude::*;
 use subsurf_decoder::container::Crc;
 use subsurf_decoder::kernel::KernelMethod;
@@ -11,7 +9,7 @@ use subsurf_decoder::{Bssrdf, Content, Family, File, Kernel, ReadError};
 /// The 232 bytes of section 6.3, from literals: nothing here uses the crate's own layout.
 #[rustfmt::skip]
 fn example() -> Vec<u8> {
-    let mut file = common::begin(0xE8, [(b"KERN", 124, 24), (b"KOFF", 148, 12), (b"KWGT", 160, 36), (b"TAIL", 196, 36)]);
+    let mut file = crate::common::begin(0xE8, [(b"KERN", 124, 24), (b"KOFF", 148, 12), (b"KWGT", 160, 36), (b"TAIL", 196, 36)]);
     file.extend([
         0x02, 0x01, 0x01, 0x05,                          // pre-integrated, colour space, 1 term, 5 taps
         0x03, 0x00, 0x00, 0x00,                          // m
@@ -58,7 +56,7 @@ fn exercise(kernel: &Kernel<'_>) {
 #[test]
 fn reads_the_example() {
     let bytes = example();
-    assert_eq!(bytes, include_bytes!("../../tests/vectors/kernel_example.subsurf"));
+    assert_eq!(bytes, include_bytes!("../../../../tests/vectors/kernel_example.subsurf"));
     let Content::Kernel(kernel) = File::parse(&bytes).unwrap().content() else { panic!("the example is a kernel") };
     let header = kernel.header();
     assert_eq!((header.method, header.terms, header.taps, header.side()), (KernelMethod::PreIntegrated, 1, 5, 3));
@@ -103,7 +101,7 @@ fn signs_are_bits() {
 
 #[test]
 fn other_families_are_told_apart() {
-    let (kernel, bssrdf) = (example(), common::example());
+    let (kernel, bssrdf) = (example(), crate::common::example());
     let other = |found, expected| ReadError::OtherFamily { found, expected };
     assert_eq!(Bssrdf::parse(&kernel).unwrap_err(), other(Family::Kernel, Family::Bssrdf));
     let error = Kernel::parse(&bssrdf).unwrap_err();

@@ -1,8 +1,6 @@
 //! Values of BSSRDFs of every model and coding: profiles, mixtures and Rd, worked out by hand.
 
-mod common;
-
-use common::{HEADER, bssrdf, floats};
+use crate::common::{HEADER, bssrdf, floats};
 use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, BssrdfModel, Coding, Knot, Mixture};
 use subsurf_decoder::{Bssrdf, Section};
 

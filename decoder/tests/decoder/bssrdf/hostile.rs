@@ -1,8 +1,6 @@
 //! Hostile input: every outcome is an error or a bounded value.
 
-mod common;
-
-use common::{example, seal};
+use crate::common::{example, seal};
 use proptest::prelude::*;
 use subsurf_decoder::container::Crc;
 use subsurf_decoder::{Bssrdf, ReadError};

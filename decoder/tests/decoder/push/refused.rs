@@ -1,11 +1,8 @@
 //! The reader of pushed bytes against the reader of whole files: the same refusals, whatever the chunks.
-#![cfg(all(feature = "push", feature = "transfer"))]
 
-mod common;
-
-use common::push::{CHUNKS, OTHER_ORDER, Seen, basis, files, is_same, push, result, sound_files};
-use common::rebuilt;
-use common::{btf, seal_all};
+use crate::common::push::{CHUNKS, OTHER_ORDER, Seen, basis, files, is_same, push, result, sound_files};
+use crate::common::rebuilt;
+use crate::common::{btf, seal_all};
 use proptest::prelude::*;
 use subsurf_decoder::bssrdf::layout::HEADER_BYTES;
 use subsurf_decoder::container::Crc;
@@ -159,7 +156,7 @@ fn numbers_of_a_basis_at_their_limits() {
 
 #[test]
 fn a_buffer_that_is_too_small_says_what_it_takes() {
-    let bytes = common::example();
+    let bytes = crate::common::example();
     let (_, end) = push::<27>(&bytes, 7, Crc::Check);
     let section = Section::FileHeader;
     assert_eq!(end, Err(ReadError::BufferTooSmall { section, need_bytes: 124, have_bytes: 27 }));
@@ -187,7 +184,7 @@ fn rows_before_what_they_depend_on_are_refused() {
         assert!(File::parse(&bytes).is_ok(), "{a} and {b} in another order");
         push::<4096>(&bytes, 64, Crc::Check).1
     };
-    let (nested, factored, example, with_basis) = (btf::nested(), btf::factored(), common::example(), basis());
+    let (nested, factored, example, with_basis) = (btf::nested(), btf::factored(), crate::common::example(), basis());
     for (bytes, section, needs) in [
         (&example, Section::BaseProfiles, Section::BssrdfHeader),
         (&with_basis, Section::SeparableBasis, Section::BssrdfHeader),
@@ -218,7 +215,7 @@ proptest! {
         changes in proptest::collection::vec((8_usize..3_000, any::<u8>()), 0..4),
         sizes in proptest::collection::vec(0_usize..300, 1..20).prop_filter("some bytes", |sizes| sizes.iter().sum::<usize>() > 0),
     ) {
-        let files = [common::example(), basis(), btf::nested(), btf::factored()];
+        let files = [crate::common::example(), basis(), btf::nested(), btf::factored()];
         let mut file = files[which].clone();
         let length = file.len();
         for (at, value) in changes {

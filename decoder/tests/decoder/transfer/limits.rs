@@ -1,10 +1,7 @@
 //! Limits and values of transfers: what is allowed up to the last value, and what the numbers stand for.
-#![cfg(feature = "transfer")]
 #![allow(clippy::cast_possible_truncation, reason = "numbers of tests are small")]
 
-mod common;
-
-use common::{assemble, floats};
+use crate::common::{assemble, floats};
 use subsurf_decoder::transfer::{LightWeights, TransferHeader};
 use subsurf_decoder::{ReadError, Section, Transfer};
 

@@ -1,8 +1,6 @@
 //! Values of nested BTFs whose codebooks are next to empty, so that each part of a value can be told by hand.
 
-mod common;
-
-use common::{assemble, btf::pack};
+use crate::common::{assemble, btf::pack};
 use subsurf_decoder::NestedBtf;
 use subsurf_decoder::btf::nested::layout::{ChromaSizes, CodebookSize, Scales, StageSizes};
 use subsurf_decoder::btf::{

@@ -1,10 +1,7 @@
 //! Items of 28 bits, the widest that there are, of which a reader of pushed bytes checks 64 at a time.
-#![cfg(all(feature = "push", feature = "transfer"))]
 
-mod common;
-
-use common::push::result;
-use common::{assemble, btf::pack};
+use crate::common::push::result;
+use crate::common::{assemble, btf::pack};
 use subsurf_decoder::btf::nested::layout::{ChromaSizes, CodebookSize, Scales, StageSizes};
 use subsurf_decoder::btf::{BtfHeader, BtfModel, ColourEncoding, Grid, Material};
 use subsurf_decoder::container::{Container, Crc};

@@ -1,9 +1,7 @@
 //! Separable bases: the section's numbers and limits, and the cascade by its formulas.
 #![allow(clippy::cast_possible_truncation, reason = "numbers of tests are small")]
 
-mod common;
-
-use common::{HEADER, bssrdf, floats};
+use crate::common::{HEADER, bssrdf, floats};
 use subsurf_decoder::bssrdf::basis::{BasisSize, Cascade};
 use subsurf_decoder::{Bssrdf, ReadError, Section};
 

@@ -1,10 +1,7 @@
 //! Factored BTFs: channels as sums over the columns of the expanded table, and limits of sizes and indices.
-#![cfg(feature = "alloc")]
 #![allow(clippy::cast_possible_truncation, reason = "numbers of tests are small")]
 
-mod common;
-
-use common::{assemble, floats, rebuilt};
+use crate::common::{assemble, floats, rebuilt};
 use subsurf_decoder::btf::factored::layout::{CodewordStage, MAX_CHROMA, MAX_LUMA, MAX_STAGES, TuckerShape};
 use subsurf_decoder::btf::factored::{ExpandedBtf, ExpansionMemory};
 use subsurf_decoder::btf::{BtfHeader, BtfModel, ColourEncoding, Grid, GridCoord, LerpCoord, Material, Texel};

@@ -1,8 +1,6 @@
 //! Containers: header and section table, exactly at their limits, and what writers put there.
 
-mod common;
-
-use common::{assemble, crc32, example, seal};
+use crate::common::{assemble, crc32, example, seal};
 use subsurf_decoder::container::{
     Container, Crc, ENTRY_BYTES, Entry, FILE_HEADER_BYTES, MAX_KEY_BYTES, MAX_SECTIONS, MAX_VALUE_BYTES, entry_header,
     file_header,

@@ -1,8 +1,6 @@
 //! Limits of nested codebooks: what is allowed up to the last value, and refused from the next one on, by size, scale, width of items and index.
 
-mod common;
-
-use common::{btf, place, seal_all};
+use crate::common::{btf, place, seal_all};
 use subsurf_decoder::btf::nested::layout::BOOK_BYTES;
 use subsurf_decoder::{NestedBtf, ReadError, Section};
 

@@ -1,9 +1,7 @@
 //! Limits and values of kernels: what is allowed up to the last value, and what the numbers stand for.
 #![allow(clippy::cast_possible_truncation, reason = "numbers of tests are small")]
 
-mod common;
-
-use common::{assemble, floats};
+use crate::common::{assemble, floats};
 use subsurf_decoder::kernel::{KernelHeader, KernelMethod, TwoGaussians};
 use subsurf_decoder::{Kernel, ReadError, Section};
 

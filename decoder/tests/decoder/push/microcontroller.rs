@@ -1,11 +1,9 @@
 //! The row that the example for microcontrollers draws, against the albedo that a whole file gives.
-#![cfg(feature = "push")]
 
-mod common;
-#[path = "../examples/microcontroller/row.rs"]
+#[path = "../../../examples/microcontroller/row.rs"]
 mod row;
 
-use common::container;
+use crate::common::container;
 use row::{BUFFER, Painter, Problem};
 use subsurf_decoder::bssrdf::layout::MODEL_2BMPP;
 use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, Coding};
@@ -79,7 +77,7 @@ fn one_material_has_its_albedo_and_mixtures_are_not_darker() {
 
 #[test]
 fn what_it_does_not_draw_it_refuses() {
-    let other = common::btf::nested();
+    let other = crate::common::btf::nested();
     assert_eq!(draw(&other, 0), Err(Problem::Unsupported));
     let cut = patch(1.0);
     assert!(matches!(draw(&cut[..cut.len() - 1], 0), Err(Problem::File(_))), "cut");

@@ -1,9 +1,6 @@
 //! Transfer files: the reader against the words of `FORMAT.md`, section 7, and hostile ones.
-#![cfg(feature = "transfer")]
 
-mod common;
-
-use common::{crc32, seal_all};
+use crate::common::{crc32, seal_all};
 use proptest::prelude::*;
 use subsurf_decoder::container::Crc;
 use subsurf_decoder::container::bytes::F32Le;
@@ -23,7 +20,7 @@ fn floats(values: &[f32]) -> impl Iterator<Item = u8> {
 /// The 412 bytes of section 7.3, from literals: nothing here uses the crate's own layout.
 #[rustfmt::skip]
 fn example() -> Vec<u8> {
-    let mut file = common::begin(0x19C, [
+    let mut file = crate::common::begin(0x19C, [
         (b"XFER", 196, 56), (b"XDIR", 252, 48), (b"XRNG", 300, 48), (b"XMEA", 348, 16), (b"XBAS", 364, 16), (b"XVTX", 380, 6),
         (b"TAIL", 388, 24),
     ]);
@@ -94,7 +91,7 @@ fn exercise(file: &Transfer<'_>) {
 #[test]
 fn reads_the_example() {
     let bytes = example();
-    assert_eq!(bytes, include_bytes!("../../tests/vectors/transfer_example.subsurf"));
+    assert_eq!(bytes, include_bytes!("../../../../tests/vectors/transfer_example.subsurf"));
     let Content::Transfer(file) = File::parse(&bytes).unwrap().content() else { panic!("the example is a transfer") };
     let header = file.header();
     assert_eq!((header.channels, header.lights, header.clusters, header.vertices), (1, 4, 2, 3));
@@ -149,7 +146,7 @@ fn weights_go_through_the_lights_and_are_smooth_between() {
 
 #[test]
 fn other_families_are_told_apart() {
-    let (transfer, bssrdf) = (example(), common::example());
+    let (transfer, bssrdf) = (example(), crate::common::example());
     let other = |found, expected| ReadError::OtherFamily { found, expected };
     assert_eq!(Kernel::parse(&transfer).unwrap_err(), other(Family::Transfer, Family::Kernel));
     let error = Transfer::parse(&bssrdf).unwrap_err();

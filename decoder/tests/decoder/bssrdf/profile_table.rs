@@ -1,9 +1,6 @@
 //! Profiles expanded to the distances of a window against the evaluation of a file.
-#![cfg(feature = "push")]
 
-mod common;
-
-use common::container;
+use crate::common::container;
 use subsurf_decoder::bssrdf::layout::{MODEL_2BMPP, MODEL_PER_PIXEL};
 use subsurf_decoder::bssrdf::{Addressing, BssrdfHeader, BssrdfModel, Coding, Mixture, Mixtures, ProfileTable};
 use subsurf_decoder::container::bytes::F32Le;

@@ -1,8 +1,6 @@
 //! The reader against the words of `FORMAT.md`.
 
-mod common;
-
-use common::{BIDX, MIXR, MODEL, PITCH, PROF, PROFILES, SAMPLES, WIDTH, crc32, example, seal};
+use crate::common::{BIDX, MIXR, MODEL, PITCH, PROF, PROFILES, SAMPLES, WIDTH, crc32, example, seal};
 use subsurf_decoder::bssrdf::{Addressing, BssrdfModel, Mixtures, Profiles};
 use subsurf_decoder::container::Crc;
 use subsurf_decoder::{Bssrdf, ReadError, Section};

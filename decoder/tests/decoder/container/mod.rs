@@ -1,0 +1,4 @@
+//! Containers: header, section table and what a file holds.
+
+mod families;
+mod table;

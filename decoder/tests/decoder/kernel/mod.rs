@@ -1,0 +1,4 @@
+//! Files of kernels.
+
+mod format;
+mod limits;

@@ -1,0 +1,9 @@
+//! Bytes as they come.
+
+mod microcontroller;
+#[cfg(feature = "transfer")]
+mod refused;
+#[cfg(feature = "transfer")]
+mod rows;
+#[cfg(feature = "transfer")]
+mod widest;

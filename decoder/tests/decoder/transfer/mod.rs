@@ -1,0 +1,4 @@
+//! Files of transfer.
+
+mod format;
+mod limits;
