@@ -6,8 +6,9 @@ const WIDTH: usize = 8;
 /// Index of the largest `size` of two numbers at the same place in `a` and in `b`, as long as each other; of equal ones the first. 0 if
 /// none is above −∞.
 #[inline]
-pub(crate) fn argmax(a: &[f32], b: &[f32], size: impl Fn(f32, f32) -> f32) -> usize {
-    let mut best = [f32::NEG_INFINITY; WIDTH];
+pub(crate) fn argmax<T: Copy + PartialOrd + From<f32>>(a: &[T], b: &[T], size: impl Fn(T, T) -> T) -> usize {
+    let lowest = T::from(f32::NEG_INFINITY);
+    let mut best = [lowest; WIDTH];
     let mut at = [0_u32; WIDTH];
     let ((many_a, rest_a), (many_b, rest_b)) = (a.as_chunks::<WIDTH>(), b.as_chunks::<WIDTH>());
     for (number, (a, b)) in (0_u32..).zip(many_a.iter().zip(many_b)) {
@@ -22,8 +23,8 @@ pub(crate) fn argmax(a: &[f32], b: &[f32], size: impl Fn(f32, f32) -> f32) -> us
     let rest = rest_a.iter().zip(rest_b).map(|(a, b)| size(*a, *b));
     let candidates = (0..WIDTH).map(of_lane).chain((many_a.len() * WIDTH..).zip(rest));
     candidates
-        .fold((0, f32::NEG_INFINITY), |best, next| {
-            let is_better = next.1 > best.1 || next.1 == best.1 && next.1 > f32::NEG_INFINITY && next.0 < best.0;
+        .fold((0, lowest), |best, next| {
+            let is_better = next.1 > best.1 || next.1 == best.1 && next.1 > lowest && next.0 < best.0;
             if is_better { next } else { best }
         })
         .0

@@ -23,17 +23,21 @@ impl KMeans for Euclidean<'_> {
     fn assign(&self, words: &DMatrix<f32>) -> Vec<Choice> {
         let columns = self.0;
         let count = words.nrows();
-        let halves: Vec<f32> = words.column_iter().map(|word| 0.5 * word.norm_squared()).collect();
+        // Double precision: distances are differences of numbers that are far larger.
+        let words = words.map(f64::from);
+        let halves: Vec<f64> = words.column_iter().map(|word| 0.5 * word.norm_squared()).collect();
         let transposed = words.transpose();
         let starts: Vec<usize> = (0..columns.ncols()).step_by(BLOCK).collect();
         let of_block = |start: usize| {
-            let block = columns.view((0, start), (count, BLOCK.min(columns.ncols() - start)));
-            let products = &transposed * block;
-            let best = |(products, column): (&[f32], nalgebra::DVectorView<'_, f32>)| {
+            let block = columns.view((0, start), (count, BLOCK.min(columns.ncols() - start))).map(f64::from);
+            let products = &transposed * &block;
+            let best = |(products, column): (&[f64], nalgebra::DVectorView<'_, f64>)| {
                 // The least ½ ‖x − c‖² less ½ ‖x‖².
                 let word = argmax(products, &halves, |product, half| product - half);
                 let distance = halves[word] - products[word];
-                (u8::try_from(word).expect("at most 256"), 2.0 * distance + column.norm_squared())
+                let squared = 2.0 * distance + column.norm_squared();
+                #[allow(clippy::cast_possible_truncation, reason = "nearly as large as a vector of f32")]
+                (u8::try_from(word).expect("at most 256"), squared as f32)
             };
             products.as_slice().chunks(halves.len()).zip(block.column_iter()).map(best).collect::<Vec<_>>()
         };
