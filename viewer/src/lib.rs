@@ -17,7 +17,7 @@ pub use asset::{
 };
 pub use error::{Error, Result, one_line};
 pub use file::{DrawnMaterial, material_number, parse, parse_btf, read, stem};
-pub use request::{Angles, ROUGHNESS, RenderRequest};
-pub use set::Set;
+pub use request::{ROUGHNESS, RenderRequest};
+pub use set::{Angles, Set};
 pub use units::human;
 pub use window::{Artist, Config, Event, Host, KEYS, LoadImages, MakeKernel, Picture, Viewer, event_loop, options};

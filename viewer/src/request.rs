@@ -4,19 +4,10 @@ use glam::Vec3;
 use subsurf_runtime::RuntimeOptions;
 use subsurf_scene::{BoundingSphere, Camera, Environment, Light, LightShape, Mesh, Scene, Shadow};
 
-use crate::set::Set;
+use crate::set::{Angles, Set};
 
 /// Roughness of the usual coat, 0 to 1: polished, but not a mirror.
 pub const ROUGHNESS: f32 = 0.25;
-
-/// Position of the eye around a mesh, in degrees.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Angles {
-    /// Around the up axis, from z towards x.
-    pub around: f32,
-    /// Above the horizon, between −90 and 90.
-    pub up: f32,
-}
 
 /// Picture of a mesh, as it is asked for.
 pub struct RenderRequest {

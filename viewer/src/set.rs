@@ -6,7 +6,14 @@ use glam::{Vec2, Vec3};
 use subsurf_runtime::RuntimeOptions;
 use subsurf_scene::{BoundingSphere, Environment, Mesh, plate};
 
-use crate::request::Angles;
+/// Position of the eye around a mesh, in degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Angles {
+    /// Around the up axis, from z towards x.
+    pub around: f32,
+    /// Above the horizon, between −90 and 90.
+    pub up: f32,
+}
 
 /// Light, surroundings, ground and place of the eye around any mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

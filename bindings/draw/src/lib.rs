@@ -4,6 +4,7 @@
 //! of what lies below, where panics unwind, is a status.
 #![deny(unsafe_op_in_unsafe_fn)]
 
+mod canvas;
 mod environment;
 mod fault;
 mod frame;

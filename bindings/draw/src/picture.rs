@@ -7,9 +7,9 @@ use subsurf_c::shared::{Handle, Kind, not_null, write};
 use subsurf_runtime::wgpu::TextureFormat;
 use subsurf_runtime::{ColourTarget, RuntimeOptions};
 
+use crate::canvas::Canvas;
 use crate::fault::{Fault, Result, call};
 use crate::gpu::{OpenGpu, SubsurfGpu, close};
-use crate::renderer::Canvas;
 
 /// Picture on a device, of 8 bits to red, green, blue and coverage.
 ///

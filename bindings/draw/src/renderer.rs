@@ -6,11 +6,12 @@ use std::time::{Duration, Instant};
 
 use subsurf_c::SubsurfStatus;
 use subsurf_c::shared::{Handle, Kind, Versioned, fill, not_null, write};
-use subsurf_runtime::wgpu::{Color, LoadOp, TextureFormat, TextureView};
+use subsurf_runtime::wgpu::{Color, LoadOp, TextureFormat};
 use subsurf_runtime::{DepthTarget, Frame, Input, Object, Renderer, RuntimeOptions, Target};
 use subsurf_scene::{Environment, Lighting};
 use subsurf_shaders::cpu::linear;
 
+use crate::canvas::Canvas;
 use crate::fault::{Fault, Result, call};
 use crate::frame::{Shown, SubsurfFrame};
 use crate::gpu::{OpenGpu, SubsurfGpu, close};
@@ -98,13 +99,6 @@ struct Room {
     depth: DepthTarget,
     /// Materials that it was made for.
     materials: Vec<Weak<()>>,
-}
-
-/// What a frame is drawn to.
-pub(crate) struct Canvas<'a> {
-    pub(crate) view: &'a TextureView,
-    pub(crate) format: TextureFormat,
-    pub(crate) size: [u32; 2],
 }
 
 /// How long the parts of a frame took.

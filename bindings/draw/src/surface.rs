@@ -6,9 +6,9 @@ use subsurf_runtime::wgpu::rwh::RawWindowHandle;
 use subsurf_runtime::wgpu::{Surface, SurfaceTargetUnsafe, TextureViewDescriptor};
 use subsurf_runtime::{Error, Screen};
 
+use crate::canvas::Canvas;
 use crate::fault::{Fault, Result, call, one_line};
 use crate::gpu::{OpenGpu, SharedGpu, SubsurfGpu, close};
-use crate::renderer::Canvas;
 use crate::window::Display;
 
 /// Window to draw to. An app on Android closes it when it is paused or its surface is destroyed, before that call returns, and opens another

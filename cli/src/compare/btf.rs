@@ -9,10 +9,10 @@ use subsurf_encoder::metrics::btf::{BtfError, compare, decode, with_file};
 use subsurf_viewer::{human, material_number, read};
 
 use super::Args;
-use crate::info::{Parts, read_error};
+use crate::info::Parts;
 use crate::outln;
 use crate::picture::{display, montage, write_picture};
-use crate::program::failure::bad_request;
+use crate::program::failure::{bad_request, read_error};
 use crate::program::progress::Bars;
 
 /// Pairs of directions that pictures are made of: shares of all of them.

@@ -7,8 +7,9 @@ use serde_json::{Value, json};
 use subsurf_decoder::container::bits::index_bits;
 use subsurf_decoder::{Content, Family, File, NestedBtf, ReadError};
 
-use super::{Args, print_json, print_rest, printable, read_error};
+use super::{Args, print_json, print_rest, printable};
 use crate::outln;
+use crate::program::failure::read_error;
 use subsurf_viewer::human;
 
 pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>) -> anyhow::Result<()> {

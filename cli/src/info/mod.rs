@@ -19,6 +19,7 @@ use subsurf_viewer::read;
 pub use btf::{CodebookSize, FactorSizes, Parts};
 
 use crate::outln;
+use crate::program::failure::read_error;
 use subsurf_viewer::human;
 
 /// Show what a .subsurf file holds, or a BTF that others made: a folder of images, a .btf, .binary or .bsdf file. All of it
@@ -166,8 +167,4 @@ pub(crate) fn basis_to_json(basis: &SeparableBasis<'_>) -> serde_json::Value {
 /// Parses with all checks, and names the file if it fails.
 pub fn parse<'a>(path: &std::path::Path, bytes: &'a [u8]) -> anyhow::Result<Bssrdf<'a>> {
     Bssrdf::parse(bytes).map_err(|error| read_error(path, error)).context("not a usable material")
-}
-
-pub(crate) fn read_error(path: &std::path::Path, source: ReadError) -> subsurf_encoder::Error {
-    subsurf_encoder::Error::Read { path: path.to_owned(), source }
 }

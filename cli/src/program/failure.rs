@@ -1,8 +1,10 @@
 //! One line on stderr, and the exit code that says whose fault it is.
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
+use subsurf_decoder::ReadError;
 
 /// A request that cannot be carried out, in one line that says what to do instead.
 #[derive(Debug)]
@@ -31,6 +33,11 @@ impl std::error::Error for NoDisplay {}
 /// An error of the caller's making: exit code 2.
 pub fn bad_request(message: impl Into<String>) -> anyhow::Error {
     anyhow::Error::new(BadRequest(message.into()))
+}
+
+/// A file of ours that the decoder refuses, by its name.
+pub(crate) fn read_error(path: &Path, source: ReadError) -> subsurf_encoder::Error {
+    subsurf_encoder::Error::Read { path: path.to_owned(), source }
 }
 
 const MACHINE: u8 = 1;

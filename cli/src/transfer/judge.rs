@@ -8,9 +8,9 @@ use subsurf_encoder::metrics::transfer::{ImageError, judge};
 use subsurf_viewer::read;
 
 use super::report::bytes_per_vertex;
-use crate::info::read_error;
 use crate::options::MeshArgs;
 use crate::outln;
+use crate::program::failure::read_error;
 use crate::program::progress::Bars;
 
 /// Judges a file against its mesh.

@@ -19,11 +19,10 @@ use subsurf_encoder::{check_target, write_bytes};
 pub(crate) use judge::compare;
 pub(crate) use report::{bytes_per_vertex, clusters};
 
-use crate::info::read_error;
 use crate::metadata::MetaArgs;
 use crate::options::MeshArgs;
 use crate::outln;
-use crate::program::failure::bad_request;
+use crate::program::failure::{bad_request, read_error};
 use crate::program::interrupt::Graceful;
 use crate::program::progress::Bars;
 use crate::program::threads;

@@ -6,21 +6,11 @@ use wgpu::{CommandEncoder, LoadOp, Operations, RenderPassColorAttachment, StoreO
 
 use super::input::{Input, Object, Target};
 use super::options::RuntimeOptions;
-use super::prepare::Frame;
+use super::prepare::{Frame, Placed};
 use super::renderer::Renderer;
 use crate::error::{Error, Result};
 use crate::gpu::{BLOCK_STRIDE, Gpu, attachment};
 use crate::technique::{Attachments, Group, Lap, Viewport, group_number};
-
-/// Object of the input in a frame.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Placed {
-    /// Number of its material in the frame.
-    pub(crate) slot: usize,
-    /// Offset of its block in bytes.
-    pub(crate) offset: u32,
-    pub(crate) is_visible: bool,
-}
 
 /// What a frame shows besides its objects.
 struct Seen {

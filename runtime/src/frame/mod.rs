@@ -9,11 +9,11 @@ mod prepare;
 mod renderer;
 mod timed;
 
-pub(crate) use draw::Placed;
 pub use input::{Input, Object, ShadowMap, Target};
 pub use options::{BACKGROUND, BACKGROUND_COLOUR, RuntimeOptions};
 pub use picture::{DepthTarget, PictureTarget};
 pub use plan::Plan;
 pub use prepare::Frame;
+pub(crate) use prepare::Placed;
 pub use renderer::Renderer;
 pub use timed::PassTimes;

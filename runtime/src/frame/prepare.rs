@@ -5,7 +5,6 @@ use std::sync::Arc;
 use subsurf_scene::BoundingSphere;
 use wgpu::{BindGroup, BindingResource};
 
-use super::draw::Placed;
 use super::input::{Input, Object};
 use super::plan::Plan;
 use super::renderer::Renderer;
@@ -19,6 +18,16 @@ use crate::technique::transfer;
 use crate::technique::{
     Bindings, Common, MapArea, TranslucentShadowMaps, kernel, reflection_sampler, separable, splat,
 };
+
+/// Object of the input in a frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placed {
+    /// Number of its material in the frame.
+    pub(crate) slot: usize,
+    /// Offset of its block in bytes.
+    pub(crate) offset: u32,
+    pub(crate) is_visible: bool,
+}
 
 /// How much finer or coarser than a view needs maps may be before others serve it better.
 const FINENESS: f32 = 1.25;

@@ -3,17 +3,25 @@
 use earcut::Earcut;
 use glam::{DVec2, DVec3};
 
-use super::raw::Result;
+use super::raw::{Raw, Result};
 
 /// A corner turns the wrong way if the sine of its angle is below this: less is the rounding of flat ones.
 const CONCAVE: f64 = -1e-5;
 /// Corners of a concave polygon, at most: the time that ears take grows with the square of their number.
 const MOST_CORNERS: usize = 1 << 15;
 
+impl Raw {
+    /// Adds the triangles of a polygon of vertices that are there; none if it has fewer than three corners.
+    pub(super) fn add_polygon(&mut self, corners: &[u32]) -> Result<()> {
+        let positions: Vec<DVec3> = corners.iter().map(|&k| self.positions[k as usize]).collect();
+        triangulate(&positions, |ear| self.triangles.push(ear.map(|k| corners[k])))
+    }
+}
+
 /// Calls `triangle` with the three corners of each triangle of a polygon, as numbers into `corners`, its positions in
 /// order. Convex polygons, and those that cross themselves, are fans around their first corner; concave ones are cut into
 /// ears, in the plane that their area is largest in, unless they have too many corners.
-pub(super) fn triangulate(corners: &[DVec3], mut triangle: impl FnMut([usize; 3])) -> Result<()> {
+fn triangulate(corners: &[DVec3], mut triangle: impl FnMut([usize; 3])) -> Result<()> {
     let fan = (2..corners.len()).map(|k| [0, k - 1, k]);
     match if corners.len() > 3 { ears(corners)? } else { None } {
         Some(ears) => ears.as_chunks().0.iter().for_each(|&ear| triangle(ear)),

@@ -2,8 +2,6 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::polygon::triangulate;
-
 /// Result of a reader; the error says what is wrong with the file, and where.
 pub(super) type Result<T> = std::result::Result<T, String>;
 
@@ -30,12 +28,6 @@ impl Raw {
         if number > 0 {
             self.warnings.push(format!("{number} {what}: left out"));
         }
-    }
-
-    /// Adds the triangles of a polygon of vertices that are there; none if it has fewer than three corners.
-    pub(super) fn add_polygon(&mut self, corners: &[u32]) -> Result<()> {
-        let positions: Vec<DVec3> = corners.iter().map(|&k| self.positions[k as usize]).collect();
-        triangulate(&positions, |ear| self.triangles.push(ear.map(|k| corners[k])))
     }
 
     /// Adds the triangles of a strip: each vertex from the third on makes one with the two before it, every other turned, so

@@ -4,7 +4,8 @@ use pulp::NullaryFnOnce;
 
 use super::jumps::Jumps;
 use super::lanes::{LANES, Lanes, NEVER, Phase};
-use super::request::{Request, Sums};
+use super::outcome::Sums;
+use super::request::Request;
 use super::roulette::{EVENTS, LATE, LIGHT};
 use super::score::{Event, Quantity};
 use super::stack::Source;

@@ -20,6 +20,7 @@ mod packet;
 pub mod profile;
 mod request;
 mod roulette;
+mod run;
 mod score;
 mod sphere;
 mod stack;

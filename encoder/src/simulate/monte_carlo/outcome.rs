@@ -1,7 +1,7 @@
 //! What a run found.
 
-use super::request::{Request, Sums};
-use super::score::{Score, Tally, standard_error, units, weight};
+use super::request::Request;
+use super::score::{Event, Quantity, Score, Tally, standard_error, units, weight};
 
 /// A mean over packets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,6 +34,76 @@ impl Sum {
         #[allow(clippy::cast_precision_loss, reason = "53 bits are enough for a result")]
         let mean = weight(self.sum) / packets as f64;
         Estimate { mean, standard_error: standard_error(self.sum, self.square, packets) }
+    }
+}
+
+/// Sums over packets.
+#[derive(Clone)]
+pub(super) struct Sums {
+    pub(super) packets: u64,
+    pub(super) reflected: Sum,
+    pub(super) transmitted: Sum,
+    pub(super) ballistic_reflected: Sum,
+    pub(super) ballistic_transmitted: Sum,
+    pub(super) absorbed: Sum,
+    pub(super) layers: Vec<u128>,
+    pub(super) tallies: Vec<Tally>,
+}
+
+impl Sums {
+    pub(super) fn new(request: &Request) -> Self {
+        Self {
+            packets: 0,
+            reflected: Sum::default(),
+            transmitted: Sum::default(),
+            ballistic_reflected: Sum::default(),
+            ballistic_transmitted: Sum::default(),
+            absorbed: Sum::default(),
+            layers: vec![0; request.stack.layers.len()],
+            tallies: request.scores.iter().map(|score| Tally::new(*score, request.grid)).collect(),
+        }
+    }
+
+    pub(super) fn merged(mut self, other: Self) -> Self {
+        self.packets += other.packets;
+        self.reflected.merge(other.reflected);
+        self.transmitted.merge(other.transmitted);
+        self.ballistic_reflected.merge(other.ballistic_reflected);
+        self.ballistic_transmitted.merge(other.ballistic_transmitted);
+        self.absorbed.merge(other.absorbed);
+        for (sum, more) in self.layers.iter_mut().zip(&other.layers) {
+            *sum += more;
+        }
+        for (tally, more) in self.tallies.iter_mut().zip(&other.tallies) {
+            tally.merge(more);
+        }
+        self
+    }
+
+    /// A packet of `weight` leaves the stack.
+    pub(super) fn leave(&mut self, quantity: Quantity, ballistic: bool, event: &Event, weight: f64) {
+        let up = quantity == Quantity::Reflected;
+        match (up, ballistic) {
+            (true, false) => self.reflected.add(weight),
+            (false, false) => self.transmitted.add(weight),
+            (true, true) => self.ballistic_reflected.add(weight),
+            (false, true) => self.ballistic_transmitted.add(weight),
+        }
+        if !ballistic {
+            self.score(quantity, event, weight);
+        }
+    }
+
+    /// A packet loses `weight` to a layer.
+    pub(super) fn absorb(&mut self, layer: usize, ballistic: bool, event: &Event, weight: f64) {
+        self.layers[layer] += units(weight);
+        self.score(if ballistic { Quantity::BallisticAbsorbed } else { Quantity::Absorbed }, event, weight);
+    }
+
+    fn score(&mut self, quantity: Quantity, event: &Event, weight: f64) {
+        for tally in self.tallies.iter_mut().filter(|tally| tally.score.quantity == quantity) {
+            tally.add(event, weight);
+        }
     }
 }
 

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use rand::{Rng, RngExt};
 
-use super::request::{Request, Sums};
+use super::outcome::Sums;
+use super::request::Request;
 use super::roulette;
 use super::score::{Event, Quantity};
 use super::stack::Source;

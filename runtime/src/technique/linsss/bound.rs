@@ -2,16 +2,19 @@
 
 use std::sync::Arc;
 
-use subsurf_shaders::uniform::LinsssStage;
-use wgpu::{BindGroup, Buffer, Color, CommandEncoder};
+use subsurf_shaders::uniform::{Linsss, LinsssStage, Upsampling};
+use wgpu::{BindGroup, BindingResource, Buffer, Color, CommandEncoder, TextureView};
 
 use super::maps::{Maps, Means};
 use super::passes::Passes;
 use crate::asset::LinsssMaterial;
-use crate::gpu::{Gpu, Rows, Tracked};
+use crate::error::Result;
+use crate::gpu::{Gpu, Purpose, Rows, Surface2d, Tracked};
 use crate::technique::area::MapArea;
 use crate::technique::bindings::{Bindings, Group, Lap};
+use crate::technique::common::Common;
 use crate::technique::mesh_pass::{Attachments, MeshPass, SharedGroups, cleared};
+use crate::technique::tsm::{FAR_MM, TranslucentShadowMaps};
 
 /// Block and bind group of one pass over the maps.
 #[derive(Debug)]
@@ -38,6 +41,95 @@ pub(super) struct Bound {
     pub(super) area: MapArea,
     /// What maps hold where nothing is seen.
     pub(super) far: Color,
+}
+
+impl Passes {
+    /// Binds a material to the maps of a frame.
+    pub(crate) fn bind(
+        self: &Arc<Self>,
+        gpu: &Gpu,
+        material: &Arc<LinsssMaterial>,
+        common: &Common,
+        lights: &TranslucentShadowMaps,
+        maps: Maps,
+    ) -> Result<Box<dyn Bindings>> {
+        let count = material.gaussians();
+        let turns = if material.is_shortcut() { 1 } else { count };
+        let stage = || gpu.uniform(Purpose::Frame, "stage of LinSSS", &LinsssStage::default());
+        let upsampling = gpu.uniform(Purpose::Frame, "upsampling", &Upsampling::default());
+        let patch = material.layers.resources();
+        let block = |turn: usize| {
+            let turn = u32::try_from(turn).unwrap_or(0);
+            gpu.uniform(Purpose::Frame, "Gaussians of LinSSS", &Linsss { turn, ..material.block })
+        };
+        let of_scene = [common.scene.as_entire_binding(), texture(lights.views()[0])];
+        let gbuffers = (0..turns).map(|turn| {
+            let block = block(turn);
+            let of_gbuffer = [
+                patch[0].clone(),
+                patch[1].clone(),
+                block.as_entire_binding(),
+                texture(lights.views()[1]),
+                texture(lights.views()[2]),
+            ];
+            self.gbuffer.bind(gpu, 1, &of_gbuffer)
+        });
+        let gbuffers = gbuffers.collect::<Result<Vec<_>>>()?;
+        // One look-up for every Gaussian, or two blurs: along rows and along columns.
+        let gaussians = (0..count).map(|_| match &maps.by {
+            Means::Pyramid([slight, pyramid]) => {
+                let block = stage();
+                let of_lookup = [
+                    block.as_entire_binding(),
+                    texture(&maps.light.view),
+                    texture(&slight.view),
+                    texture(&pyramid.view),
+                ];
+                let group = self.lookup.bind(gpu, 0, &of_lookup)?;
+                Ok(vec![Turn { block, group }])
+            }
+            Means::Blurs([light, weighted]) => {
+                let sources = [[&maps.light, &maps.weighted], [light, weighted]];
+                let bind = |[light, weighted]: [&Surface2d; 2]| {
+                    let block = stage();
+                    let of_blur = [block.as_entire_binding(), texture(&light.view), texture(&weighted.view)];
+                    let group = self.blur.bind(gpu, 0, &of_blur)?;
+                    Ok(Turn { block, group })
+                };
+                sources.into_iter().map(bind).collect()
+            }
+        });
+        let gaussians = gaussians.collect::<Result<Vec<_>>>()?;
+        let reductions = maps.levels.windows(2).map(|pair| {
+            let block = stage();
+            let group = self.reduce.bind(gpu, 0, &[block.as_entire_binding(), texture(&pair[0])])?;
+            Ok(Turn { block, group })
+        });
+        let reductions = reductions.collect::<Result<Vec<_>>>()?;
+        let block = block(0);
+        let of_shade = [
+            patch[0].clone(),
+            patch[1].clone(),
+            upsampling.as_entire_binding(),
+            block.as_entire_binding(),
+            texture(&maps.blurred[0].view),
+            texture(&maps.blurred[1].view),
+            texture(&maps.through.view),
+        ];
+        Ok(Box::new(Bound {
+            scene: self.gbuffer.bind(gpu, 0, &of_scene)?,
+            shade: self.shade.bind(gpu, 1, &of_shade)?,
+            far: gpu.clear_colour(Color { r: 0.0, g: 0.0, b: 0.0, a: FAR_MM }),
+            area: MapArea::default(),
+            material: material.clone(),
+            passes: self.clone(),
+            gbuffers,
+            gaussians,
+            reductions,
+            upsampling,
+            maps,
+        }))
+    }
 }
 
 impl Bindings for Bound {
@@ -109,4 +201,8 @@ impl Bindings for Bound {
     fn shade(&self) -> (&MeshPass, &BindGroup) {
         (&self.passes.shade, &self.shade)
     }
+}
+
+fn texture(view: &TextureView) -> BindingResource<'_> {
+    BindingResource::TextureView(view)
 }
