@@ -36,7 +36,7 @@ impl KMeans for Euclidean<'_> {
                 let word = argmax(products, &halves, |product, half| product - half);
                 let distance = halves[word] - products[word];
                 let squared = 2.0 * distance + column.norm_squared();
-                #[allow(clippy::cast_possible_truncation, reason = "nearly as large as a vector of f32")]
+                #[allow(clippy::cast_possible_truncation, reason = "infinite where f32 ends")]
                 (u8::try_from(word).expect("at most 256"), squared as f32)
             };
             products.as_slice().chunks(halves.len()).zip(block.column_iter()).map(best).collect::<Vec<_>>()
