@@ -5,6 +5,7 @@
 )]
 
 pub(crate) mod btf;
+pub(crate) mod damage;
 #[cfg(feature = "push")]
 pub(crate) mod push;
 

@@ -1,8 +1,8 @@
 //! Kernel files: the reader against the words of `FORMAT.md`, section 6, and hostile ones.
 
+use crate::common::damage::Sound;
 use crate::common::seal;
 use proptest::prelude::*;
-use subsurf_decoder::container::Crc;
 use subsurf_decoder::kernel::KernelMethod;
 use subsurf_decoder::{Bssrdf, Content, Family, File, Kernel, ReadError};
 
@@ -109,55 +109,29 @@ fn other_families_are_told_apart() {
     assert_eq!(error.to_string(), "a BSSRDF, not a kernel");
 }
 
+fn sound() -> Sound {
+    let open = |bytes: &[u8], crc| Kernel::parse_with(bytes, crc).map(|kernel| exercise(&kernel));
+    Sound { file: example(), sections: 4, open }
+}
+
 #[test]
 fn cut_at_every_length() {
-    let file = example();
-    for length in 0..file.len() {
-        let error = Kernel::parse(&file[..length]).unwrap_err();
-        assert!(matches!(error, ReadError::Truncated { .. }), "{length}: {error:?}");
-    }
+    sound().cut_at_every_length();
 }
 
 #[test]
 fn every_bit_of_every_byte_flipped() {
-    let file = example();
-    for (at, bit) in (0..file.len()).flat_map(|at| (0..8).map(move |bit| (at, bit))) {
-        let mut bad = file.clone();
-        bad[at] ^= 1 << bit;
-        assert!(Kernel::parse(&bad).is_err(), "a CRC covers byte {at}");
-        if let Ok(kernel) = Kernel::parse_with(&bad, Crc::Skip) {
-            exercise(&kernel);
-        }
-        // The same damage by someone who recomputes the CRCs.
-        seal(&mut bad);
-        if let Ok(kernel) = Kernel::parse(&bad) {
-            exercise(&kernel);
-        }
-    }
+    sound().flip_every_bit(&(0..0));
 }
 
 proptest! {
     #[test]
     fn any_sections_behind_a_sound_start(bytes in proptest::collection::vec(any::<u8>(), 124..400)) {
-        let mut file = bytes;
-        let len = file.len() as u64;
-        file[..16].copy_from_slice(&example()[..16]);
-        file[16..24].copy_from_slice(&len.to_le_bytes());
-        seal(&mut file);
-        if let Ok(kernel) = Kernel::parse(&file) {
-            exercise(&kernel);
-        }
+        sound().begin(bytes);
     }
 
     #[test]
     fn any_damage_with_valid_crcs(changes in proptest::collection::vec((8_usize..232, any::<u8>()), 1..6)) {
-        let mut file = example();
-        for (at, value) in changes {
-            file[at] = value;
-        }
-        seal(&mut file);
-        if let Ok(kernel) = Kernel::parse(&file) {
-            exercise(&kernel);
-        }
+        sound().change(&changes);
     }
 }

@@ -1,8 +1,8 @@
 //! Transfer files: the reader against the words of `FORMAT.md`, section 7, and hostile ones.
 
+use crate::common::damage::Sound;
 use crate::common::{crc32, seal_all};
 use proptest::prelude::*;
-use subsurf_decoder::container::Crc;
 use subsurf_decoder::container::bytes::F32Le;
 use subsurf_decoder::transfer::LightWeights;
 use subsurf_decoder::{Content, Family, File, Kernel, ReadError, Section, Transfer};
@@ -201,56 +201,30 @@ fn broken_fields_are_refused_for_what_is_broken() {
     );
 }
 
+fn sound() -> Sound {
+    let open = |bytes: &[u8], crc| Transfer::parse_with(bytes, crc).map(|transfer| exercise(&transfer));
+    Sound { file: example(), sections: SECTIONS, open }
+}
+
 #[test]
 fn cut_at_every_length() {
-    let file = example();
-    for length in 0..file.len() {
-        let error = Transfer::parse(&file[..length]).unwrap_err();
-        assert!(matches!(error, ReadError::Truncated { .. }), "{length}: {error:?}");
-    }
+    sound().cut_at_every_length();
 }
 
 #[test]
 fn every_bit_of_every_byte_flipped() {
-    let file = example();
-    for (at, bit) in (0..file.len()).flat_map(|at| (0..8).map(move |bit| (at, bit))) {
-        let mut bad = file.clone();
-        bad[at] ^= 1 << bit;
-        // Two bytes of fill are covered by nothing.
-        assert_eq!(Transfer::parse(&bad).is_ok(), (386..388).contains(&at), "a CRC covers byte {at}");
-        if let Ok(transfer) = Transfer::parse_with(&bad, Crc::Skip) {
-            exercise(&transfer);
-        }
-        // The same damage by someone who recomputes the CRCs.
-        seal(&mut bad);
-        if let Ok(transfer) = Transfer::parse(&bad) {
-            exercise(&transfer);
-        }
-    }
+    // Two bytes of fill are covered by nothing.
+    sound().flip_every_bit(&(386..388));
 }
 
 proptest! {
     #[test]
-    fn any_damage_with_valid_crcs(changes in proptest::collection::vec((8_usize..412, any::<u8>()), 1..6)) {
-        let mut file = example();
-        for (at, value) in changes {
-            file[at] = value;
-        }
-        seal(&mut file);
-        if let Ok(transfer) = Transfer::parse(&file) {
-            exercise(&transfer);
-        }
+    fn any_sections_behind_a_sound_start(bytes in proptest::collection::vec(any::<u8>(), 196..600)) {
+        sound().begin(bytes);
     }
 
     #[test]
-    fn any_sections_behind_a_sound_start(bytes in proptest::collection::vec(any::<u8>(), 196..600)) {
-        let mut file = bytes;
-        let len = file.len() as u64;
-        file[..16].copy_from_slice(&example()[..16]);
-        file[16..24].copy_from_slice(&len.to_le_bytes());
-        seal(&mut file);
-        if let Ok(transfer) = Transfer::parse(&file) {
-            exercise(&transfer);
-        }
+    fn any_damage_with_valid_crcs(changes in proptest::collection::vec((8_usize..412, any::<u8>()), 1..6)) {
+        sound().change(&changes);
     }
 }
