@@ -68,10 +68,12 @@ fn converges_to_the_closed_form() {
 
 #[test]
 fn converges_where_media_meet() {
-    // Neighbouring squares of the chessboard, no closed form: the usual grid against twice and four times as fine.
+    // A pixel of each of two neighbouring squares of the chessboard, in turns; no closed form: the usual grid against twice and four
+    // times as fine.
     let board = BuiltinMaterial::Chessboard.map([64, 64], Addressing::Repeat, 1);
     let cut = |x: usize| board.media[8 * 64 + x];
-    let map = MediumMap { size: [2, 1], media: (7..9).map(cut).collect() };
+    let map = MediumMap { size: [2, 1], media: (10..12).map(cut).collect() };
+    assert!(map.media[1].sigma_a[2] > 5.0 * map.media[0].sigma_a[2], "a white square and a dark one: {:?}", map.media);
     let at = |refine| measure(&slab(&map, 4, refine)).0;
     let finest = at(4.0);
     let error = |coarse: &[f32]| {

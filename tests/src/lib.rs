@@ -66,7 +66,7 @@ pub fn write_capture(
     path
 }
 
-/// Simulates the capture of a square piece of a scene, 20 mm thick, in air (η = 1.5), and opens it.
+/// Simulates the capture of a square piece of a scene, 20 mm thick, in air (η = 1.5), on a coarse grid, and opens it.
 ///
 /// # Panics
 /// If it cannot be written.

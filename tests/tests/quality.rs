@@ -1,4 +1,4 @@
-//! How good 2-BMPP is on simulated materials: 80 × 80 pixels, window 25, M = 128, S = 13, no noise.
+//! How good 2-BMPP is on simulated materials: 80 × 80 pixels, window 25, M = 128, S = 13, no noise, on a coarse grid.
 //!
 //! The two directions of a pair are left as they were solved for. They differ between unlike media, which no model of
 //! the form Rd = √(P_i P_o) can follow: evened out, as captures are by default, all of this gets easier.

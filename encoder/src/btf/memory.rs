@@ -103,10 +103,11 @@ impl Fit {
         self.ranks[0] + 2 * self.ranks[1]
     }
 
-    /// The truncated SVD of luma: five copies of its range, in which one is of double precision, and a block of images.
+    /// The truncated SVD of luma: five copies of its range, in which one is of double precision, and a block of images
+    /// and of what it is in rows.
     fn decomposition(&self) -> u64 {
         let (pairs, width) = (self.lights * self.views, self.ranks[0] + OVERSAMPLING);
-        4 * (width * (5 * self.texels.max(pairs) + self.texels.min(pairs)) + BLOCK * self.texels)
+        4 * (width * (5 * self.texels.max(pairs) + self.texels.min(pairs)) + 2 * BLOCK * self.texels)
     }
 
     /// Coefficients of all texels: those of the decomposition, those with mipmaps, and what a stage leaves of them.

@@ -1,4 +1,4 @@
-//! The largest of many values, several at a time: one comparison for each would wait for the one before.
+//! The largest of many values, several at a time: one at a time, each comparison would wait for the one before.
 
 /// Values that are compared side by side.
 const WIDTH: usize = 8;
@@ -7,6 +7,7 @@ const WIDTH: usize = 8;
 /// none is above −∞.
 #[inline]
 pub(crate) fn argmax<T: Copy + PartialOrd + From<f32>>(a: &[T], b: &[T], size: impl Fn(T, T) -> T) -> usize {
+    debug_assert_eq!(a.len(), b.len(), "a number of each to a value");
     let lowest = T::from(f32::NEG_INFINITY);
     let mut best = [lowest; WIDTH];
     let mut at = [0_u32; WIDTH];
@@ -57,6 +58,10 @@ mod tests {
                 let negative: Vec<f32> = values.iter().map(|value| -value).collect();
                 let least = largest(&negative);
                 assert_eq!(argmax(&none, &values, |_, b| -b), least, "{values:?}");
+                let [a, b] =
+                    [&values, &with_nan].map(|of| of.iter().map(|value| f64::from(*value)).collect::<Vec<_>>());
+                let both: Vec<f32> = values.iter().zip(&with_nan).map(|(a, b)| a - 2.0 * b).collect();
+                assert_eq!(argmax(&a, &b, |a, b| a - 2.0 * b), largest(&both), "{values:?}");
             }
         }
     }

@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-use crate::math::matrix::{orthonormal, product};
+use crate::math::matrix::{orthonormal, product, transposed_product};
 
 /// Dimensions beyond those asked for, which bring the space of the leading ones closer.
 const OVERSAMPLING: usize = 16;
@@ -61,7 +61,7 @@ pub(crate) fn leading_axes(matrix: DMatrix<f32>, count: usize) -> DMatrix<f32> {
     for _ in 0..ROUNDS {
         range = orthonormal(product(&matrix, &range));
     }
-    let within = range.transpose() * product(&matrix, &range);
+    let within = transposed_product(&range, &product(&matrix, &range));
     range * Eigen::of(within).leading(count)
 }
 

@@ -70,7 +70,7 @@ pub(super) struct Shared {
 /// Entries of P4 that are tried, in percent of what the files have apart.
 const SHARES: [usize; 7] = [25, 30, 40, 50, 60, 75, 90];
 
-/// The smallest shared file whose mean structural similarity is not below that of files apart, over a sample of pairs.
+/// The smallest shared file that bisection finds whose mean structural similarity is not below that of files apart, over a sample of pairs.
 pub(super) fn shared(
     folder: &Path,
     set: &Set,
@@ -115,7 +115,7 @@ pub(super) fn shared(
         );
         anyhow::Ok((bytes, Shared { request: request.clone(), title: set.title.clone(), apart, together, p4 }))
     };
-    // Quality rises with P4; the largest is kept where none is good enough.
+    // Quality is taken to rise with P4, so that three of the seven are tried; the largest is kept where none is good enough.
     let (mut found, mut first, mut end) = (None, 0, SHARES.len());
     while first < end {
         let middle = usize::midpoint(first, end);

@@ -1,7 +1,7 @@
 //! The example of `FORMAT.md`, section 3, built from literals: nothing here uses the crate's own layout.
 #![cfg_attr(
     not(all(feature = "alloc", feature = "push", feature = "transfer")),
-    allow(dead_code, reason = "for tests of features")
+    allow(dead_code, reason = "some helpers serve only tests behind features")
 )]
 
 pub(crate) mod btf;

@@ -1,4 +1,4 @@
-//! Bytes as they come.
+//! Readers of pushed bytes.
 
 mod microcontroller;
 #[cfg(feature = "transfer")]

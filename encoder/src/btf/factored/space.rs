@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use crate::btf::resample::{Measured, Resampler};
 use crate::math::eigen::Eigen;
+use crate::math::matrix::transposed_product;
 use crate::math::parallel;
 
 /// Share of the largest eigenvalue that is added to all, where a few components cannot be told apart on the grid.
@@ -98,9 +99,8 @@ impl Space<'_> {
         let mut cross = DMatrix::zeros(count, bases[0].ncols());
         for (table, basis) in tables.iter().zip(bases) {
             let read = self.read(table);
-            let transposed = read.transpose();
-            metric += &transposed * &read;
-            cross += transposed * basis;
+            metric += transposed_product(&read, &read);
+            cross += transposed_product(&read, basis);
         }
         let ridge = RIDGE * metric.diagonal().max() + f32::MIN_POSITIVE;
         (metric + DMatrix::identity(count, count) * ridge, cross)

@@ -1,6 +1,6 @@
 //! k-means by Euclidean distance, of the columns of a matrix.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVectorView};
 
 use super::KMeans;
 use crate::math::argmax::argmax;
@@ -31,15 +31,15 @@ impl KMeans for Euclidean<'_> {
         let of_block = |start: usize| {
             let block = columns.view((0, start), (count, BLOCK.min(columns.ncols() - start))).map(f64::from);
             let products = &transposed * &block;
-            let best = |(products, column): (&[f64], nalgebra::DVectorView<'_, f64>)| {
+            let best = |(products, column): (DVectorView<'_, f64>, DVectorView<'_, f64>)| {
                 // The least ½ ‖x − c‖² less ½ ‖x‖².
-                let word = argmax(products, &halves, |product, half| product - half);
+                let word = argmax(products.as_slice(), &halves, |product, half| product - half);
                 let distance = halves[word] - products[word];
                 let squared = 2.0 * distance + column.norm_squared();
-                #[allow(clippy::cast_possible_truncation, reason = "infinite where f32 ends")]
+                #[allow(clippy::cast_possible_truncation, reason = "beyond f32 it is infinite, which is farthest")]
                 (u8::try_from(word).expect("at most 256"), squared as f32)
             };
-            products.as_slice().chunks(halves.len()).zip(block.column_iter()).map(best).collect::<Vec<_>>()
+            products.column_iter().zip(block.column_iter()).map(best).collect::<Vec<_>>()
         };
         parallel::map(starts.len(), |k| of_block(starts[k])).concat()
     }
@@ -71,6 +71,28 @@ impl KMeans for Euclidean<'_> {
             } else if let Some(column) = far.next() {
                 of_word.copy_from(&columns.column(column).rows(0, count));
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_is_chosen_among_large_ones_that_are_alike() {
+        // Squares of 10⁹, of which single precision keeps no more than 64.
+        let value = |row: usize, column: usize| 30_000.0 + ((row * 7 + column * 13 + row * column) % 11) as f32;
+        let words = DMatrix::from_fn(3, 20, |row, word| value(row, word % 19));
+        let columns = DMatrix::from_fn(3, BLOCK + 9, |row, column| value(row + 1, column) + 0.25);
+        let nearest = |column: usize| {
+            let distance = |word: usize| (0..3).map(|row| (columns[(row, column)] - words[(row, word)]).powi(2)).sum();
+            (0..20)
+                .map(|word| (word, distance(word)))
+                .fold((0, f32::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
+        };
+        for (column, (word, squared)) in Euclidean(&columns).assign(&words).into_iter().enumerate() {
+            assert_eq!((usize::from(word), squared), nearest(column), "column {column}");
         }
     }
 }
