@@ -33,7 +33,7 @@ HEADERS = ("BSSR", "BTFH", "KERN", "XFER")
 STAGE_KINDS = {f"P{p}S{s}" for p in (6, 4, 3, 2, 1) for s in range(4)}
 KNOWN_KINDS = set(HEADERS) | STAGE_KINDS | {
     "PROF", "PRFH", "MIXR", "BIDX", "MIX8", "CODE", "PAIR", "LSPP", "sepb", "MATS", "BOOK", "MERG", "CHR2", "CHR1",
-    "CHRC", "TINT", "FACT", "AXES", "CORE", "WORD", "INDX", "KOFF", "KWGT", "TAIL", "twog", "XDIR", "XRNG", "XMEA",
+    "CHRC", "TINT", "FACT", "AXES", "CORE", "WORD", "INDX", "KOFF", "KWGT", "TAIL", "twog", "XDIR", "XAXS", "XRNG", "XMEA",
     "XBAS", "XVTX", "meta"}
 
 MAX_TABLE = 1 << 28
@@ -1237,13 +1237,13 @@ class Transfer(_Tailed):
     channels: C, 3, or 1 for the mean of three. vertices: their number N. eta: 1 to 4.
     positions_crc, triangles_crc: of the mesh. scale: [C]. bits: those of a coefficient's code, K of them.
     directions: [L, 3] unit vectors towards the lights. radius, tails, tail_distances: of R_d.
-    offsets, steps: [M, 1 + K], of the mean, then of coefficients. means: [M, C, L]. components: [M, K, C, L].
-    records: [N, bytes] packed codes of the vertices. M is the number of clusters.
+    axes: [C, L, R], which clusters share. offsets, steps: [M, 1 + K], of the mean, then of coefficients.
+    means: [M, R]. components: [M, K, R]. records: [N, bytes] packed codes of the vertices. M is the number of clusters.
     """
 
     def __init__(self, container: _Container) -> None:
         super().__init__(container)
-        header = container.section("XFER").at_least(56)
+        header = container.section("XFER").at_least(58)
         header.integer(0, "B", (1,))
         self.channels = header.integer(1, "B", (1, 3))
         lights = header.integer(2, "H", range(4, 1025))
@@ -1255,8 +1255,11 @@ class Transfer(_Tailed):
         self.eta = header.real(24, 1, 4)
         self.scale = header.reals("<f4", (3,), 1e-12, 1e6, 28)[:self.channels]
         self.bits = self._read_bits(header)
+        axes = header.integer(56, "H", range(1, 257))
         self._read_lights(container.section("XDIR").exactly(12 * lights), lights)
-        self._read_clusters(container, clusters, lights)
+        self.axes = container.section("XAXS").exactly(self.channels * lights * axes).array(
+            "i1", (self.channels, lights, axes))
+        self._read_clusters(container, clusters, axes)
         self._read_records(container.section("XVTX"), clusters)
         self._read_tail(container, nodes, radius)
 
@@ -1283,7 +1286,7 @@ class Transfer(_Tailed):
             is_unit = (squares >= np.float32(1 - 1e-3)) & (squares <= np.float32(1 + 1e-3))
             section.check(squares, is_unit, "a squared length of 1 ± 0.001", stride=12)
 
-    def _read_clusters(self, container: _Container, clusters: int, lights: int) -> None:
+    def _read_clusters(self, container: _Container, clusters: int, axes: int) -> None:
         size = len(self.bits)
         section = container.section("XRNG").exactly(8 * clusters * (1 + size))
         ranges = section.array("<f4", (clusters, 1 + size, 2))
@@ -1291,12 +1294,12 @@ class Transfer(_Tailed):
         with np.errstate(invalid="ignore"):
             section.check(ranges, (ranges >= low) & (ranges <= 1000), "offsets of ±1000 and steps of 0 to 1000")
         self.offsets, self.steps = ranges[..., 0], ranges[..., 1]
-        count = clusters * self.channels * lights
-        codes = container.section("XMEA").exactly(2 * count).array("<u2", (clusters, self.channels, lights))
-        offset, step = (values[:, :1, np.newaxis].astype(np.float64) for values in (self.offsets, self.steps))
+        count = clusters * axes
+        codes = container.section("XMEA").exactly(2 * count).array("<u2", (clusters, axes))
+        offset, step = (values[:, :1].astype(np.float64) for values in (self.offsets, self.steps))
         self.means = offset + step * codes
         section = container.section("XBAS").exactly(size * count)
-        self.components = section.array("i1", (clusters, size, self.channels, lights))
+        self.components = section.array("i1", (clusters, size, axes))
 
     def _read_records(self, section: _Section, clusters: int) -> None:
         size = (8 + sum(self.bits) + 7) // 8
@@ -1326,18 +1329,19 @@ class Transfer(_Tailed):
         That of a light of irradiance 1 across it, before Fresnel transmission on the way out. It may be below 0.
         """
         light, vertex = np.broadcast_arrays(_whole(light), _whole(vertex))
+        axes = np.moveaxis(self.axes.astype(np.float64), 1, 0)[light]
+        return self.scale * np.einsum("...cr,...r->...c", axes, self.along(vertex))
+
+    def along(self, vertex: ArrayLike) -> Array:
+        """What vertices have along the axes, mu + sum of a_k b_k, [..., R]."""
         cluster = self.cluster(vertex)
-        components = self.components[cluster, :, :, light]
-        varying = np.einsum("...k,...kc->...c", self.coefficients(vertex), components)
-        return self.scale * (self.means[cluster, :, light] + varying)
+        varying = np.einsum("...k,...kr->...r", self.coefficients(vertex), self.components[cluster])
+        return self.means[cluster] + varying
 
     def shade(self, weights: ArrayLike, vertex: ArrayLike) -> Array:
         """Radiant exitance Σ_j w_j q_j of vertices, [..., C], for weights of the lights, [L]."""
-        weights = np.asarray(weights, np.float64)
-        cluster = self.cluster(vertex)
-        means, components = self.means @ weights, self.components @ weights
-        varying = np.einsum("...k,...kc->...c", self.coefficients(vertex), components[cluster])
-        return self.scale * (means[cluster] + varying)
+        axes = np.einsum("l,clr->cr", np.asarray(weights, np.float64), self.axes)
+        return self.scale * (self.along(vertex) @ axes.T)
 
     def fits(self, positions: ArrayLike, triangles: ArrayLike) -> bool:
         """Whether the file is for this mesh: positions in mm, [N, 3], and triangles, [.., 3]."""

@@ -109,6 +109,8 @@ sections! {
     TransferHeader = b"XFER", "transfer header", if "transfer";
     /// `XDIR`: directions towards the lights of a transfer.
     Lights = b"XDIR", "directions of lights", if "transfer";
+    /// `XAXS`: axes of light that clusters share.
+    LightAxes = b"XAXS", "axes of light", if "transfer";
     /// `XRNG`: offsets and steps of what clusters store.
     ClusterRanges = b"XRNG", "ranges of clusters", if "transfer";
     /// `XMEA`: means of clusters.

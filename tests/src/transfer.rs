@@ -26,21 +26,22 @@ pub fn format_transfer() -> Vec<u8> {
         eta: 1.5,
         scale: [0.5, 1.0, 1.0],
         bits,
+        axes: 2,
     };
-    let zeros = [0; 8];
     let sections = [
         (Section::TransferHeader, header.to_bytes().to_vec()),
         (Section::Lights, floats(&[1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0])),
+        (Section::LightAxes, vec![0x01, 0x00, 0x00, 0x01, 0x01, 0x01, 0x02, 0xFF]),
         (Section::ClusterRanges, floats(&[0.0, 1.0 / 1024.0, -0.25, 0.125, 0.0, 0.125, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0])),
-        (Section::ClusterMeans, [&[0, 4, 0, 2, 0, 1, 0, 0][..], &zeros].concat()),
-        (Section::ClusterBases, [&[1, 0, 0xFF, 2, 0, 4, 0, 0][..], &zeros].concat()),
+        (Section::ClusterMeans, vec![0, 4, 0, 2, 0, 0, 0, 0]),
+        (Section::ClusterBases, vec![1, 0, 0xFF, 4, 0, 0, 0, 0]),
         (Section::VertexCodes, vec![0x00, 0x1C, 0x00, 0x00, 0x01, 0x00]),
         (Section::KernelTail, floats(&[49.0 / 64.0, 25.0 / 64.0, 0.25, 0.0, 0.0, 0.0])),
     ];
     write(&sections)
 }
 
-/// Three channels, seven lights, three clusters of five components in 33 bits, eleven vertices: numbers from formulas.
+/// Three channels, seven lights, four axes, three clusters of five components in 33 bits, eleven vertices: numbers from formulas.
 ///
 /// # Panics
 /// Never.
@@ -63,6 +64,7 @@ pub fn rgb_transfer() -> Vec<u8> {
         eta: 1.3,
         scale: [0.5, 0.25, 2.0],
         bits,
+        axes: 4,
     };
     let directions = (0..7).flat_map(|k| {
         let direction = [real(3 * k), real(3 * k + 1), real(3 * k + 2)];
@@ -78,9 +80,10 @@ pub fn rgb_transfer() -> Vec<u8> {
     write(&[
         (Section::TransferHeader, header.to_bytes().to_vec()),
         (Section::Lights, floats(&directions.collect::<Vec<f32>>())),
+        (Section::LightAxes, (0..3 * 7 * 4).map(|k| number(k + 5, 256)).collect()),
         (Section::ClusterRanges, floats(&ranges.collect::<Vec<f32>>())),
-        (Section::ClusterMeans, (0..2 * 3 * 3 * 7).map(|k| number(k, 256)).collect()),
-        (Section::ClusterBases, (0..3 * 5 * 3 * 7).map(|k| number(k, 256)).collect()),
+        (Section::ClusterMeans, (0..2 * 3 * 4).map(|k| number(k, 256)).collect()),
+        (Section::ClusterBases, (0..3 * 5 * 4).map(|k| number(k, 256)).collect()),
         (Section::VertexCodes, codes.collect()),
         (Section::KernelTail, floats(&[0.75, 0.5, 0.25, 0.5, 0.125, 0.25, 0.0, 0.0, 0.0])),
     ])

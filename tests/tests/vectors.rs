@@ -64,7 +64,7 @@ fn broken_files_are_refused_for_what_is_broken() {
 fn the_transfer_of_the_specification_is_the_file() {
     let file = std::fs::read(folder().join("transfer_example.subsurf")).unwrap();
     assert_eq!(file, format_transfer());
-    assert_eq!(file.len(), 412);
+    assert_eq!(file.len(), 432);
 }
 
 #[test]

@@ -15,6 +15,7 @@ pub(super) fn info(args: &Args, bytes: &[u8], file: &File<'_>, transfer: &Transf
     if args.json {
         let value = json!({
             "model": "transfer", "channels": header.channels, "lights": header.lights, "clusters": header.clusters,
+            "axes": header.axes,
             "components": header.components(), "bits": header.bits[..header.components()], "vertices": header.vertices,
             "positions_crc": header.positions_crc, "triangles_crc": header.triangles_crc, "radius_mm": header.radius_mm,
             "eta": header.eta, "reflectance": reflectance, "bytes": bytes.len(), "bytes_per_vertex": per_vertex,

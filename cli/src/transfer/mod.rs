@@ -30,8 +30,8 @@ use crate::program::threads;
 /// Precompute what leaves a homogeneous material at every vertex of a mesh, for light from any direction.
 ///
 /// Adds up the scattered light of all vertices, with the mesh's shadows, for a set of directions (Hao and Varshney 2004), and writes
-/// NAME.subsurf with some six bytes per vertex, and clusters that weigh about half a megabyte per channel of 200 lights. Drawing is then a few
-/// multiplications for each vertex and light.
+/// NAME.subsurf with some six bytes per vertex, and what all vertices share: 50 kB for small meshes, half a megabyte for large ones.
+/// Drawing is then a few multiplications for each vertex and light.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -58,10 +58,10 @@ pub(crate) struct Args {
     /// Directions of light, 4 to 1,024: more are closer to the truth in between, and cost side data and time alone
     #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u16).range(4..=1024))]
     lights: u16,
-    /// One channel instead of three: the mean over colours, a third of side data and time; it is tinted when drawn
+    /// One channel instead of three: the mean over colours, in fewer bytes and less time; it is tinted when drawn
     #[arg(long)]
     grey: bool,
-    /// Clusters of vertices, 1 to 256 [default: one for 400 vertices, from 16 to 256]
+    /// Clusters of vertices, 1 to 256 [default: one for 300 vertices, from 16 to 256]
     #[arg(long, value_name = "N")]
     clusters: Option<usize>,
     /// Components of a cluster, 1 to 16

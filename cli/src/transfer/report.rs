@@ -49,9 +49,10 @@ pub(crate) fn clusters(file: &Transfer<'_>) -> String {
     let header = file.header();
     let bits: Vec<String> = header.bits.iter().take(header.components()).map(u8::to_string).collect();
     format!(
-        "clusters: {}, of {} components, in {} bits; {} bytes for each vertex",
+        "clusters: {}, of {} components along {} axes, in {} bits; {} bytes for each vertex",
         header.clusters,
         header.components(),
+        header.axes,
         bits.join(" "),
         header.record_bytes()
     )

@@ -1,6 +1,6 @@
 //! Values of vertices under a light.
 
-use super::layout::MAX_COMPONENTS;
+use super::layout::{MAX_AXES, MAX_COMPONENTS};
 use super::reader::Transfer;
 use crate::container::bits::mask;
 use crate::container::index::row_major;
@@ -13,31 +13,44 @@ impl Transfer<'_> {
     pub fn light_table(&self, weights: &[f32], table: &mut [f32]) {
         let header = self.header();
         let (components, channels) = (header.components(), usize::from(header.channels.max(1)));
-        let (lights, values) = (usize::from(header.lights), header.values());
         let rows = components.wrapping_add(1).max(1);
-        let total: f32 = weights.iter().take(lights).sum();
-        let tables = table.chunks_exact_mut(rows.wrapping_mul(channels).max(1));
-        for (cluster, table) in tables.take(header.clusters.into()).enumerate() {
-            let range = |row: usize| {
-                let at = row_major(row_major(cluster, rows, row), 2, 0);
-                [at, at.wrapping_add(1)].map(|at| self.ranges.get(at).unwrap_or(0.0))
-            };
-            for ((channel, table), scale) in table.chunks_exact_mut(rows).enumerate().zip(header.scale) {
+        let mut along = [0.0; MAX_AXES as usize];
+        let along = along.get_mut(..header.axes.into()).unwrap_or(&mut []);
+        for (channel, scale) in (0..channels).zip(header.scale) {
+            self.project(channel, weights, along);
+            let (along, total) = (&*along, along.iter().sum::<f32>());
+            let tables = table.chunks_exact_mut(rows).skip(channel).step_by(channels);
+            for (cluster, table) in tables.take(header.clusters.into()).enumerate() {
+                let range = |row: usize| {
+                    let at = row_major(row_major(cluster, rows, row), 2, 0);
+                    [at, at.wrapping_add(1)].map(|at| self.ranges.get(at).unwrap_or(0.0))
+                };
                 let Some((constant, factors)) = table.split_first_mut() else { continue };
-                let first = row_major(row_major(cluster, values, 0), 1, channel.wrapping_mul(lights));
-                let mean = self.means.iter_from(first).zip(weights).take(lights);
+                let mean = self.means.iter_from(row_major(cluster, along.len(), 0)).zip(along);
                 let [offset, step] = range(0);
-                *constant = offset * total + step * mean.map(|(mean, weight)| f32::from(mean) * weight).sum::<f32>();
+                *constant = offset * total + step * mean.map(|(mean, along)| f32::from(mean) * along).sum::<f32>();
                 for (component, factor) in factors.iter_mut().enumerate() {
-                    let row = row_major(cluster, components, component);
-                    let first = row_major(row, values, channel.wrapping_mul(lights));
-                    let basis = self.bases.get(first..).unwrap_or(&[]).iter().zip(weights).take(lights);
-                    let basis: f32 = basis.map(|(value, weight)| f32::from(value.cast_signed()) * weight).sum();
+                    let first = row_major(row_major(cluster, components, component), along.len(), 0);
+                    let basis = self.bases.get(first..).unwrap_or(&[]).iter().zip(along);
+                    let basis: f32 = basis.map(|(value, along)| f32::from(value.cast_signed()) * along).sum();
                     let [offset, step] = range(component.wrapping_add(1));
                     *constant += offset * basis;
                     *factor = scale * step * basis;
                 }
                 *constant *= scale;
+            }
+        }
+    }
+
+    /// What a channel of a light has along each axis: Σ_j w_j x_cjr.
+    fn project(&self, channel: usize, weights: &[f32], along: &mut [f32]) {
+        let lights = usize::from(self.header().lights);
+        let first = row_major(row_major(channel, lights, 0), along.len(), 0);
+        let axes = self.axes.get(first..).unwrap_or(&[]).chunks_exact(along.len().max(1));
+        along.fill(0.0);
+        for (weight, axes) in weights.iter().take(lights).zip(axes) {
+            for (along, axis) in along.iter_mut().zip(axes) {
+                *along += weight * f32::from(axis.cast_signed());
             }
         }
     }

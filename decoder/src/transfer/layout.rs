@@ -14,6 +14,8 @@ pub const HEADER_BYTES: usize = size_of::<TransferRecord>();
 pub const LIGHTS: [u16; 2] = [4, 1_024];
 /// Largest number of components of a cluster.
 pub const MAX_COMPONENTS: usize = 16;
+/// Largest number of axes.
+pub const MAX_AXES: u16 = 256;
 /// Largest number of clusters.
 pub const MAX_CLUSTERS: u16 = 256;
 /// Largest number of vertices.
@@ -44,6 +46,7 @@ record! {
         scale_green: f32,
         scale_blue: f32,
         bits: [u8; MAX_COMPONENTS],
+        axes: u16,
     }
 }
 
@@ -72,6 +75,8 @@ pub struct TransferHeader {
     pub scale: [f32; 3],
     /// Bits of the coefficient of each component, 1 to 12, then zeros; 1 to 16 components.
     pub bits: [u8; MAX_COMPONENTS],
+    /// Axes of light that means and components have numbers along, 1 to 256.
+    pub axes: u16,
 }
 
 impl TransferHeader {
@@ -94,6 +99,7 @@ impl TransferHeader {
             scale_green,
             scale_blue,
             bits: self.bits,
+            axes: self.axes,
         }
         .to_bytes()
     }
@@ -103,7 +109,7 @@ impl TransferHeader {
         use TransferRecord as R;
         let record = R::from_bytes(section.at_least(HEADER_BYTES as u64)?.bytes);
         let origin = section.origin;
-        let R { colour_space, channels, lights, clusters, tail_nodes, vertices, bits, .. } = record;
+        let R { colour_space, channels, lights, clusters, tail_nodes, vertices, bits, axes, .. } = record;
         let rec709 = LINEAR_REC709.into();
         origin.integer(offset_of!(R, colour_space), colour_space, rec709..=rec709)?;
         if !matches!(channels, 1 | 3) {
@@ -130,6 +136,7 @@ impl TransferHeader {
                 return Err(origin.bad_field(at, bits));
             }
         }
+        let axes = origin.integer(offset_of!(R, axes), axes, 1..=MAX_AXES.into())?;
         let number = |at, value, range| origin.number(at, value, range);
         Ok(Self {
             channels,
@@ -147,6 +154,7 @@ impl TransferHeader {
                 number(offset_of!(R, scale_blue), record.scale_blue, SCALES)?,
             ],
             bits,
+            axes,
         })
     }
 
@@ -165,12 +173,6 @@ impl TransferHeader {
         (bits.div_ceil(u8::BITS) as usize).max(1)
     }
 
-    /// Values of a direction table: channels times lights.
-    #[must_use]
-    pub fn values(&self) -> usize {
-        usize::from(self.channels).wrapping_mul(self.lights.into())
-    }
-
     /// Numbers of a light table, as [`Transfer::light_table`](super::Transfer::light_table) fills it: `[cluster][channel][1 + K]`.
     #[must_use]
     pub fn table_len(&self) -> usize {
@@ -184,13 +186,14 @@ impl TransferHeader {
         const F32: Saturating<u64> = Saturating(4);
         let of = |count: u64| Saturating(count);
         let [clusters, components] = [self.clusters.into(), self.components() as u64].map(of);
-        let values = of(self.values() as u64);
+        let [axes, lights] = [self.axes.into(), self.lights.into()].map(of);
         let bytes = match section {
             Section::TransferHeader => of(HEADER_BYTES as u64),
-            Section::Lights => of(3) * of(self.lights.into()) * F32,
+            Section::Lights => of(3) * lights * F32,
+            Section::LightAxes => of(self.channels.into()) * lights * axes,
             Section::ClusterRanges => clusters * (components + of(1)) * of(2) * F32,
-            Section::ClusterMeans => clusters * values * of(2),
-            Section::ClusterBases => clusters * components * values,
+            Section::ClusterMeans => clusters * axes * of(2),
+            Section::ClusterBases => clusters * components * axes,
             Section::VertexCodes => of(self.vertices.into()) * of(self.record_bytes() as u64),
             Section::KernelTail => of(self.tail_nodes.into()) * of(TAIL_NODE_BYTES),
             _ => of(0),

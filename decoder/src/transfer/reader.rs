@@ -16,11 +16,12 @@ const UNIT_TOLERANCE: f32 = 1e-3;
 /// Checked transfer file: what leaves a homogeneous material at every vertex of a mesh, for directional light.
 ///
 /// For light j of irradiance 1 on a plane across it, the radiant exitance at a vertex of cluster m with coefficients a_k is
-/// q_cj = s_c (μ_mcj + Σ_k a_k b_mkcj) (Hao and Varshney 2004; clustered principal components after Sloan et al. 2003).
+/// q_cj = s_c Σ_r x_cjr (μ_mr + Σ_k a_k b_mkr), with axes x that all clusters share (Hao and Varshney 2004; clustered principal components after Sloan et al. 2003).
 #[derive(Clone, Copy, Debug)]
 pub struct Transfer<'a> {
     header: TransferHeader,
     lights: F32Le<'a>,
+    pub(super) axes: &'a [u8],
     pub(super) ranges: F32Le<'a>,
     pub(super) means: U16Le<'a>,
     pub(super) bases: &'a [u8],
@@ -56,6 +57,7 @@ impl<'a> Transfer<'a> {
         Ok(Self {
             header,
             lights: unit_vectors(lights)?,
+            axes: sized(Section::LightAxes)?.bytes,
             ranges: checked_ranges(ranges)?,
             means: U16Le::new(sized(Section::ClusterMeans)?.bytes),
             bases: sized(Section::ClusterBases)?.bytes,
@@ -82,19 +84,25 @@ impl<'a> Transfer<'a> {
         self.tail
     }
 
+    /// Axes of light, signed bytes; shape `[channel][light][axis]`.
+    #[must_use]
+    pub fn axes(&self) -> &'a [u8] {
+        self.axes
+    }
+
     /// Offset and step of the mean of every cluster and of the coefficient of every component; shape `[cluster][1 + K][2]`.
     #[must_use]
     pub fn ranges(&self) -> F32Le<'a> {
         self.ranges
     }
 
-    /// Means of the clusters as codes of their offset and step; shape `[cluster][channel][light]`.
+    /// Means of the clusters as codes of their offset and step; shape `[cluster][axis]`.
     #[must_use]
     pub fn means(&self) -> U16Le<'a> {
         self.means
     }
 
-    /// Components of the clusters, signed bytes; shape `[cluster][component][channel][light]`.
+    /// Components of the clusters, signed bytes; shape `[cluster][component][axis]`.
     #[must_use]
     pub fn bases(&self) -> &'a [u8] {
         self.bases

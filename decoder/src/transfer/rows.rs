@@ -20,8 +20,8 @@ pub(crate) struct TransferRows {
 impl TransferRows {
     /// Refuses files without the sections that the header asks for, or with other sizes of them.
     pub(crate) fn new(header: TransferHeader, table: Table<'_>) -> Result<Self, ReadError> {
-        use Section::{ClusterBases, ClusterMeans, ClusterRanges, KernelTail, Lights, VertexCodes};
-        for section in [Lights, ClusterRanges, VertexCodes, ClusterMeans, ClusterBases, KernelTail] {
+        use Section::{ClusterBases, ClusterMeans, ClusterRanges, KernelTail, LightAxes, Lights, VertexCodes};
+        for section in [Lights, ClusterRanges, VertexCodes, LightAxes, ClusterMeans, ClusterBases, KernelTail] {
             table.entry(section)?.sized(header.section_bytes(section))?;
         }
         Ok(Self { header, tail: TAIL_START })
@@ -36,14 +36,14 @@ impl Rows for TransferRows {
     fn row_bytes(&self, entry: &Entry, _: u64) -> Result<u64, ReadError> {
         const DIRECTION_BYTES: u64 = 12;
         const RANGE_BYTES: u64 = 8;
-        let lights = u64::from(self.header.lights);
+        let axes = u64::from(self.header.axes);
         Ok(match entry.section {
             Section::Lights => DIRECTION_BYTES,
             Section::ClusterRanges => (self.header.components() as u64).saturating_add(1).saturating_mul(RANGE_BYTES),
-            Section::ClusterMeans => lights.saturating_mul(2),
+            Section::ClusterMeans => axes.saturating_mul(2),
             Section::VertexCodes => self.header.record_bytes() as u64,
             Section::KernelTail => TAIL_NODE_BYTES,
-            _ => lights,
+            _ => axes,
         })
     }
 

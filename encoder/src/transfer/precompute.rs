@@ -14,9 +14,9 @@ use crate::progress::Progress;
 /// Radius of a ball of places by its distance below which they are taken together. At 0.12 sums are within 0.3 % of the brightest
 /// of the exact ones (a test holds it).
 const SPREAD: f32 = 0.12;
-/// Distance of neighbours by the radius within which half of the light leaves above which a mesh is too coarse for a material: most of
-/// what a vertex sends then stays with it.
-const COARSE: f32 = 1.0;
+/// Share of the area that may be too coarse for a material without a warning. It is too coarse where neighbours are farther apart than
+/// the radius within which half of the light leaves: most of what a vertex sends then stays with it.
+const COARSE: f32 = 0.05;
 
 /// What is precomputed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,10 +92,13 @@ pub fn precompute(
     // Flux of places and of nodes, of which there are about 0.3 to a place, q, and a portion of q; triangles by place and in a tree.
     let bytes = places as u64 * (lights.len() as u64 * (10 + 4 * options.channels as u64) + 200);
     memory::expect(bytes, || format!("scattering of {} lights at {places} places", lights.len()))?;
-    let (spacing, half) = (surface.spacing_mm(), table.half_radius_mm());
-    if spacing > COARSE * half {
+    let half = table.half_radius_mm();
+    let coarse = surface.coarser_than(half);
+    if coarse > COARSE {
         progress.warn(&format!(
-            "vertices are {spacing:.3} mm apart, and half of the light leaves within {half:.3} mm: the mesh is too coarse for the material, subdivide it"
+            "on {:.0} % of the surface vertices are more than {half:.3} mm apart, within which half of the light leaves: the mesh is too \
+             coarse for the material there, subdivide it",
+            100.0 * coarse
         ));
     }
     progress.begin("light that enters", places as u64);
@@ -216,10 +219,14 @@ mod tests {
             }
         }
         let options = Options { channels: 1, eta: 1.5 };
-        for (radius, is_coarse) in [(100.0, true), (2.0, false)] {
+        let fine = sphere(2.0, 16);
+        // Most vertices are close to each other, most of the area is of those that are not.
+        let mixed = fine.clone().with(sphere(3.0, 4));
+        for (mesh, is_coarse) in [(&sphere(100.0, 16), true), (&fine, false), (&mixed, true)] {
             let warnings = Warnings(Default::default());
-            precompute(&sphere(radius, 16), &marble(), &[[0.0, 1.0, 0.0]], &options, &warnings).unwrap();
-            assert_eq!(!warnings.0.into_inner().unwrap().is_empty(), is_coarse, "a ball of {radius} mm");
+            precompute(mesh, &marble(), &[[0.0, 1.0, 0.0]], &options, &warnings).unwrap();
+            let warnings = warnings.0.into_inner().unwrap();
+            assert_eq!(!warnings.is_empty(), is_coarse, "{warnings:?}");
         }
         let none = Options { channels: 2, ..options };
         assert!(precompute(&sphere(1.0, 8), &marble(), &[[0.0, 1.0, 0.0]], &none, &()).is_err(), "two channels");

@@ -73,8 +73,9 @@ impl Surface {
         self.positions.len()
     }
 
-    /// Mean distance between neighbours in mm: the side of a square of the mean area.
-    pub(super) fn spacing_mm(&self) -> f32 {
-        (self.areas.iter().sum::<f32>() / self.len() as f32).sqrt()
+    /// Share of the area, 0 to 1, where neighbours are farther apart than `spacing_mm`: the side of a square of a place's area.
+    pub(super) fn coarser_than(&self, spacing_mm: f32) -> f32 {
+        let coarse: f32 = self.areas.iter().filter(|area| area.sqrt() > spacing_mm).sum();
+        coarse / self.areas.iter().sum::<f32>()
     }
 }

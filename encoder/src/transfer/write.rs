@@ -15,7 +15,7 @@ use crate::memory;
 use crate::progress::Progress;
 
 /// Copies of q that compression holds at once, besides the one it is given.
-const COPIES: u64 = 3;
+const COPIES: u64 = 2;
 
 /// File of what was precomputed for a mesh of a material, compressed to a size. Read again by the decoder.
 ///
@@ -45,11 +45,12 @@ pub fn encode(
     };
     let floats = |values: &[f32]| values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>();
     let means: Vec<u8> = quantised.means.iter().flat_map(|value| value.to_le_bytes()).collect();
-    let components: Vec<u8> = quantised.components.iter().map(|value| value.cast_unsigned()).collect();
+    let bytes = |values: &[i8]| values.iter().map(|value| value.cast_unsigned()).collect::<Vec<u8>>();
+    let [axes, components] = [&quantised.axes, &quantised.components].map(|values| bytes(values));
     let (head, codes) = (header.to_bytes(), codes(&quantised, &header, &of.place_of));
     let [ranges, lights, tail] =
         [quantised.ranges.as_flattened(), of.lights.as_flattened(), table.tail.as_flattened()].map(floats);
-    let contents = [&head[..], &lights, &ranges, &means, &components, &codes, &tail];
+    let contents = [&head[..], &lights, &axes, &ranges, &means, &components, &codes, &tail];
     reread(container::write(SECTIONS.into_iter().zip(contents)))
 }
 
@@ -64,9 +65,10 @@ pub fn file_bytes(vertices: usize, table: &RdTable, channels: usize, lights: usi
 }
 
 /// Sections of a file, in their order.
-const SECTIONS: [Section; 7] = [
+const SECTIONS: [Section; 8] = [
     Section::TransferHeader,
     Section::Lights,
+    Section::LightAxes,
     Section::ClusterRanges,
     Section::ClusterMeans,
     Section::ClusterBases,
@@ -91,6 +93,7 @@ fn header(vertices: usize, table: &RdTable, channels: usize, lights: usize, size
         eta: 1.0,
         scale: [1.0; 3],
         bits: std::array::from_fn(|k| u8::try_from(share(k)).unwrap_or(u8::MAX)),
+        axes: u16::try_from(size.axes(channels, lights)).unwrap_or(u16::MAX),
     })
 }
 

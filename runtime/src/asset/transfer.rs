@@ -25,6 +25,7 @@ pub struct TransferMaterial {
     codes: Surface2d,
     /// Tables of the file, as they stand there.
     lights: Vec<u8>,
+    axes: Vec<i8>,
     ranges: Vec<f32>,
     means: Vec<u16>,
     bases: Vec<i8>,
@@ -54,15 +55,17 @@ impl TransferMaterial {
         let fills = Fill::pieces(&codes.texture, 0, &padded).map(Fill::into_owned).collect();
         #[allow(clippy::cast_possible_truncation, reason = "1 or 2")]
         let block = uniform::Transfer::new(&header.bits, texels as u32);
+        let signed = |values: &[u8]| values.iter().map(|value| value.cast_signed()).collect();
         let material = Self {
             header,
             tint: transfer_tint(transfer),
             block: gpu.uniform(Purpose::Material, "codes of components", &block),
             codes,
             lights: transfer.lights().as_bytes().to_vec(),
+            axes: signed(transfer.axes()),
             ranges: transfer.ranges().iter().collect(),
             means: transfer.means().iter().collect(),
-            bases: transfer.bases().iter().map(|value| value.cast_signed()).collect(),
+            bases: signed(transfer.bases()),
             #[cfg(feature = "reference")]
             is_bare: false,
             between: OnceLock::new(),
@@ -148,21 +151,25 @@ impl TransferMaterial {
         let weights = light.weights(&between);
         let header = &self.header;
         let (channels, lights) = (usize::from(header.channels), usize::from(header.lights));
-        let (rows, values) = (header.components() + 1, header.values());
+        let (rows, axes) = (header.components() + 1, usize::from(header.axes));
         let mut table = vec![[0.0; 4]; usize::from(header.clusters) * rows];
         for c in 0..3 {
             let from = c.min(channels - 1);
             let scale = self.tint[c] * header.scale[from];
-            let weights: Vec<f32> = weights.iter().map(|rgb| scale * rgb[c]).collect();
-            let total: f32 = weights.iter().sum();
+            // What the light has along each axis.
+            let mut along = vec![0.0; axes];
+            for (rgb, row) in weights.iter().zip(self.axes[from * lights * axes..].chunks_exact(axes)) {
+                for (along, axis) in along.iter_mut().zip(row) {
+                    *along += scale * rgb[c] * f32::from(*axis);
+                }
+            }
+            let total: f32 = along.iter().sum();
             for (cluster, table) in table.chunks_exact_mut(rows).enumerate() {
                 let range = |row: usize| [0, 1].map(|k| self.ranges[2 * (cluster * rows + row) + k]);
-                let means = &self.means[cluster * values + from * lights..][..lights];
                 let [offset, step] = range(0);
-                table[0][c] = offset * total + step * dot(means, &weights);
+                table[0][c] = offset * total + step * dot(&self.means[cluster * axes..][..axes], &along);
                 for row in 1..rows {
-                    let first = (cluster * (rows - 1) + row - 1) * values + from * lights;
-                    let basis = dot(&self.bases[first..][..lights], &weights);
+                    let basis = dot(&self.bases[(cluster * (rows - 1) + row - 1) * axes..][..axes], &along);
                     let [offset, step] = range(row);
                     table[0][c] += offset * basis;
                     table[row][c] = step * basis;
@@ -174,15 +181,15 @@ impl TransferMaterial {
 }
 
 /// Sum of products, in as many sums at once as vector units take.
-fn dot<T: Copy + Into<f32>>(values: &[T], weights: &[f32]) -> f32 {
+fn dot<T: Copy + Into<f32>>(values: &[T], along: &[f32]) -> f32 {
     const LANES: usize = 8;
-    let ((values, values_left), (weights, weights_left)) = (values.as_chunks::<LANES>(), weights.as_chunks::<LANES>());
+    let ((values, values_left), (along, along_left)) = (values.as_chunks::<LANES>(), along.as_chunks::<LANES>());
     let mut sums = [0.0; LANES];
-    for (values, weights) in values.iter().zip(weights) {
-        for ((sum, value), weight) in sums.iter_mut().zip(values).zip(weights) {
-            *sum += (*value).into() * weight;
+    for (values, along) in values.iter().zip(along) {
+        for ((sum, value), along) in sums.iter_mut().zip(values).zip(along) {
+            *sum += (*value).into() * along;
         }
     }
-    let left = values_left.iter().zip(weights_left).map(|(value, weight)| (*value).into() * weight);
+    let left = values_left.iter().zip(along_left).map(|(value, along)| (*value).into() * along);
     sums.into_iter().chain(left).sum()
 }

@@ -150,13 +150,14 @@ fn main() -> std::io::Result<()> {
         bytes[at..at + value.len()].copy_from_slice(value);
         reseal(bytes)
     };
-    write("x_transfer_channels", &wrong(197, &[2]))?;
-    write("x_transfer_bits", &wrong(239, &[1]))?;
-    write("x_transfer_record", &wrong(236, &[12; 16]))?;
-    write("x_transfer_light", &wrong(252, &0.5_f32.to_le_bytes()))?;
-    write("x_transfer_step", &wrong(304, &(-0.5_f32).to_le_bytes()))?;
-    write("x_transfer_cluster", &wrong(382, &[2]))?;
-    write("x_transfer_tail", &wrong(388, &1.5_f32.to_le_bytes()))?;
+    write("x_transfer_channels", &wrong(221, &[2]))?;
+    write("x_transfer_bits", &wrong(263, &[1]))?;
+    write("x_transfer_record", &wrong(260, &[12; 16]))?;
+    write("x_transfer_axes", &wrong(276, &257_u16.to_le_bytes()))?;
+    write("x_transfer_light", &wrong(280, &0.5_f32.to_le_bytes()))?;
+    write("x_transfer_step", &wrong(340, &(-0.5_f32).to_le_bytes()))?;
+    write("x_transfer_cluster", &wrong(402, &[2]))?;
+    write("x_transfer_tail", &wrong(408, &1.5_f32.to_le_bytes()))?;
     let of = |file: &[u8], kind: &[u8; 4]| {
         let container = Container::parse(file).expect("a sound file");
         let entry = container.entries().find(|entry| entry.section.kind() == *kind).expect("such a section");

@@ -151,7 +151,12 @@ fn compare(name: &str, seen: &Seen, content: Content<'_>) {
         Content::Transfer(transfer) => {
             first(format!("{:?}", Piece::Transfer(transfer.header())));
             let header = transfer.header();
-            let of_clusters = |of_each: usize| of_each * usize::from(header.clusters) * usize::from(header.channels);
+            let of_clusters = |of_each: usize| of_each * usize::from(header.clusters);
+            assert_eq!(
+                lengths(Section::LightAxes).len(),
+                usize::from(header.channels) * usize::from(header.lights),
+                "{name}"
+            );
             assert_eq!(seen.of(Section::VertexCodes).len(), header.vertices as usize, "{name}");
             assert_eq!(seen.of(Section::ClusterMeans).len(), of_clusters(1), "{name}");
             assert_eq!(seen.of(Section::ClusterBases).len(), of_clusters(header.components()), "{name}");

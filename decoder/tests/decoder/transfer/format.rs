@@ -7,7 +7,7 @@ use subsurf_decoder::container::bytes::F32Le;
 use subsurf_decoder::transfer::LightWeights;
 use subsurf_decoder::{Content, Family, File, Kernel, ReadError, Section, Transfer};
 
-const SECTIONS: usize = 7;
+const SECTIONS: usize = 8;
 
 fn seal(file: &mut [u8]) {
     seal_all(file, SECTIONS);
@@ -17,12 +17,12 @@ fn floats(values: &[f32]) -> impl Iterator<Item = u8> {
     values.iter().flat_map(|value| value.to_le_bytes())
 }
 
-/// The 412 bytes of section 7.3, from literals: nothing here uses the crate's own layout.
+/// The 432 bytes of section 7.3, from literals: nothing here uses the crate's own layout.
 #[rustfmt::skip]
 fn example() -> Vec<u8> {
-    let mut file = crate::common::begin(0x19C, [
-        (b"XFER", 196, 56), (b"XDIR", 252, 48), (b"XRNG", 300, 48), (b"XMEA", 348, 16), (b"XBAS", 364, 16), (b"XVTX", 380, 6),
-        (b"TAIL", 388, 24),
+    let mut file = crate::common::begin(0x1B0, [
+        (b"XFER", 220, 58), (b"XDIR", 280, 48), (b"XAXS", 328, 8), (b"XRNG", 336, 48), (b"XMEA", 384, 8), (b"XBAS", 392, 8),
+        (b"XVTX", 400, 6), (b"TAIL", 408, 24),
     ]);
     file.extend([
         0x01, 0x01, 0x04, 0x00,                          // colour space, 1 channel, L
@@ -35,13 +35,13 @@ fn example() -> Vec<u8> {
     file.extend(crc32(&triangles).to_le_bytes());
     file.extend(floats(&[2.0, 1.5, 0.5, 1.0, 1.0]));     // radius, eta, scale
     file.extend([3, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
+    file.extend([0x02, 0x00, 0, 0]);                     // axes, fill
     file.extend(floats(&[1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]));
+    file.extend([0x01, 0x00, 0x00, 0x01, 0x01, 0x01, 0x02, 0xFF]);
     file.extend(floats(&[0.0, 1.0 / 1024.0, -0.25, 0.125, 0.0, 0.125]));
     file.extend(floats(&[0.5, 0.0, 0.0, 0.0, 0.0, 0.0]));
-    file.extend([0x00, 0x04, 0x00, 0x02, 0x00, 0x01, 0x00, 0x00]);
-    file.extend([0; 8]);
-    file.extend([0x01, 0x00, 0xFF, 0x02, 0x00, 0x04, 0x00, 0x00]);
-    file.extend([0; 8]);
+    file.extend([0x00, 0x04, 0x00, 0x02, 0x00, 0x00, 0x00, 0x00]);
+    file.extend([0x01, 0x00, 0xFF, 0x04, 0x00, 0x00, 0x00, 0x00]);
     file.extend([0x00, 0x1C, 0x00, 0x00, 0x01, 0x00]);
     file.extend([0, 0]);                                 // fill
     file.extend(floats(&[49.0 / 64.0, 25.0 / 64.0, 0.25, 0.0, 0.0, 0.0]));
@@ -95,15 +95,15 @@ fn reads_the_example() {
     let Content::Transfer(file) = File::parse(&bytes).unwrap().content() else { panic!("the example is a transfer") };
     let header = file.header();
     assert_eq!((header.channels, header.lights, header.clusters, header.vertices), (1, 4, 2, 3));
-    assert_eq!((header.components(), header.record_bytes(), header.table_len()), (2, 2, 6));
+    assert_eq!((header.components(), header.record_bytes(), header.table_len(), header.axes), (2, 2, 6, 2));
     assert_eq!((header.radius_mm, header.eta, header.scale[0]), (2.0, 1.5, 0.5));
-    let expected = [[0.625, 0.375, 0.25], [1.0, 0.25, 0.25], [0.0, 0.25, 0.25], [0.25, -0.25, 0.25]];
+    let expected = [[0.4375, 0.375, 0.25], [1.0, 0.25, 0.25], [1.4375, 0.625, 0.5], [-0.125, 0.5, 0.25]];
     for (light, expected) in expected.into_iter().enumerate() {
         let mut weights = [0.0; 4];
         weights[light] = 1.0;
         assert_eq!(exitance(&file, &weights, 3), expected, "light {light}");
     }
-    assert_eq!(exitance(&file, &[0.5, 0.5, 0.0, 0.0], 1), [0.8125], "weights act once for all vertices");
+    assert_eq!(exitance(&file, &[0.5, 0.5, 0.0, 0.0], 1), [0.71875], "weights act once for all vertices");
     exercise(&file);
 }
 
@@ -162,15 +162,17 @@ fn broken_fields_are_refused_for_what_is_broken() {
         seal(&mut bytes);
         Transfer::parse(&bytes).unwrap_err()
     };
-    // Channels, lights, clusters, vertices, bits: none first, after none, too many.
-    let fields: [(usize, &[u8], u32); 7] = [
-        (197, &[2], 2),
-        (198, &[3], 3),
-        (200, &[0], 0),
-        (204, &[0], 0),
-        (236, &[0], 0),
-        (239, &[1], 1),
-        (236, &[13], 13),
+    // Channels, lights, clusters, vertices, bits: none first, after none, too many; axes.
+    let fields: [(usize, &[u8], u32); 9] = [
+        (221, &[2], 2),
+        (222, &[3], 3),
+        (224, &[0], 0),
+        (228, &[0], 0),
+        (260, &[0], 0),
+        (263, &[1], 1),
+        (260, &[13], 13),
+        (276, &[0], 0),
+        (277, &[2], 514),
     ];
     for (at, value, expected) in fields {
         let found = error(at, value);
@@ -179,24 +181,24 @@ fn broken_fields_are_refused_for_what_is_broken() {
             "{at}: {found}"
         );
     }
-    assert!(matches!(error(236, &[12; 16]), ReadError::BadField { value: 12, .. }), "192 bits");
+    assert!(matches!(error(260, &[12; 16]), ReadError::BadField { value: 12, .. }), "192 bits");
     let numbers = [
-        (220, 0.5_f32, Section::TransferHeader),
-        (224, 0.0, Section::TransferHeader),
-        (252, 0.5, Section::Lights),
-        (252, 1.1, Section::Lights),
-        (300, f32::NAN, Section::ClusterRanges),
-        (304, -0.5, Section::ClusterRanges),
-        (388, 1.5, Section::KernelTail),
+        (244, 0.5_f32, Section::TransferHeader),
+        (248, 0.0, Section::TransferHeader),
+        (280, 0.5, Section::Lights),
+        (280, 1.1, Section::Lights),
+        (336, f32::NAN, Section::ClusterRanges),
+        (340, -0.5, Section::ClusterRanges),
+        (408, 1.5, Section::KernelTail),
     ];
     for (at, value, expected) in numbers {
         let found = error(at, &value.to_le_bytes());
         assert!(matches!(found, ReadError::BadNumber { section, .. } if section == expected), "{at}: {found}");
     }
-    let found = error(382, &[2]);
-    assert!(matches!(found, ReadError::IndexOutOfRange { offset: 382, index: 2, len: 2, .. }), "{found}");
+    let found = error(402, &[2]);
+    assert!(matches!(found, ReadError::IndexOutOfRange { offset: 402, index: 2, len: 2, .. }), "{found}");
     assert!(
-        matches!(error(236, &[3, 8]), ReadError::WrongSize { section: Section::VertexCodes, .. }),
+        matches!(error(260, &[3, 8]), ReadError::WrongSize { section: Section::VertexCodes, .. }),
         "longer records"
     );
 }
@@ -213,18 +215,18 @@ fn cut_at_every_length() {
 
 #[test]
 fn every_bit_of_every_byte_flipped() {
-    // Two bytes of fill are covered by nothing.
-    sound().flip_every_bit(&(386..388));
+    // Two bytes of fill behind the header and two behind the codes are covered by nothing.
+    sound().flip_every_bit(&[278..280, 406..408]);
 }
 
 proptest! {
     #[test]
-    fn any_sections_behind_a_sound_start(bytes in proptest::collection::vec(any::<u8>(), 196..600)) {
+    fn any_sections_behind_a_sound_start(bytes in proptest::collection::vec(any::<u8>(), 220..600)) {
         sound().begin(bytes);
     }
 
     #[test]
-    fn any_damage_with_valid_crcs(changes in proptest::collection::vec((8_usize..412, any::<u8>()), 1..6)) {
+    fn any_damage_with_valid_crcs(changes in proptest::collection::vec((8_usize..432, any::<u8>()), 1..6)) {
         sound().change(&changes);
     }
 }

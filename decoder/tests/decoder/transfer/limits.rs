@@ -18,6 +18,7 @@ const HEADER: TransferHeader = TransferHeader {
     eta: 1.5,
     scale: [0.5, 1.0, 2.0],
     bits: bits(&[8]),
+    axes: 3,
 };
 
 /// Bits of components, and zeros after them.
@@ -42,11 +43,12 @@ fn refusal(header: TransferHeader) -> ReadError {
 #[test]
 fn fields_of_the_header() {
     type Change = fn(&mut TransferHeader, u32);
-    let cases: [(&str, Change, &[u32], &[u32]); 5] = [
+    let cases: [(&str, Change, &[u32], &[u32]); 6] = [
         ("channels", |h, x| h.channels = x as u8, &[0, 2, 4], &[1, 3]),
         ("lights", |h, x| h.lights = x as u16, &[0, 3, 1_025], &[4, 1_024]),
         ("clusters", |h, x| h.clusters = x as u16, &[0, 257], &[1, 256]),
         ("tail_nodes", |h, x| h.tail_nodes = x as u16, &[0, 1, 1_025], &[2, 1_024]),
+        ("axes", |h, x| h.axes = x as u16, &[0, 257], &[1, 256]),
         ("vertices", |h, x| h.vertices = x, &[0, (1 << 26) + 1], &[1, 1 << 26]),
     ];
     for (name, change, refused, allowed) in cases {
@@ -84,7 +86,7 @@ fn bits_of_components() {
     ];
     for (first, refused) in cases {
         let error = refusal(TransferHeader { bits: bits(first), ..HEADER });
-        let offset = |at: usize| (24 + 24 + 4 + HEADER.to_bytes().len() - 16 + at) as u64;
+        let offset = |at: usize| (24 + 24 + 4 + HEADER.to_bytes().len() - 18 + at) as u64;
         match refused {
             None => assert_eq!(error, ReadError::Missing { section: Section::Lights }, "{first:?}"),
             Some(at) => {
@@ -127,16 +129,18 @@ fn lengths_scales_and_refractive_index() {
 
 #[test]
 fn sizes_follow_from_the_header() {
-    let header = TransferHeader { channels: 3, lights: 5, clusters: 7, tail_nodes: 11, bits: bits(&[4, 5]), ..HEADER };
-    assert_eq!((header.components(), header.record_bytes(), header.values(), header.table_len()), (2, 3, 15, 63));
+    let header =
+        TransferHeader { channels: 3, lights: 5, clusters: 7, tail_nodes: 11, bits: bits(&[4, 5]), axes: 6, ..HEADER };
+    assert_eq!((header.components(), header.record_bytes(), header.table_len()), (2, 3, 63));
     let records = [&[8][..], &[9], &[1], &[12; 10]].map(|first| TransferHeader { bits: bits(first), ..header });
     assert_eq!(records.map(|header| header.record_bytes()), [2, 3, 2, 16], "rounded up");
     let sizes = [
         (Section::TransferHeader, HEADER.to_bytes().len() as u64),
         (Section::Lights, 60),
         (Section::ClusterRanges, 168),
-        (Section::ClusterMeans, 210),
-        (Section::ClusterBases, 210),
+        (Section::LightAxes, 90),
+        (Section::ClusterMeans, 84),
+        (Section::ClusterBases, 84),
         (Section::VertexCodes, 9),
         (Section::KernelTail, 132),
         (Section::BaseProfiles, 0),
@@ -149,6 +153,7 @@ fn sizes_follow_from_the_header() {
 /// A file's tables.
 struct Tables {
     lights: Vec<f32>,
+    axes: Vec<i8>,
     ranges: Vec<f32>,
     means: Vec<u16>,
     bases: Vec<i8>,
@@ -157,15 +162,24 @@ struct Tables {
 
 /// Tables of [`HEADER`], all of them zeros but the lights.
 fn zeros() -> Tables {
-    Tables { lights: LIGHTS.to_vec(), ranges: vec![0.0; 8], means: vec![0; 8], bases: vec![0; 8], codes: vec![0; 6] }
+    Tables {
+        lights: LIGHTS.to_vec(),
+        axes: vec![0; 12],
+        ranges: vec![0.0; 8],
+        means: vec![0; 6],
+        bases: vec![0; 6],
+        codes: vec![0; 6],
+    }
 }
 
 fn file(header: TransferHeader, tables: &Tables) -> Vec<u8> {
     let means: Vec<u8> = tables.means.iter().flat_map(|mean| mean.to_le_bytes()).collect();
-    let bases: Vec<u8> = tables.bases.iter().map(|value| value.cast_unsigned()).collect();
+    let [axes, bases] =
+        [&tables.axes, &tables.bases].map(|of| of.iter().map(|x| x.cast_unsigned()).collect::<Vec<u8>>());
     assemble(&[
         (b"XFER", &header.to_bytes()),
         (b"XDIR", &floats(&tables.lights)),
+        (b"XAXS", &axes),
         (b"XRNG", &floats(&tables.ranges)),
         (b"XMEA", &means),
         (b"XBAS", &bases),
@@ -176,7 +190,7 @@ fn file(header: TransferHeader, tables: &Tables) -> Vec<u8> {
 
 #[test]
 fn directions_are_of_length_1() {
-    let first = (24 + 24 * 7 + 4 + HEADER.to_bytes().len()) as u64;
+    let first = (24 + 24 * 8 + 4 + HEADER.to_bytes().len()).next_multiple_of(4) as u64;
     let error_of = |light: usize, direction: [f32; 3]| {
         let mut tables = zeros();
         tables.lights[3 * light..3 * light + 3].copy_from_slice(&direction);
@@ -202,7 +216,7 @@ fn directions_are_of_length_1() {
 
 #[test]
 fn ranges_and_clusters() {
-    let first = (24 + 24 * 7 + 4 + HEADER.to_bytes().len() + 48) as u64;
+    let first = (24 + 24 * 8 + 4 + HEADER.to_bytes().len()).next_multiple_of(4) as u64 + 48 + 12;
     for (at, value, is_allowed) in [
         (0, -1_000.0, true),
         (0, 1_000.0, true),
@@ -225,7 +239,7 @@ fn ranges_and_clusters() {
         let mut tables = zeros();
         tables.codes[2 * vertex] = cluster;
         let error = Transfer::parse(&file(HEADER, &tables)).err();
-        let offset = first + 32 + 16 + 8 + 2 * vertex as u64;
+        let offset = first + 32 + 12 + 8 + 2 * vertex as u64;
         let due = ReadError::IndexOutOfRange { section: Section::VertexCodes, offset, index: cluster.into(), len: 2 };
         assert_eq!(error, (cluster >= 2).then_some(due), "cluster {cluster} of vertex {vertex}");
     }
@@ -239,10 +253,11 @@ fn exitance_of_three_channels() {
     let vertices = [(1, 3, 100), (0, 15, 1), (1, 0, 127)];
     let tables = Tables {
         lights: LIGHTS.to_vec(),
+        axes: (0..36_i16).map(|k| (k * 7 % 17 - 8) as i8).collect(),
         // Offset and step of the mean and of both components, for both clusters.
         ranges: vec![0.5, 0.25, -1.0, 0.125, 0.75, 0.5, -0.5, 1.0, 2.0, 0.25, 0.0, 0.0625],
-        means: (0..24_u16).map(|k| k * 7 % 11).collect(),
-        bases: (0..48_i16).map(|k| (k * 5 % 13 - 6) as i8).collect(),
+        means: (0..6_u16).map(|k| k * 7 % 11).collect(),
+        bases: (0..12_i16).map(|k| (k * 5 % 13 - 6) as i8).collect(),
         codes: vertices.iter().flat_map(|(m, a, b)| record(*m, *a, *b).to_le_bytes()[..3].to_vec()).collect(),
     };
     let bytes = file(header, &tables);
@@ -257,14 +272,16 @@ fn exitance_of_three_channels() {
         for c in 0..3 {
             let mut due = 0.0;
             for (light, weight) in weights.into_iter().enumerate() {
-                let mean = f64::from(tables.means[(3 * cluster as usize + c) * 4 + light]);
-                let basis = |k: usize| f64::from(tables.bases[((2 * cluster as usize + k) * 3 + c) * 4 + light]);
                 let coefficient = |k: usize, code: u32| range(k + 1)[0] + range(k + 1)[1] * f64::from(code);
-                let q = range(0)[0]
-                    + range(0)[1] * mean
-                    + coefficient(0, first) * basis(0)
-                    + coefficient(1, second) * basis(1);
-                due += f64::from(weight) * q;
+                for axis in 0..3 {
+                    let mean = f64::from(tables.means[3 * cluster as usize + axis]);
+                    let basis = |k: usize| f64::from(tables.bases[3 * (2 * cluster as usize + k) + axis]);
+                    let along = range(0)[0]
+                        + range(0)[1] * mean
+                        + coefficient(0, first) * basis(0)
+                        + coefficient(1, second) * basis(1);
+                    due += f64::from(weight) * f64::from(tables.axes[3 * (4 * c + light) + axis]) * along;
+                }
             }
             due *= f64::from(header.scale[c]);
             let value = f64::from(found[3 * vertex + c]);
@@ -298,7 +315,7 @@ fn codes_reach_over_the_middle_of_a_record() {
     let record = codes.iter().rev().fold(0_u128, |record, code| record << 12 | u128::from(*code)) << 8 | 1;
     let tables = Tables {
         ranges: vec![0.0; 44],
-        bases: vec![0; 80],
+        bases: vec![0; 60],
         codes: [record.to_le_bytes(), [0; 16], [0xFF; 16].map(|_| 0)].concat(),
         ..zeros()
     };

@@ -4,16 +4,15 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Size;
+use super::quantise::signed;
 use crate::math::eigen::leading_axes;
 use crate::math::k_means::KMeans;
 use crate::math::k_means::euclidean::Euclidean;
-use crate::math::matrix::product;
+use crate::math::matrix::{orthonormal, product};
 use crate::math::parallel;
 use crate::math::svd::Columns;
 use crate::progress::Progress;
 
-/// Dimensions in which components are fitted: all of one channel of 200 lights. With fewer, what is left out hides the gain of clusters.
-const DIMENSIONS: usize = 200;
 /// Leading dimensions by which k-means tells vertices apart.
 const LEADING: usize = 64;
 /// Vertices that clusters are first found among.
@@ -25,6 +24,16 @@ const ROUNDS: [usize; 2] = [7, 2];
 /// Vertices that one thread assigns at a time.
 const BLOCK: usize = 64;
 
+/// Columns of q along few axes.
+pub(super) struct Projected {
+    /// Axes as files have them, signed bytes `[value][axis]`; not quite orthogonal.
+    pub(super) axes: Vec<i8>,
+    /// The same axes along an orthonormal basis of their span, `[dimension × axis]`.
+    pub(super) axes_of_basis: DMatrix<f32>,
+    /// Columns along that basis, `[dimension × column]`.
+    pub(super) columns: DMatrix<f32>,
+}
+
 /// Clusters of the columns of a matrix.
 pub(super) struct Clusters {
     /// Cluster of each column.
@@ -35,31 +44,23 @@ pub(super) struct Clusters {
     pub(super) components: Vec<DMatrix<f32>>,
 }
 
-/// Columns of a matrix in the axes of their principal components, the largest first.
-pub(super) struct Rotated {
-    mean: DVector<f32>,
-    /// `[dimension of the matrix × dimension]`.
-    axes: DMatrix<f32>,
-    /// `[dimension × column]`.
-    columns: DMatrix<f32>,
-}
-
-impl Rotated {
-    pub(super) fn new(matrix: &DMatrix<f32>) -> Self {
-        let mean = matrix.column_mean();
-        let mut centred = matrix.clone();
-        centred.column_iter_mut().for_each(|mut column| column -= &mean);
+impl Projected {
+    /// The columns of `q` along the axes in which they are longest, at most as many as q has values.
+    pub(super) fn new(q: &DMatrix<f32>, count: usize) -> Self {
         // Sums of parts in a fixed order, whatever the threads.
         let part = |number: usize| {
             let first = number * SAMPLE;
-            let part = centred.columns(first, SAMPLE.min(centred.ncols() - first));
+            let part = q.columns(first, SAMPLE.min(q.ncols() - first));
             part * part.transpose()
         };
-        let parts = parallel::map(centred.ncols().div_ceil(SAMPLE), part);
-        let zero = DMatrix::zeros(matrix.nrows(), matrix.nrows());
-        let axes = leading_axes(parts.iter().fold(zero, |sum, part| sum + part), DIMENSIONS);
-        let columns = product(&axes.transpose(), &centred);
-        Self { mean, axes, columns }
+        let parts = parallel::map(q.ncols().div_ceil(SAMPLE), part);
+        let zero = DMatrix::zeros(q.nrows(), q.nrows());
+        let exact = leading_axes(parts.iter().fold(zero, |sum, part| sum + part), count);
+        let bytes: Vec<Vec<i8>> = exact.column_iter().map(|axis| signed(axis.as_slice())).collect();
+        let rounded = DMatrix::from_fn(q.nrows(), bytes.len(), |value, axis| f32::from(bytes[axis][value]));
+        let basis = orthonormal(rounded.clone()).transpose();
+        let axes = (0..q.nrows()).flat_map(|value| bytes.iter().map(move |axis| axis[value])).collect();
+        Self { axes, axes_of_basis: &basis * rounded, columns: product(&basis, q) }
     }
 
     /// Clusters and components that leave the least of the columns over.
@@ -82,9 +83,7 @@ impl Rotated {
         }
         let chosen = local.assign(&self.columns);
         progress.advance(1);
-        let mut means = &self.axes * &local.means;
-        means.column_iter_mut().for_each(|mut mean| mean += &self.mean);
-        Clusters { chosen, means, components: local.components.iter().map(|of| &self.axes * of).collect() }
+        Clusters { chosen, means: local.means, components: local.components }
     }
 }
 

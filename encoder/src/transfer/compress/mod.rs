@@ -4,9 +4,9 @@ mod cpca;
 mod quantise;
 
 use nalgebra::DMatrix;
-use subsurf_decoder::transfer::layout::{MAX_BITS, MAX_CLUSTERS, MAX_COMPONENTS};
+use subsurf_decoder::transfer::layout::{MAX_AXES, MAX_BITS, MAX_CLUSTERS, MAX_COMPONENTS};
 
-use self::cpca::Rotated;
+use self::cpca::Projected;
 pub(super) use self::quantise::Quantised;
 use super::precompute::Precomputed;
 use crate::error::{Error, Result};
@@ -24,11 +24,19 @@ pub struct Size {
 }
 
 impl Size {
-    /// What suits a mesh of that many vertices: 8 components of 40 bits, and a cluster for some 400 vertices, since below that clusters
+    /// What suits a mesh of that many vertices: 8 components of 40 bits, and a cluster for some 300 vertices, since below that clusters
     /// weigh more than what they save.
     #[must_use]
     pub fn of_vertices(vertices: usize) -> Self {
-        Self { clusters: (vertices / 400).clamp(16, MAX_CLUSTERS.into()), components: 8, bits: 40 }
+        Self { clusters: (vertices / 300).clamp(16, MAX_CLUSTERS.into()), components: 8, bits: 40 }
+    }
+
+    /// Axes that clusters share: 160 for 256 clusters of 8 components, and as the root of the number of all components, so that bytes of
+    /// axes and of clusters bring about as much; at least twice as many as a cluster has, and no more than q has values.
+    #[must_use]
+    pub fn axes(&self, channels: usize, lights: usize) -> usize {
+        let enough = (25 * self.clusters * self.components / 2).isqrt().max(2 * self.components);
+        enough.min(channels * lights).min(MAX_AXES.into())
     }
 
     /// Refuses sizes that files do not have.
@@ -69,6 +77,7 @@ fn normalised(of: &Precomputed) -> (DMatrix<f32>, Vec<f32>) {
 /// Clusters and codes of q.
 pub(super) fn compress(of: &Precomputed, size: &Size, progress: &dyn Progress) -> Quantised {
     let (q, scales) = normalised(of);
-    let clusters = Rotated::new(&q).cluster(size, progress);
-    Quantised::new(&q, scales, &clusters, size.bits)
+    let q = Projected::new(&q, size.axes(of.channels, of.light_count()));
+    let clusters = q.cluster(size, progress);
+    Quantised::new(q, scales, &clusters, size.bits)
 }

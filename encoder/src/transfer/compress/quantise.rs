@@ -1,9 +1,9 @@
 //! Means, components and coefficients in few bits.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DMatrixView, DVector};
 use subsurf_decoder::transfer::layout::{MAX_BITS, MAX_COMPONENTS};
 
-use super::cpca::Clusters;
+use super::cpca::{Clusters, Projected};
 use crate::math::parallel;
 use crate::math::uniform::{OffsetStep, codes};
 use crate::transfer::rd_table::single;
@@ -17,11 +17,13 @@ pub(in crate::transfer) struct Quantised {
     pub(in crate::transfer) scales: Vec<f32>,
     /// Bits of each component.
     pub(in crate::transfer) bits: [u8; MAX_COMPONENTS],
+    /// Axes `[value][axis]`.
+    pub(in crate::transfer) axes: Vec<i8>,
     /// Ranges `[cluster][mean, components]`.
     pub(in crate::transfer) ranges: Vec<OffsetStep>,
-    /// Means `[cluster][value]`.
+    /// Means `[cluster][axis]`.
     pub(in crate::transfer) means: Vec<u16>,
-    /// Components `[cluster][component][value]`.
+    /// Components `[cluster][component][axis]`.
     pub(in crate::transfer) components: Vec<i8>,
     /// Cluster of each place, and codes `[component]` of its coefficients.
     pub(in crate::transfer) places: Vec<(u8, [u16; MAX_COMPONENTS])>,
@@ -39,15 +41,15 @@ struct Cluster {
 }
 
 impl Quantised {
-    /// `q` divided by `scales`, `[value × place]`, in clusters, with `bits` for the coefficients of a place.
-    pub(super) fn new(q: &DMatrix<f32>, scales: Vec<f32>, clusters: &Clusters, bits: usize) -> Self {
+    /// q divided by `scales` along axes, in clusters, with `bits` for the coefficients of a place.
+    pub(super) fn new(q: Projected, scales: Vec<f32>, clusters: &Clusters, bits: usize) -> Self {
         let mut members = vec![Vec::new(); clusters.components.len()];
         for (place, cluster) in clusters.chosen.iter().enumerate() {
             members[usize::from(*cluster)].push(place);
         }
         let clusters = parallel::map(members.len(), |number| {
             let mean = clusters.means.column(number).into_owned();
-            Cluster::new(q, &members[number], &mean, &clusters.components[number])
+            Cluster::new(&q, &members[number], &mean, &clusters.components[number])
         });
         let count = clusters[0].components.len();
         let bits = shared(&clusters, count, bits);
@@ -57,7 +59,8 @@ impl Quantised {
             ranges: Vec::new(),
             means: Vec::new(),
             components: Vec::new(),
-            places: vec![(0, [0; MAX_COMPONENTS]); q.ncols()],
+            places: vec![(0, [0; MAX_COMPONENTS]); q.columns.ncols()],
+            axes: q.axes,
         };
         for (number, cluster) in (0..=u8::MAX).zip(&clusters) {
             out.ranges.push(cluster.mean.0);
@@ -78,26 +81,35 @@ impl Quantised {
 }
 
 impl Cluster {
-    fn new(q: &DMatrix<f32>, members: &[usize], mean: &DVector<f32>, exact: &DMatrix<f32>) -> Self {
-        let mean = codes(mean.iter().copied(), u16::MAX);
+    /// Mean and components are along the basis of q; those of files are along its axes.
+    fn new(q: &Projected, members: &[usize], mean: &DVector<f32>, exact: &DMatrix<f32>) -> Self {
+        let axes = &q.axes_of_basis;
+        let mean = codes(least_squares(axes, mean.as_view()).column(0).iter().copied(), u16::MAX);
         let [offset, step] = mean.0;
-        let rounded_mean =
-            DVector::from_iterator(q.nrows(), mean.1.iter().map(|code| offset + step * f32::from(*code)));
-        let components: Vec<Vec<i8>> = exact.column_iter().map(|column| signed(column.as_slice())).collect();
-        let rounded = DMatrix::from_fn(q.nrows(), components.len(), |row, k| f32::from(components[k][row]));
-        let mut rest = q.select_columns(members);
+        let codes = mean.1.iter().map(|code| offset + step * f32::from(*code));
+        let rounded_mean = axes * DVector::from_iterator(axes.ncols(), codes);
+        let along = least_squares(axes, exact.as_view());
+        let components: Vec<Vec<i8>> = along.column_iter().map(|column| signed(column.as_slice())).collect();
+        let rounded = DMatrix::from_fn(axes.ncols(), components.len(), |row, k| f32::from(components[k][row]));
+        let rounded = axes * rounded;
+        let mut rest = q.columns.select_columns(members);
         rest.column_iter_mut().for_each(|mut column| column -= &rounded_mean);
-        // Least squares to the rounded components, which are not quite orthogonal; what is zero gets nothing.
-        let mut gram = (rounded.transpose() * &rounded).map(f64::from);
-        let ridge = 1e-9 * gram.trace().max(1e-9);
-        for k in 0..gram.nrows() {
-            gram[(k, k)] += ridge;
-        }
-        let along = (rounded.transpose() * rest).map(f64::from);
-        let solved = gram.cholesky().expect("it is positive: a ridge was added").solve(&along);
+        // To the rounded components, which are not quite orthogonal.
+        let coefficients = least_squares(&rounded, rest.as_view());
         let squares = rounded.column_iter().map(|column| column.norm_squared()).collect();
-        Self { mean, components, members: members.to_vec(), coefficients: solved.map(single), squares }
+        Self { mean, components, members: members.to_vec(), coefficients, squares }
     }
+}
+
+/// Least squares of columns by the columns of `matrix`; those that are zero get nothing.
+fn least_squares(matrix: &DMatrix<f32>, columns: DMatrixView<'_, f32>) -> DMatrix<f32> {
+    let mut gram = matrix.tr_mul(matrix).map(f64::from);
+    let ridge = 1e-9 * gram.trace().max(1e-9);
+    for k in 0..gram.nrows() {
+        gram[(k, k)] += ridge;
+    }
+    let along = matrix.tr_mul(&columns).map(f64::from);
+    gram.cholesky().expect("it is positive: a ridge was added").solve(&along).map(single)
 }
 
 /// Bits of each component, all but one given to where they help most: the largest rms of range · length / 2^bits.
@@ -124,7 +136,7 @@ fn shared(clusters: &[Cluster], count: usize, total: usize) -> [u8; MAX_COMPONEN
 }
 
 /// Values in a byte each, the largest as 127 or −127.
-fn signed(values: &[f32]) -> Vec<i8> {
+pub(super) fn signed(values: &[f32]) -> Vec<i8> {
     let largest = values.iter().fold(0.0_f32, |largest, value| largest.max(value.abs()));
     let factor = if largest > 0.0 { LARGEST / largest } else { 0.0 };
     #[allow(clippy::cast_possible_truncation, reason = "within −127 to 127")]
