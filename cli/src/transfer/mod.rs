@@ -61,7 +61,7 @@ pub(crate) struct Args {
     /// One channel instead of three: the mean over colours, in fewer bytes and less time; it is tinted when drawn
     #[arg(long)]
     grey: bool,
-    /// Clusters of vertices, 1 to 256 [default: one for 300 vertices, from 16 to 256]
+    /// Clusters of vertices, 1 to 256 [default: one for 400 vertices, from 16 to 256]
     #[arg(long, value_name = "N")]
     clusters: Option<usize>,
     /// Components of a cluster, 1 to 16

@@ -71,8 +71,8 @@ pub struct TransferSource<'a> {
 
 /// The best file of a mesh that is found for a target; every file that is tried is shown to `found` as it comes.
 ///
-/// For a quality lights are added until interpolation between them leaves room for what compression does, and then the smallest
-/// size of as many lights is taken that reaches it; more lights with smaller sizes are not compared. For a number of bytes, lights and sizes of a vertex are changed in turns for as
+/// For a quality lights are added until interpolation between them leaves room for what compression does, and then for as long as
+/// the smallest size that reaches it gets smaller by them. For a number of bytes, lights and sizes of a vertex are changed in turns for as
 /// long as the error falls, with as many clusters as there is room for. What memory does not suffice for is left out with a warning
 /// once there is a file.
 ///
@@ -114,7 +114,7 @@ pub fn search(
     }
 }
 
-/// Adds lights until interpolation is good enough, and takes the smallest size that is.
+/// Adds lights until interpolation is good enough, and on for as long as the smallest size that is makes smaller files.
 fn along_quality(search: &mut Search<'_, Files<'_>>, least: f64) -> Result<()> {
     let clusters = Size::of_vertices(search.codec.source.mesh.positions.len()).clusters;
     let sizes = LADDER.map(|(quarters, record)| {
@@ -140,10 +140,14 @@ fn along_quality(search: &mut Search<'_, Files<'_>>, least: f64) -> Result<()> {
             search.try_out(&ladder[USUAL_STEP])?;
             break;
         }
+        let before = search.smallest();
         if -interpolation.max < least && !is_last {
+            if before.is_some() {
+                break;
+            }
             continue;
         }
-        if !search.bisect(&ladder)? || search.smallest().is_some() {
+        if !search.bisect(&ladder)? || before.is_some() && search.smallest() == before {
             break;
         }
     }

@@ -134,13 +134,12 @@ mod tests {
         let (table, lights) = (RdTable::of(&profile).unwrap(), fibonacci(100));
         let options = Options { channels: 1, eta: 1.5 };
         let of = precompute(&mesh, &table, &lights, &options, &()).unwrap();
-        let size = Size { clusters: 36, components: 8, bits: 40 };
+        let size = Size { clusters: 32, components: 8, bits: 40 };
         let file = encode(&mesh, &table, &of, 1.5, &size, &()).unwrap();
         let transfer = Transfer::parse(&file).unwrap();
         let error = judge(&mesh, &transfer, &()).unwrap();
         println!("{} vertices, {} bytes: {error:?}", mesh.positions.len(), file.len());
         assert_eq!(transfer.header().record_bytes(), 6, "a cluster and 40 bits");
-        assert!(file.len() < 62_000, "{} bytes", file.len());
         assert!(error.q < 0.023, "{error:?}");
         assert!(error.compression.max < 0.015, "{error:?}");
         assert!(error.lloyd.max < 0.0006, "a byte for each light: {error:?}");

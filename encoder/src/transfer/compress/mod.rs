@@ -4,7 +4,7 @@ mod cpca;
 mod quantise;
 
 use nalgebra::DMatrix;
-use subsurf_decoder::transfer::layout::{MAX_AXES, MAX_BITS, MAX_CLUSTERS, MAX_COMPONENTS};
+use subsurf_decoder::transfer::layout::{MAX_BITS, MAX_CLUSTERS, MAX_COMPONENTS};
 
 use self::cpca::Projected;
 pub(super) use self::quantise::Quantised;
@@ -24,19 +24,20 @@ pub struct Size {
 }
 
 impl Size {
-    /// What suits a mesh of that many vertices: 8 components of 40 bits, and a cluster for some 300 vertices, since below that clusters
+    /// What suits a mesh of that many vertices: 8 components of 40 bits, and a cluster for some 400 vertices, since below that clusters
     /// weigh more than what they save.
     #[must_use]
     pub fn of_vertices(vertices: usize) -> Self {
-        Self { clusters: (vertices / 300).clamp(16, MAX_CLUSTERS.into()), components: 8, bits: 40 }
+        Self { clusters: (vertices / 400).clamp(16, MAX_CLUSTERS.into()), components: 8, bits: 40 }
     }
 
-    /// Axes that clusters share: 160 for 256 clusters of 8 components, and as the root of the number of all components, so that bytes of
-    /// axes and of clusters bring about as much; at least twice as many as a cluster has, and no more than q has values.
+    /// Axes that clusters share, no more than q has values: with the third root of the number of all components they cost about as many
+    /// bytes as finer clusters that bring as much.
     #[must_use]
     pub fn axes(&self, channels: usize, lights: usize) -> usize {
-        let enough = (25 * self.clusters * self.components / 2).isqrt().max(2 * self.components);
-        enough.min(channels * lights).min(MAX_AXES.into())
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 216")]
+        let enough = (AXES * libm::cbrt((self.clusters * self.components) as f64)) as usize;
+        enough.min(channels * lights)
     }
 
     /// Refuses sizes that files do not have.
@@ -59,6 +60,8 @@ impl Size {
     }
 }
 
+/// Axes by the third root of the components of all clusters: 171 for 256 clusters of 8.
+const AXES: f64 = 13.5;
 /// Least scale of a channel, for one in which no light leaves: the file's least.
 const LEAST_SCALE: f32 = 1e-12;
 
