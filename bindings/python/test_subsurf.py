@@ -268,6 +268,7 @@ def test_basis() -> None:
 def test_transfer_arrays() -> None:
     file = subsurf.load(VECTORS / "transfer_example.subsurf")
     everything = file.exitance(np.arange(len(file.directions))[:, np.newaxis], np.arange(file.vertices))
+    assert np.array_equal(file.along(np.arange(3)), [[0.875, 2], [0.75, 0.5], [0.5, 0.5]])
     weights = np.array([0.5, 0.25, 0, 0.25])
     assert np.allclose(file.shade(weights, np.arange(file.vertices)), np.tensordot(weights, everything, 1))
     assert file.fits([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])

@@ -14,11 +14,16 @@ fn a_transfer_is_made_shown_and_judged() {
     assert!(made.out.contains("60 lights, 1 channels") && made.out.contains("6 bytes for each vertex"), "{}", made.out);
     let info = json(folder, "info ball.subsurf --json");
     assert_eq!(
-        (info["model"].as_str(), info["lights"].as_u64(), info["clusters"].as_u64()),
-        (Some("transfer"), Some(60), Some(16))
+        (info["model"].as_str(), info["lights"].as_u64(), info["clusters"].as_u64(), info["axes"].as_u64()),
+        (Some("transfer"), Some(60), Some(16), Some(43))
     );
     let text = succeed(folder, "info ball.subsurf").out;
-    assert!(text.contains("for the mesh of CRC-32") && text.contains("XVTX (codes of vertices)"), "{text}");
+    assert!(
+        text.contains("for the mesh of CRC-32")
+            && text.contains("along 43 axes")
+            && text.contains("XVTX (codes of vertices)"),
+        "{text}"
+    );
 
     let judged = json(folder, "compare sphere ball.subsurf --extent 12 --json");
     let number = |of: &str, what: &str| judged[of][what].as_f64().unwrap();

@@ -41,7 +41,8 @@
 //! | `KWGT` | a term, `[tap][rgb]` |
 //! | `TAIL` | a node, red, green, blue |
 //! | `XDIR`, `XRNG`, `XVTX` | a light; a cluster, `[1 + K][2]`; a vertex |
-//! | `XMEA`, `XBAS` | the lights of one channel |
+//! | `XAXS` | the axes of a light in one channel: row c · L + j |
+//! | `XMEA`, `XBAS` | the axes of a cluster; of a component, row m · K + k |
 //! | `MATS` | a material: [`Piece::Material`] |
 //! | `BOOK` | all of it: [`Piece::Codebooks`] |
 //! | `P6Ss`, `P4Ss`, `P3Ss`, `MERG`, `CHR2`, `CHR1` | 64 items, from the lowest bit on; what is left, at the end |

@@ -69,6 +69,13 @@ pub struct TransferSource<'a> {
     pub options: &'a Options,
 }
 
+impl TransferSource<'_> {
+    /// Bytes of a candidate's file.
+    fn file_bytes(&self, of: &TransferCandidate) -> Result<u64> {
+        file_bytes(self.mesh.positions.len(), self.table, self.options.channels, of.lights, &of.size)
+    }
+}
+
 /// The best file of a mesh that is found for a target; every file that is tried is shown to `found` as it comes.
 ///
 /// For a quality lights are added until interpolation between them leaves room for what compression does, and then for as long as
@@ -123,6 +130,15 @@ fn along_quality(search: &mut Search<'_, Files<'_>>, least: f64) -> Result<()> {
     });
     for (step, lights) in LIGHTS.into_iter().enumerate() {
         let is_last = step + 1 == LIGHTS.len();
+        let before = search.smallest();
+        let ladder = sizes.map(|size| TransferCandidate { lights, size });
+        let is_smaller = |of: &TransferCandidate| {
+            before.is_none_or(|before| search.codec.source.file_bytes(of).is_ok_and(|bytes| bytes < before as u64))
+        };
+        let ladder: Vec<TransferCandidate> = ladder.into_iter().filter(is_smaller).collect();
+        if ladder.is_empty() {
+            break;
+        }
         let interpolation = match search.codec.made(lights) {
             Ok(made) => made.interpolation,
             Err(Error::Request(what)) if !search.points.is_empty() => {
@@ -134,21 +150,31 @@ fn along_quality(search: &mut Search<'_, Files<'_>>, least: f64) -> Result<()> {
             }
             Err(other) => return Err(other),
         };
-        let ladder = sizes.map(|size| TransferCandidate { lights, size });
         if search.progress.stopped() {
-            // The last file that there is time for.
-            search.try_out(&ladder[USUAL_STEP])?;
+            if search.points.is_empty() {
+                // The one file that there is time for.
+                search.try_out(&ladder[USUAL_STEP])?;
+            }
             break;
         }
-        let before = search.smallest();
-        if -interpolation.max < least && !is_last {
+        if -interpolation.max < least {
             if before.is_some() {
                 break;
             }
-            continue;
+            if !is_last {
+                continue;
+            }
         }
-        if !search.bisect(&ladder)? || before.is_some() && search.smallest() == before {
-            break;
+        match search.bisect(&ladder) {
+            Err(Error::Request(what)) if !search.points.is_empty() => {
+                search.progress.warn(&format!("larger files are not tried: {what}"));
+                break;
+            }
+            goes_on => {
+                if !goes_on? || before.is_some() && search.smallest() == before {
+                    break;
+                }
+            }
         }
     }
     Ok(())
@@ -156,11 +182,9 @@ fn along_quality(search: &mut Search<'_, Files<'_>>, least: f64) -> Result<()> {
 
 /// Changes lights and bits of a vertex in turns, for as long as the error falls.
 fn along_bytes(search: &mut Search<'_, Files<'_>>, limit: u64) -> Result<()> {
-    let TransferSource { mesh, table, options } = search.codec.source;
-    let vertices = mesh.positions.len();
-    let bytes = |candidate: &TransferCandidate| {
-        file_bytes(vertices, table, options.channels, candidate.lights, &candidate.size)
-    };
+    let source = search.codec.source;
+    let vertices = source.mesh.positions.len();
+    let bytes = |candidate: &TransferCandidate| source.file_bytes(candidate);
     // The most clusters that there is room for.
     let within = |[lights, record]: [usize; 2]| -> Result<Option<TransferCandidate>> {
         let (components, bits) = RECORDS[record];
@@ -321,6 +345,16 @@ mod tests {
         }
         let [few, many] = [&rough, &fine].map(|curve| curve.chosen().candidate.lights);
         assert!(few < many && rough.chosen().bytes() < fine.chosen().bytes(), "{few} and {many} lights");
+
+        // 50 lights reach it as well, in larger files.
+        let more = run(Target::Quality(-0.0638)).unwrap();
+        let (chosen, of_fewer) = (more.chosen(), more.points.iter().filter(|point| point.candidate.lights == 50));
+        let reached = of_fewer.filter(|point| point.distortion.total.max <= 0.0638).map(|point| point.bytes()).min();
+        assert!(
+            chosen.candidate.lights > 50 && reached.is_some_and(|bytes| bytes > chosen.bytes()),
+            "{reached:?}, {:?}",
+            chosen.candidate
+        );
 
         let limit = 2 * rough.chosen().bytes() as u64;
         let most = run(Target::Bytes(limit)).unwrap();

@@ -21,7 +21,7 @@ const COARSE: f32 = 0.05;
 /// What is precomputed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// 3 for red, green and blue; 1 for their mean, which is a third of the work.
+    /// 3 for red, green and blue; 1 for their mean, which is less work.
     pub channels: usize,
     /// Refractive index of the material against air, 1 to 4.
     pub eta: f32,
@@ -96,7 +96,7 @@ pub fn precompute(
     let coarse = surface.coarser_than(half);
     if coarse > COARSE {
         progress.warn(&format!(
-            "on {:.0} % of the surface vertices are more than {half:.3} mm apart, within which half of the light leaves: the mesh is too \
+            "vertices are more than {half:.3} mm apart on {:.0} % of the surface, and half of the light leaves within that: the mesh is too \
              coarse for the material there, subdivide it",
             100.0 * coarse
         ));
@@ -219,10 +219,10 @@ mod tests {
             }
         }
         let options = Options { channels: 1, eta: 1.5 };
-        let fine = sphere(2.0, 16);
-        // Most vertices are close to each other, most of the area is of those that are not.
-        let mixed = fine.clone().with(sphere(3.0, 4));
-        for (mesh, is_coarse) in [(&sphere(100.0, 16), true), (&fine, false), (&mixed, true)] {
+        let fine = sphere(2.0, 40);
+        // Almost all vertices are close to each other, but on a third of the area; and on all but some 3 % of it.
+        let (mixed, small) = (fine.clone().with(sphere(1.8, 4)), sphere(10.0, 60).with(sphere(1.8, 4)));
+        for (mesh, is_coarse) in [(&sphere(100.0, 16), true), (&fine, false), (&mixed, true), (&small, false)] {
             let warnings = Warnings(Default::default());
             precompute(mesh, &marble(), &[[0.0, 1.0, 0.0]], &options, &warnings).unwrap();
             let warnings = warnings.0.into_inner().unwrap();

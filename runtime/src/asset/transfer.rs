@@ -15,7 +15,7 @@ use crate::gpu::{Fill, Gpu, Purpose, Surface2d, TextureSpec, Tracked};
 /// Bytes of a texel of codes.
 const TEXEL: usize = 8;
 
-/// Homogeneous material with the scattering that is precomputed for one mesh: codes of the vertices on the device, clusters on the CPU, which
+/// Homogeneous material with the scattering that is precomputed for one mesh: codes of the vertices on the device, axes and clusters on the CPU, which
 /// makes a small table of them for each frame's light.
 #[derive(Debug)]
 pub struct TransferMaterial {

@@ -248,16 +248,16 @@ fn ranges_and_clusters() {
 #[test]
 fn exitance_of_three_channels() {
     // Two components of 4 and 7 bits, in records of three bytes.
-    let header = TransferHeader { channels: 3, bits: bits(&[4, 7]), ..HEADER };
+    let header = TransferHeader { channels: 3, bits: bits(&[4, 7]), axes: 5, ..HEADER };
     let record = |cluster: u32, first: u32, second: u32| cluster | first << 8 | second << 12;
     let vertices = [(1, 3, 100), (0, 15, 1), (1, 0, 127)];
     let tables = Tables {
         lights: LIGHTS.to_vec(),
-        axes: (0..36_i16).map(|k| (k * 7 % 17 - 8) as i8).collect(),
+        axes: (0..60_i16).map(|k| (k * 7 % 17 - 8) as i8).collect(),
         // Offset and step of the mean and of both components, for both clusters.
         ranges: vec![0.5, 0.25, -1.0, 0.125, 0.75, 0.5, -0.5, 1.0, 2.0, 0.25, 0.0, 0.0625],
-        means: (0..6_u16).map(|k| k * 7 % 11).collect(),
-        bases: (0..12_i16).map(|k| (k * 5 % 13 - 6) as i8).collect(),
+        means: (0..10_u16).map(|k| k * 7 % 11).collect(),
+        bases: (0..20_i16).map(|k| (k * 5 % 13 - 6) as i8).collect(),
         codes: vertices.iter().flat_map(|(m, a, b)| record(*m, *a, *b).to_le_bytes()[..3].to_vec()).collect(),
     };
     let bytes = file(header, &tables);
@@ -273,14 +273,14 @@ fn exitance_of_three_channels() {
             let mut due = 0.0;
             for (light, weight) in weights.into_iter().enumerate() {
                 let coefficient = |k: usize, code: u32| range(k + 1)[0] + range(k + 1)[1] * f64::from(code);
-                for axis in 0..3 {
-                    let mean = f64::from(tables.means[3 * cluster as usize + axis]);
-                    let basis = |k: usize| f64::from(tables.bases[3 * (2 * cluster as usize + k) + axis]);
+                for axis in 0..5 {
+                    let mean = f64::from(tables.means[5 * cluster as usize + axis]);
+                    let basis = |k: usize| f64::from(tables.bases[5 * (2 * cluster as usize + k) + axis]);
                     let along = range(0)[0]
                         + range(0)[1] * mean
                         + coefficient(0, first) * basis(0)
                         + coefficient(1, second) * basis(1);
-                    due += f64::from(weight) * f64::from(tables.axes[3 * (4 * c + light) + axis]) * along;
+                    due += f64::from(weight) * f64::from(tables.axes[5 * (4 * c + light) + axis]) * along;
                 }
             }
             due *= f64::from(header.scale[c]);
@@ -305,6 +305,25 @@ fn exitance_of_three_channels() {
     let mut longer = vec![7.0; header.table_len() + 5];
     transfer.light_table(&[0.5, -0.25, 1.0, 0.125, 9.0], &mut longer);
     assert_eq!((&longer[..table.len()], &longer[table.len()..]), (&table[..], &[7.0; 5][..]));
+}
+
+#[test]
+fn the_last_of_256_axes_counts() {
+    let header = TransferHeader { axes: 256, ..HEADER };
+    let mut tables = Tables {
+        axes: vec![0; 4 * 256],
+        ranges: vec![0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        means: vec![0; 2 * 256],
+        bases: vec![0; 2 * 256],
+        ..zeros()
+    };
+    (tables.axes[255], tables.axes[4 * 256 - 1], tables.means[255]) = (-3, 2, 6);
+    let bytes = file(header, &tables);
+    let transfer = Transfer::parse(&bytes).unwrap();
+    let mut table = vec![f32::NAN; header.table_len()];
+    transfer.light_table(&[1.0, 0.0, 0.0, 0.25], &mut table);
+    // s Σ_j w_j x_j μ = 0.5 · (−3 + 0.25 · 2) · 0.5 · 6.
+    assert_eq!(table, [-3.75, 0.0, 0.0, 0.0]);
 }
 
 #[test]

@@ -145,6 +145,13 @@ mod tests {
         assert!(error.lloyd.max < 0.0006, "a byte for each light: {error:?}");
         // Between the lights, radial basis functions are closer than the paper's four, compression included.
         assert!(error.total.rms < 0.75 * error.four_nearest.rms, "{error:?}");
+        // Of three channels, which share axes: a third more bytes than one.
+        let three = precompute(&mesh, &table, &lights, &Options { channels: 3, ..options }, &()).unwrap();
+        let coloured = encode(&mesh, &table, &three, 1.5, &size, &()).unwrap();
+        let of_three = judge(&mesh, &Transfer::parse(&coloured).unwrap(), &()).unwrap();
+        println!("three channels, {} bytes: {of_three:?}", coloured.len());
+        assert!(3 * coloured.len() < 4 * file.len(), "{} and {} bytes", coloured.len(), file.len());
+        assert!(of_three.q < 0.025 && of_three.compression.max < 0.017, "{of_three:?}");
         let other = knot(10.0, 3.1, 24).fitted(20.0).unwrap();
         assert!(judge(&other, &transfer, &()).is_err(), "a file for another mesh");
         let rough = Size { clusters: 8, components: 3, bits: 9 };

@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Size;
-use super::quantise::signed;
+use super::signed;
 use crate::math::eigen::leading_axes;
 use crate::math::k_means::KMeans;
 use crate::math::k_means::euclidean::Euclidean;
@@ -98,7 +98,7 @@ fn begin(columns: &DMatrix<f32>, clusters: usize) -> Vec<u8> {
     all.assign(&words).into_iter().map(|(word, _)| word).collect()
 }
 
-/// Means and components in rotated axes.
+/// Means and components along the basis of the axes.
 struct Local {
     means: DMatrix<f32>,
     components: Vec<DMatrix<f32>>,

@@ -4,12 +4,10 @@ use nalgebra::{DMatrix, DMatrixView, DVector};
 use subsurf_decoder::transfer::layout::{MAX_BITS, MAX_COMPONENTS};
 
 use super::cpca::{Clusters, Projected};
+use super::signed;
 use crate::math::parallel;
 use crate::math::uniform::{OffsetStep, codes};
 use crate::transfer::rd_table::single;
-
-/// Largest value of a component.
-const LARGEST: f32 = 127.0;
 
 /// Clusters as files have them.
 pub(in crate::transfer) struct Quantised {
@@ -94,7 +92,7 @@ impl Cluster {
         let rounded = axes * rounded;
         let mut rest = q.columns.select_columns(members);
         rest.column_iter_mut().for_each(|mut column| column -= &rounded_mean);
-        // To the rounded components, which are not quite orthogonal.
+        // Least squares to the rounded components, which are not quite orthogonal.
         let coefficients = least_squares(&rounded, rest.as_view());
         let squares = rounded.column_iter().map(|column| column.norm_squared()).collect();
         Self { mean, components, members: members.to_vec(), coefficients, squares }
@@ -133,13 +131,4 @@ fn shared(clusters: &[Cluster], count: usize, total: usize) -> [u8; MAX_COMPONEN
         }
     }
     bits
-}
-
-/// Values in a byte each, the largest as 127 or −127.
-pub(super) fn signed(values: &[f32]) -> Vec<i8> {
-    let largest = values.iter().fold(0.0_f32, |largest, value| largest.max(value.abs()));
-    let factor = if largest > 0.0 { LARGEST / largest } else { 0.0 };
-    #[allow(clippy::cast_possible_truncation, reason = "within −127 to 127")]
-    let byte = |value: &f32| (value * factor).round() as i8;
-    values.iter().map(byte).collect()
 }
