@@ -2,3 +2,5 @@
 
 mod format;
 mod limits;
+mod parts;
+mod values;
