@@ -68,11 +68,55 @@ pub fn specular_direct(object: &Object, normal: Vec3, to_eye: Vec3, towards: Vec
     a2 / (PI * d * d) * 0.5 / shadowing * reflected * nl
 }
 
-/// Reflectance of a rough coat under the environment, 0 to 1: Fresnel reflectance, which roughness flattens at grazing angles
+/// Reflectance of a rough coat whose smooth one would be `at_angle`, 0 to 1: roughness flattens its rise towards grazing angles
 /// (after Karis 2014, "Physically based shading on mobile").
+fn rough_reflectance(object: &Object, at_angle: f32) -> f32 {
+    let facing = 1.0 - fresnel_transmittance(1.0, object.eta);
+    facing + (at_angle - facing) * (1.0 - object.roughness) * (1.0 - 0.5 * object.roughness)
+}
+
+/// Reflectance of the coat under the environment, 0 to 1.
 #[must_use]
 pub fn specular_ambient(object: &Object, cosine: f32) -> f32 {
-    let facing = 1.0 - fresnel_transmittance(1.0, object.eta);
-    let at_angle = 1.0 - fresnel_transmittance(cosine, object.eta);
-    facing + (at_angle - facing) * (1.0 - object.roughness) * (1.0 - 0.5 * object.roughness)
+    rough_reflectance(object, 1.0 - fresnel_transmittance(cosine, object.eta))
+}
+
+/// Share of Lambert's law that the coat lets out, with the mean 1 over all directions: what it does not reflect,
+/// (1 − R) / (1 − R_dr), R_dr the mean reflectance from outside, F_dr of the smooth coat.
+pub(super) fn leaving(object: &Object, cosine: f32) -> f32 {
+    (1.0 - specular_ambient(object, cosine)) / (1.0 - rough_reflectance(object, 1.0 - object.sky_transmittance))
+}
+
+#[cfg(test)]
+mod tests {
+    use bytemuck::Zeroable;
+
+    use super::*;
+    use crate::cpu::diffuse_transmittance;
+
+    fn coat(eta: f32, roughness: f32) -> Object {
+        Object { eta, roughness, sky_transmittance: diffuse_transmittance(eta), ..Object::zeroed() }
+    }
+
+    /// What the coat lets out of light from all around is what it does not reflect, in every direction.
+    #[test]
+    fn leaving_light_is_what_the_coat_does_not_reflect() {
+        for (eta, roughness) in [(1.0, 0.0), (1.3, 0.25), (1.5, 0.0), (1.5, 0.25), (1.5, 1.0), (2.0, 0.5)] {
+            let object = coat(eta, roughness);
+            let cosines: Vec<f32> = (0_i16..10_000).map(|k| (f32::from(k) + 0.5) / 1e4).collect();
+            let mean =
+                |f: &dyn Fn(f32) -> f32| cosines.iter().map(|&cosine| 2.0 * f(cosine) * cosine).sum::<f32>() / 1e4;
+            let let_through = 1.0 - mean(&|cosine| specular_ambient(&object, cosine));
+            assert!(
+                (mean(&|cosine| leaving(&object, cosine)) - 1.0).abs() < 1e-3,
+                "mean, η {eta}, roughness {roughness}"
+            );
+            for cosine in [0.0, 0.1, 0.5, 1.0] {
+                let all = leaving(&object, cosine) * let_through + specular_ambient(&object, cosine);
+                assert!((all - 1.0).abs() < 1e-3, "η {eta}, roughness {roughness}, cosine {cosine}: {all}");
+            }
+        }
+        assert!(leaving(&coat(1.5, 0.0), 0.0) < 1e-2, "a smooth coat is a mirror along the surface");
+        assert!(leaving(&coat(1.5, 0.25), 0.0) > 0.3, "a rough one is not");
+    }
 }

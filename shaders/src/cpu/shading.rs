@@ -3,7 +3,8 @@
 use glam::Vec3;
 use subsurf_scene::MAX_LIGHTS;
 
-use super::{Reflections, display, fresnel_transmittance, incident, neutral, specular_ambient, specular_direct, srgb};
+use super::coat::leaving;
+use super::{Reflections, display, incident, neutral, specular_ambient, specular_direct, srgb};
 use crate::uniform::Blocks;
 
 /// Point of the surface.
@@ -25,10 +26,9 @@ fn radiance(blocks: &Blocks, reflections: &Reflections<'_>, point: &Point) -> Ve
     let object = &blocks.object;
     let to_eye = (Vec3::from(blocks.scene.eye_mm) - point.position_mm).normalize();
     let normal = point.normal.normalize();
-    // Scattered light, by Lambert's law with Fresnel transmission on the way out: L = M F_t / (π (1 − F_dr)).
+    // Scattered light, by Lambert's law with the coat's transmission on the way out.
     let cosine = normal.dot(to_eye).abs().clamp(0.0, 1.0);
-    let transmittance = fresnel_transmittance(cosine, object.eta);
-    let scattered = point.exitance * transmittance / (object.sky_transmittance * std::f32::consts::PI);
+    let scattered = point.exitance * leaving(object, cosine) / std::f32::consts::PI;
     // Light that the coat reflects.
     let mirrored = (-to_eye).reflect(normal);
     let sky = specular_ambient(object, cosine) * reflections.radiance(mirrored, object.roughness);

@@ -34,10 +34,20 @@ fn specular_direct(normal: vec3<f32>, to_eye: vec3<f32>, towards: vec3<f32>) -> 
     return a2 / (PI * d * d) * 0.5 / shadowing * reflected * nl;
 }
 
-// Reflectance of a rough coat under the environment, 0 to 1: Fresnel reflectance, which roughness flattens at grazing angles
+// Reflectance of a rough coat whose smooth one would be `at_angle`, 0 to 1: roughness flattens its rise towards grazing angles
 // (after Karis 2014, "Physically based shading on mobile").
-fn specular_ambient(cosine: f32) -> f32 {
+fn rough_reflectance(at_angle: f32) -> f32 {
     let facing = 1.0 - fresnel_transmittance(1.0, object.eta);
-    let at_angle = 1.0 - fresnel_transmittance(cosine, object.eta);
     return facing + (at_angle - facing) * (1.0 - object.roughness) * (1.0 - 0.5 * object.roughness);
+}
+
+// Reflectance of the coat under the environment, 0 to 1.
+fn specular_ambient(cosine: f32) -> f32 {
+    return rough_reflectance(1.0 - fresnel_transmittance(cosine, object.eta));
+}
+
+// Share of Lambert's law that the coat lets out, with the mean 1 over all directions: what it does not reflect,
+// (1 - R) / (1 - R_dr), R_dr the mean reflectance from outside, F_dr of the smooth coat.
+fn leaving(cosine: f32) -> f32 {
+    return (1.0 - specular_ambient(cosine)) / (1.0 - rough_reflectance(1.0 - object.sky_transmittance));
 }

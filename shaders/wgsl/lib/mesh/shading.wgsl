@@ -4,10 +4,9 @@
 fn shaded(in: Varying) -> vec4<f32> {
     let to_eye = normalize(scene.eye_mm - in.position_mm);
     let normal = normalize(in.normal);
-    // Scattered light, by Lambert's law with Fresnel transmission on the way out: L = M F_t / (pi (1 - F_dr)).
+    // Scattered light, by Lambert's law with the coat's transmission on the way out.
     let cosine = clamp(abs(dot(normal, to_eye)), 0.0, 1.0);
-    let transmittance = fresnel_transmittance(cosine, object.eta);
-    var radiance = exitance(in, normal) * transmittance / (object.sky_transmittance * PI);
+    var radiance = exitance(in, normal) * leaving(cosine) / PI;
     // Light that the coat reflects.
     radiance += specular_ambient(cosine) * sky_radiance(reflect(-to_eye, normal), object.roughness);
     for (var i = 0u; i < scene.lights; i++) {
