@@ -7,7 +7,7 @@ use subsurf_shaders::MaterialLayout;
 use super::projection::{Projection, levels_pass, sums_pass};
 #[cfg(feature = "transfer")]
 use crate::asset::TransferMaterial;
-use crate::asset::{BssrdfPlanes, SeparableMaterial, SplatMaterial};
+use crate::asset::{BssrdfPlanes, PatchLayers, SeparableMaterial, SplatMaterial};
 use crate::error::Result;
 use crate::gpu::{Fill, Gpu, Surface2d};
 use crate::technique::PatchCascade;
@@ -69,26 +69,25 @@ impl Work<'_> {
             Self::CompileSums(layout, count) => sums_pass(gpu, layout, count).map(|_| ()),
             Self::CompileAlbedo(terms) => PatchCascade::new(gpu, terms).map(|_| ()),
             Self::CompileLevels(layers) => levels_pass(gpu, layers).map(|_| ()),
-            Self::ProjectBasis { planes, table, to } => {
-                let mut projection = Projection::new(gpu);
-                projection.basis((&planes, &table), &to, (&to.layers, to.layers.count - 1))?;
-                projection.levels(&to.layers)?;
-                projection.submit()
-            }
+            Self::ProjectBasis { planes, table, to } => project(gpu, &to.layers, |projection| {
+                projection.basis((&planes, &table), &to, (&to.layers, to.layers.count - 1))
+            }),
             Self::ProjectAlbedo { table, to } => {
-                let mut projection = Projection::new(gpu);
-                projection.layers((&to.planes, &table), &to.albedo)?;
-                projection.levels(&to.albedo)?;
-                projection.submit()
+                project(gpu, &to.albedo, |projection| projection.layers((&to.planes, &table), &to.albedo))
             }
-            Self::ProjectAlbedoByBasis { table, basis, to } => {
-                let mut projection = Projection::new(gpu);
-                projection.basis((&to.planes, &table), &basis, (&to.albedo, 0))?;
-                projection.levels(&to.albedo)?;
-                projection.submit()
-            }
+            Self::ProjectAlbedoByBasis { table, basis, to } => project(gpu, &to.albedo, |projection| {
+                projection.basis((&to.planes, &table), &basis, (&to.albedo, 0))
+            }),
             #[cfg(feature = "transfer")]
             Self::PrepareTransfer(to) => to.prepare(),
         }
     }
+}
+
+/// Draws layers and their mipmap levels.
+fn project(gpu: &Gpu, layers: &PatchLayers, draw: impl FnOnce(&mut Projection<'_>) -> Result<()>) -> Result<()> {
+    let mut projection = Projection::new(gpu);
+    draw(&mut projection)?;
+    projection.levels(layers)?;
+    projection.submit()
 }

@@ -47,6 +47,8 @@ class RendererTest {
                 "jade" to Technique.SPLAT,
                 "jade-splat" to Technique.AUTOMATIC,
                 "leather" to Technique.AUTOMATIC,
+                "skin" to Technique.AUTOMATIC,
+                "skin" to Technique.KERNEL,
             )) {
                 SubsurfMaterial.named(name).use { material ->
                     val report = renderer.load(material, technique)
