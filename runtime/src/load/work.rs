@@ -75,9 +75,9 @@ impl Work<'_> {
             Self::ProjectAlbedo { table, to } => {
                 project(gpu, &to.albedo, |projection| projection.layers((&to.planes, &table), &to.albedo))
             }
-            Self::ProjectAlbedoByBasis { table, basis, to } => project(gpu, &to.albedo, |projection| {
-                projection.basis((&to.planes, &table), &basis, (&to.albedo, 0))
-            }),
+            Self::ProjectAlbedoByBasis { table, basis, to } => {
+                project(gpu, &to.albedo, |projection| projection.basis((&to.planes, &table), &basis, (&to.albedo, 0)))
+            }
             #[cfg(feature = "transfer")]
             Self::PrepareTransfer(to) => to.prepare(),
         }
