@@ -81,8 +81,8 @@ pub fn specular_ambient(object: &Object, cosine: f32) -> f32 {
     rough_reflectance(object, 1.0 - fresnel_transmittance(cosine, object.eta))
 }
 
-/// Share of Lambert's law that the coat lets out, with the mean 1 over all directions: what it does not reflect,
-/// (1 − R) / (1 − R_dr), R_dr the mean reflectance from outside, F_dr of the smooth coat.
+/// Share of Lambert's law that the coat lets out, what it does not reflect: (1 − R) / (1 − R_dr). R_dr is the mean of R, weighted by
+/// the cosine: F_dr of the smooth coat, flattened as R is. So the mean of this, weighted by the cosine, is 1.
 pub(super) fn leaving(object: &Object, cosine: f32) -> f32 {
     (1.0 - specular_ambient(object, cosine)) / (1.0 - rough_reflectance(object, 1.0 - object.sky_transmittance))
 }
@@ -98,7 +98,7 @@ mod tests {
         Object { eta, roughness, sky_transmittance: diffuse_transmittance(eta), ..Object::zeroed() }
     }
 
-    /// What the coat lets out of light from all around is what it does not reflect, in every direction.
+    /// What leaves is what is not reflected, in every direction, but for a factor that makes its mean 1.
     #[test]
     fn leaving_light_is_what_the_coat_does_not_reflect() {
         for (eta, roughness) in [(1.0, 0.0), (1.3, 0.25), (1.5, 0.0), (1.5, 0.25), (1.5, 1.0), (2.0, 0.5)] {

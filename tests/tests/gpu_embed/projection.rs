@@ -1,7 +1,7 @@
 //! Projections that are far from those of a camera which looks at its object through square pixels.
 
 use glam::{Mat4, Vec3, Vec4};
-use subsurf_runtime::{Backend, Gpu, Input, PictureTarget, RuntimeOptions};
+use subsurf_runtime::{BACKGROUND, Backend, Gpu, Input, PictureTarget, RuntimeOptions};
 use subsurf_scene::{Mesh, View, torus};
 use subsurf_tests::frames::{Loaded, RenderMode, device, material_of, psnr, scene};
 
@@ -57,8 +57,8 @@ fn pixels_need_not_be_square() {
     let usual = Input::new(&scene(&mesh), &[], size).view;
     let view = View { clip_from_view: off_centre([-0.4, 0.4, -0.3, 0.3], 10.0, 100.0), ..usual };
     for gpu in Backend::ALL.map(device) {
-        for (mode, least_db) in [(RenderMode::Splat, 40.0), (RenderMode::Separable, 39.0)] {
-            let [square, narrow] =
+        for (mode, least_db) in [(RenderMode::Splat, 46.0), (RenderMode::Separable, 47.0)] {
+            let [mut square, narrow] =
                 [size, [4 * size[0], size[1]]].map(|size| picture(&gpu, mode, &file, &mesh, view, size));
             let mean = |pixels: &[[u8; 3]; 4]| {
                 [0, 1, 2].map(|c| {
@@ -66,7 +66,16 @@ fn pixels_need_not_be_square() {
                     u8::try_from((sum + 2) / 4).unwrap()
                 })
             };
-            let mean: Vec<[u8; 3]> = narrow.as_chunks::<4>().0.iter().map(mean).collect();
+            // Where the background is in some of them only, the edge's place within a pixel would be judged.
+            let whole = |pixels: &[[u8; 3]; 4]| !pixels.contains(&[BACKGROUND; 3]);
+            let mean: Vec<[u8; 3]> = std::iter::zip(narrow.as_chunks::<4>().0, &mut square)
+                .map(|(pixels, one)| {
+                    if !whole(pixels) {
+                        *one = [BACKGROUND; 3];
+                    }
+                    if *one == [BACKGROUND; 3] { [BACKGROUND; 3] } else { mean(pixels) }
+                })
+                .collect();
             let db = psnr(&square, &mean);
             println!("{:?}, {mode:?}: {db:.1} dB between square pixels and narrow ones", gpu.info().backend);
             assert!(db >= least_db, "{mode:?}: {db} dB");

@@ -13,7 +13,7 @@ struct Object {
     is_boxed: u32,
     // Refractive index of the material against air.
     eta: f32,
-    // 1 - F_dr from outside: share of light from all around that enters. F_t divided by it has the mean 1 on the way out.
+    // 1 - F_dr from outside: share of light from all around that enters.
     sky_transmittance: f32,
     // GGX roughness of the coat, 0 to 1.
     roughness: f32,
