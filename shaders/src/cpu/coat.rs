@@ -81,10 +81,10 @@ pub fn specular_ambient(object: &Object, cosine: f32) -> f32 {
     rough_reflectance(object, 1.0 - fresnel_transmittance(cosine, object.eta))
 }
 
-/// Share of Lambert's law that the coat lets out, what it does not reflect: (1 − R) / (1 − R_dr). R_dr is the mean of R, weighted by
+/// Share of Lambert's law that the coat lets out where its reflectance is R: (1 − R) / (1 − R_dr). R_dr is the mean of R, weighted by
 /// the cosine: F_dr of the smooth coat, flattened as R is. So the mean of this, weighted by the cosine, is 1.
-pub(super) fn leaving(object: &Object, cosine: f32) -> f32 {
-    (1.0 - specular_ambient(object, cosine)) / (1.0 - rough_reflectance(object, 1.0 - object.sky_transmittance))
+pub(super) fn leaving(object: &Object, reflectance: f32) -> f32 {
+    (1.0 - reflectance) / (1.0 - rough_reflectance(object, 1.0 - object.sky_transmittance))
 }
 
 #[cfg(test)]
@@ -106,17 +106,19 @@ mod tests {
             let cosines: Vec<f32> = (0_i16..10_000).map(|k| (f32::from(k) + 0.5) / 1e4).collect();
             let mean =
                 |f: &dyn Fn(f32) -> f32| cosines.iter().map(|&cosine| 2.0 * f(cosine) * cosine).sum::<f32>() / 1e4;
-            let let_through = 1.0 - mean(&|cosine| specular_ambient(&object, cosine));
+            let reflected = |cosine| specular_ambient(&object, cosine);
+            let let_through = 1.0 - mean(&reflected);
             assert!(
-                (mean(&|cosine| leaving(&object, cosine)) - 1.0).abs() < 1e-3,
+                (mean(&|cosine| leaving(&object, reflected(cosine))) - 1.0).abs() < 1e-3,
                 "mean, η {eta}, roughness {roughness}"
             );
             for cosine in [0.0, 0.1, 0.5, 1.0] {
-                let all = leaving(&object, cosine) * let_through + specular_ambient(&object, cosine);
+                let all = leaving(&object, reflected(cosine)) * let_through + reflected(cosine);
                 assert!((all - 1.0).abs() < 1e-3, "η {eta}, roughness {roughness}, cosine {cosine}: {all}");
             }
         }
-        assert!(leaving(&coat(1.5, 0.0), 0.0) < 1e-2, "a smooth coat is a mirror along the surface");
-        assert!(leaving(&coat(1.5, 0.25), 0.0) > 0.3, "a rough one is not");
+        let along_the_surface = |object: Object| leaving(&object, specular_ambient(&object, 0.0));
+        assert!(along_the_surface(coat(1.5, 0.0)) < 1e-2, "a smooth coat is a mirror there");
+        assert!(along_the_surface(coat(1.5, 0.25)) > 0.3, "a rough one is not");
     }
 }

@@ -27,11 +27,11 @@ fn radiance(blocks: &Blocks, reflections: &Reflections<'_>, point: &Point) -> Ve
     let to_eye = (Vec3::from(blocks.scene.eye_mm) - point.position_mm).normalize();
     let normal = point.normal.normalize();
     // Scattered light, by Lambert's law with the coat's transmission on the way out.
-    let cosine = normal.dot(to_eye).abs().clamp(0.0, 1.0);
-    let scattered = point.exitance * leaving(object, cosine) / std::f32::consts::PI;
+    let reflectance = specular_ambient(object, normal.dot(to_eye).abs().clamp(0.0, 1.0));
+    let scattered = point.exitance * leaving(object, reflectance) / std::f32::consts::PI;
     // Light that the coat reflects.
     let mirrored = (-to_eye).reflect(normal);
-    let sky = specular_ambient(object, cosine) * reflections.radiance(mirrored, object.roughness);
+    let sky = reflectance * reflections.radiance(mirrored, object.roughness);
     let lights = (0..blocks.scene.lights as usize).map(|light| {
         let (towards, irradiance) = incident(&blocks.scene, light, point.position_mm);
         irradiance * specular_direct(object, normal, to_eye, towards) * point.visibility[light]

@@ -46,8 +46,8 @@ fn specular_ambient(cosine: f32) -> f32 {
     return rough_reflectance(1.0 - fresnel_transmittance(cosine, object.eta));
 }
 
-// Share of Lambert's law that the coat lets out, what it does not reflect: (1 - R) / (1 - R_dr). R_dr is the mean of R, weighted by
+// Share of Lambert's law that the coat lets out where its reflectance is R: (1 - R) / (1 - R_dr). R_dr is the mean of R, weighted by
 // the cosine: F_dr of the smooth coat, flattened as R is. So the mean of this, weighted by the cosine, is 1.
-fn leaving(cosine: f32) -> f32 {
-    return (1.0 - specular_ambient(cosine)) / (1.0 - rough_reflectance(1.0 - object.sky_transmittance));
+fn leaving(reflectance: f32) -> f32 {
+    return (1.0 - reflectance) / (1.0 - rough_reflectance(1.0 - object.sky_transmittance));
 }

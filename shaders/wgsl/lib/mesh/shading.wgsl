@@ -5,10 +5,10 @@ fn shaded(in: Varying) -> vec4<f32> {
     let to_eye = normalize(scene.eye_mm - in.position_mm);
     let normal = normalize(in.normal);
     // Scattered light, by Lambert's law with the coat's transmission on the way out.
-    let cosine = clamp(abs(dot(normal, to_eye)), 0.0, 1.0);
-    var radiance = exitance(in, normal) * leaving(cosine) / PI;
+    let reflectance = specular_ambient(clamp(abs(dot(normal, to_eye)), 0.0, 1.0));
+    var radiance = exitance(in, normal) * leaving(reflectance) / PI;
     // Light that the coat reflects.
-    radiance += specular_ambient(cosine) * sky_radiance(reflect(-to_eye, normal), object.roughness);
+    radiance += reflectance * sky_radiance(reflect(-to_eye, normal), object.roughness);
     for (var i = 0u; i < scene.lights; i++) {
         let from_light = incident(i, in.position_mm);
         let mirrored = specular_direct(normal, to_eye, from_light.towards);
