@@ -69,7 +69,8 @@ impl TransferSource<'_> {
 /// once there is a file.
 ///
 /// # Errors
-/// As [`precompute`](crate::transfer::precompute) and [`encode`]; [`Error::Request`] if nothing reaches the target, or if it is no number.
+/// As [`precompute`](crate::transfer::precompute) and [`encode`](crate::transfer::encode); [`Error::Request`] if nothing reaches the
+/// target, or if it is no number.
 pub fn search(
     source: &TransferSource<'_>,
     target: Target,
